@@ -21,7 +21,7 @@ BRANCH_WARNING = "'{name}' holds on several branches; the numbers are those of t
 class ToldModel(BaseModel):
     """The base of what is told: frozen, with no keys beyond the fields."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
 
 class FieldVerdict(ToldModel):

@@ -12,6 +12,7 @@ from typing import Any, Literal, NamedTuple, Protocol
 
 from dofkit.expressions.terms import longest_number
 from dofkit.expressions.tree import Expr
+from dofkit.expressions.unwritten import Unwritten
 
 Sense = Literal["=", ">=", ">"]
 Sign = Literal["real", "positive", "nonzero"]
@@ -159,16 +160,25 @@ class TypeFacts:
 class Constraint:
     """A constraint of the scene and the scalar relations that it yields.
 
-    ``facts``: of its type. ``notes`` are sentences for the report that only the constraint's type can know
-    (a curve is two surfaces; every one of the m(m-1)/2 links of a rigid set).
+    ``facts``: of its type. ``relations`` may be written out only when one of them is asked for. ``notes`` are sentences
+    for the report that only the constraint's type can know (a curve is two surfaces; every one of the m(m-1)/2 links
+    of a rigid set).
     """
 
     name: str
     type: str
     facts: TypeFacts
     text: str
-    relations: tuple[Relation, ...]
+    relations: Sequence[Relation]
     notes: tuple[str, ...] = ()
+
+    @property
+    def mentioned(self) -> frozenset[str]:
+        """The coordinates that its relations mention, by their values, velocities or differentials."""
+        if isinstance(self.relations, Unwritten):
+            return self.relations.mentioned
+        symbols = frozenset[Expr]().union(*(r.expr.symbols for r in self.relations))
+        return frozenset(str(s.args[1]) for s in symbols if s.args[0] not in ("parameter", "time", "dt"))
 
 
 class Place(NamedTuple):
@@ -295,7 +305,10 @@ class System:
     @property
     def longest(self) -> int:
         """The bits of the longest number in the relations as they are written."""
-        return longest_number(r.expr for c in self.constraints for r in c.relations)
+        given = [c.relations for c in self.constraints]
+        written = (r.expr for part in given if not isinstance(part, Unwritten) for r in part)
+        longest = longest_number({e if e.shape is None else e.shape.skeleton for e in written})
+        return max((longest, *(part.longest for part in given if isinstance(part, Unwritten))))
 
     def numbers_of(self, *names: str) -> tuple[int, ...]:
         """The numbers of the constraints of these names, in the order of the names."""

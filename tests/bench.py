@@ -17,7 +17,7 @@ from itertools import combinations
 
 import dofkit
 
-ROUNDS = int(sys.argv[1]) if len(sys.argv) > 1 else 7
+ROUNDS = int(sys.argv[1]) if sys.argv[1:] and sys.argv[1].isdigit() else 7
 DISC = {
     "parameters": {"R": "positive"},
     "coordinates": ["x", "y", "theta", "phi"],

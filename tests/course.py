@@ -23,19 +23,16 @@ from typing import Any, NamedTuple
 from ruamel.yaml import YAML
 
 from dofkit.homework.answers.label_words import word_of
-from dofkit.homework.answers.roster import load_roster
 from dofkit.homework.assignment import load_assignment
-from dofkit.homework.formats import FORMATS
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.stated_equations import equations_of
-from dofkit.homework.own_sheets import own
+from dofkit.homework.own_sheets import SheetDrawer
 from dofkit.homework.questions.labels import truths
-from dofkit.homework.result import Result
 
 STUDENTS, SEED = 50, "autumn"
 #: One in so many hands in late, when the first review is done.
 LATE = 6
-#: The sheet whose results are exported by commands, too, each of which grades once more.
+#: The sheet that is graded once more for every platform; of the others the results that are there are written.
 COMMANDED = "sheet1"
 PLATFORMS = ("gradescope", "prairielearn", "coursera", "canvas", "moodle", "lti", "html")
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -44,7 +41,7 @@ MUMBLED, GIVEN = " hopefully thats it", "0,5"
 
 
 def _problem(name: str, title: str, scene: Any, *questions: Mapping[str, Any], **more: Any) -> dict[str, Any]:
-    return {"id": name, "title": title, "text": f"{title}. Answer below.", "scene": scene, **more,
+    return {"id": name, "title": title, "text": f"{title}.\n\n[[constraints]]", "scene": scene, **more,
             "questions": [{"id": f"q{i + 1}", **question} for i, question in enumerate(questions)]}  # fmt: skip
 
 
@@ -166,9 +163,9 @@ def written(right: str, kind: str, rng: random.Random) -> str:
 def hand_ins(assignment: Path, folder: Path, students: Sequence[str], rng: random.Random) -> None:
     """A file a student, each with the answers to that student's own sheet."""
     folder.mkdir(exist_ok=True)
-    prepared = load_assignment(assignment)
+    drawer = SheetDrawer(load_assignment(assignment))
     for number, student in enumerate(students):
-        mine = own(prepared, student)
+        mine = drawer.own(student)
         answers: dict[str, dict[str, str]] = {}
         for problem, question in mine.questions():
             right = right_answer(mine.keys[problem.id], question)
@@ -247,8 +244,13 @@ def run_sheet(folder: Path, name: str, students: Sequence[str]) -> dict[str, int
         if name == COMMANDED:
             dofkit(folder, *grade, "--reviewed", out / "review.csv", "--format", form, "--out", target)
         else:
-            write_format(form, varied, out / "results.jsonl", target)
+            more = ("--format", form, "--out", target, "--roster", "roster.csv")
+            dofkit(folder, "export", "grades", varied, out / "results.jsonl", *more)
         exported(name, form, target, again)
+    if name == COMMANDED:
+        through_prairielearn(folder, varied, answers, out / "review.csv", again)
+    dofkit(folder, "export", "gradescope", varied, "--no-wheels", "--reviewed", out / "review.csv", "--out",
+           f"{name}.zip")  # fmt: skip
     return {
         "students": len(again), "right": sum(i["status"] == "right" for one in again.values() for i in one["items"]),
         "answers": sum(len(one["items"]) for one in again.values()), "decided": len(by_hand),
@@ -257,11 +259,27 @@ def run_sheet(folder: Path, name: str, students: Sequence[str]) -> dict[str, int
     }  # fmt: skip
 
 
-def write_format(form: str, assignment: Path, results: Path, target: Path) -> None:
-    """Write results that are there in a format."""
-    prepared, roster = load_assignment(assignment), load_roster(assignment.parent.parent / "roster.csv")
-    with results.open(encoding="utf-8") as lines:
-        FORMATS[form].written(map(Result.model_validate_json, lines), prepared, target, roster)
+def through_prairielearn(
+    folder: Path, varied: Path, answers: Path, review: Path, results: Mapping[str, dict[str, Any]]
+) -> None:
+    """The same answers in PrairieLearn's own table: who has an answer that a person decided gets points back."""
+    table, scores = folder / "prairielearn.csv", folder / "scores.csv"
+    with table.open("w", newline="") as stream:
+        rows = csv.writer(stream)
+        rows.writerow(["uid", "uin", "qid", "old_score_perc", "submission_id", "submitted_answer"])
+        for number, path in enumerate(sorted(answers.iterdir())):
+            whole = json.loads(path.read_text())
+            typed = {f"{p}.{q}": text for p, given in whole["answers"].items() for q, text in given.items()}
+            rows.writerow([whole["student"], number, "sheet", "", 100 + number, json.dumps(typed)])
+    dofkit(folder, "grade", varied, table, "--roster", "roster.csv", "--reviewed", review, "--format", "prairielearn",
+           "--out", scores)  # fmt: skip
+    back = list(csv.DictReader(io.StringIO(scores.read_text(encoding="utf-8"), newline="")))
+    wanted = sorted(
+        round(100 * one["score"] / one["max_score"], 4)
+        for one in results.values()
+        if not one["needs_review"] and any(item["decided_by"] is not None for item in one["items"])
+    )
+    assert sorted(float(row["score_perc"]) for row in back) == wanted
 
 
 def exported(name: str, form: str, out: Path, results: Mapping[str, dict[str, Any]]) -> None:

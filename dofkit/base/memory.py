@@ -14,11 +14,34 @@ MANY, SOME, FEW = 200_000, 20, 20
 def unhurried() -> Iterator[None]:
     """Garbage is looked for seldom: expressions are trees, and to look through millions of them takes half the time.
 
-    What was made before is looked through as seldom as what is made within.
+    What was made before, and what stays of what is made within, is looked through as seldom as all that is old.
     """
     before = gc.get_threshold()
+    _grown_old()
     gc.set_threshold(max(before[0], MANY), max(before[1], SOME), max(before[2], FEW))
     try:
         yield
     finally:
+        _grown_old()
         gc.set_threshold(*before)
+
+
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """No garbage is looked for: for what makes hardly any beside what it was asked for, and stays."""
+    if not gc.isenabled():
+        yield
+        return
+    gc.disable()
+    try:
+        yield
+    finally:
+        _grown_old()
+        gc.enable()
+
+
+def _grown_old() -> None:
+    """What there is counts as old, without being looked through; what somebody has frozen stays so."""
+    if not gc.get_freeze_count():
+        gc.freeze()
+        gc.unfreeze()

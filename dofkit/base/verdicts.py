@@ -53,6 +53,7 @@ ArgumentKey = Literal[
     "states of motion",
     "finite relation",
     "inequality",
+    "one side",
     "curved velocities",
     "line field",
     "form by itself",

@@ -228,6 +228,16 @@ def _eliminations(n: int) -> Mapped:
     return {"particles": joints, "constraints": [*(f"z_p{i} = 0" for i in range(n)), *links]}
 
 
+def _bridges(n: int) -> Mapped:
+    """A chain of n bodies in space, hinged one to the next, every other hinge turned by a right angle."""
+    axes = [[0, 0, 1], [0, 1, 0]]
+    hinges = [
+        {"type": "revolute", "between": [f"b{i - 1}" if i else "ground", f"b{i}"], "at": [i, 1, 0], "axis": axes[i % 2]}
+        for i in range(n)
+    ]
+    return {"bodies": [f"b{i}" for i in range(n)], "constraints": hinges}
+
+
 def _classes(n: int) -> Mapped:
     """A parallelogram with a crank too many, and a chain of n rods hanging from it."""
     cranks = [{"type": "link", "between": [[4 * i, 0], f"c{i}"]} for i in range(3)]
@@ -261,6 +271,7 @@ SCENES: Mapping[ReductionName, SceneFamily] = {
     "welds": SceneFamily(_welds, 8, (4, 8, 16, 32)),
     "clusters": SceneFamily(_clusters, 12, (6, 12, 24, 48)),
     "eliminations": SceneFamily(_eliminations, 8, (4, 8, 16)),
+    "bridges": SceneFamily(_bridges, 6, (4, 8, 16, 32)),
     "classes": SceneFamily(_classes, 8, (4, 8, 16, 32)),
     "closed": SceneFamily(_closed, 6, (4, 6, 8, 12)),
     "cheapest": SceneFamily(_cheapest, 16, (8, 16, 32, 64)),

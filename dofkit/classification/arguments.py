@@ -182,6 +182,13 @@ _OWN: dict[ArgumentKey, Argument] = {
     "inequality": Argument(
         "not holonomic", "", "it is an inequality", "dofkit.classification.labels.entry.entry", "the text"
     ),
+    "one side": Argument(
+        "not holonomic",
+        "",
+        "a certified state of motion that the lines of the constraint allow lies beyond the side to which it keeps",
+        "dofkit.classification.labels.one_sided.with_sides",
+        "the state",
+    ),
     "curved velocities": Argument(
         "not holonomic",
         "",

@@ -79,7 +79,7 @@ class CountsBeside:
     def _dependent_sets(self) -> list[list[int]]:
         """The constraints of minimal dependent sets of rows at the drawing, of circuits too; none holds another."""
         sets: list[list[int]] = []
-        for block, a in zip(self.outcome.blocks, self.outcome.answers, strict=True):
+        for block, a in self.outcome.parts:
             if len(a.matrix) != len(block.rows):
                 continue
             for row, support in list(echelon(a.matrix, a.modulus, supports=True).supports.items())[:MOST_SETS]:

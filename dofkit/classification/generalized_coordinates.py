@@ -6,11 +6,16 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from dofkit.base.deadline import expired
+from dofkit.base.libraries import np
 from dofkit.classification.explicit_coordinates import PLAIN, QUADRATIC, explicit
-from dofkit.classification.turned_coordinates import ANYWHERE, TurnedGroup, chosen_at_drawing, partly_turned
+from dofkit.classification.turned_coordinates import (
+    ANYWHERE,
+    TurnedGroup,
+    chosen_at_drawing,
+    partly_turned,
+    rows_at_drawing,
+)
 from dofkit.configuration.drawing.at_reference import ball_point
 from dofkit.configuration.drawing.rigid_orbit import RigidOrbit
 from dofkit.configuration.finite_blocks import dependent_names
@@ -20,6 +25,7 @@ from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.engines import BOTH
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import FloatPoint, jacobian
+from dofkit.exact.points.frames import sparse_frame
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
@@ -56,7 +62,7 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
         return []
     own = frozenset(block.coordinates)
     turning = [r for r in rotations if r.chart == "gibbs" and not own.isdisjoint(r.names)]
-    dependent = set(a.dependent)
+    dependent = set(a.dependent if a.parts is None else _dependent_at_drawing(block, setting))
     direct = _regular_at_reference(block, a, setting) or [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
         chosen = _explicit(block, a.dof, setting)
@@ -79,6 +85,16 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
         return orbit.chart_of()
     found = _nearby(block, a.dof, setting, turning) or _rigid(block, a.dof, setting)
     return found if found is not None or turning else whole
+
+
+def _dependent_at_drawing(block: Block, setting: Setting) -> tuple[str, ...]:
+    """Coordinates that the rows at the drawing can be solved for, the last ones where there is a choice."""
+    found = rows_at_drawing(TurnedGroup(block, ()), setting)
+    if found is None:
+        return ()
+    place = {name: k for k, name in enumerate(block.coordinates)}
+    rows = [{place[name]: v for name, v in row.items()} for row in found.rows]
+    return tuple(block.coordinates[c] for c in sparse_frame(rows, len(place), found.p).dependent)
 
 
 def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit | None:

@@ -143,12 +143,17 @@ def forces(study: Study) -> list[ForceEntry]:
 def witness(study: Study) -> dict[str, str] | None:
     """A certified configuration: the reference where it is one, else what the blocks found; None where one has none.
 
-    What nothing constrains is 0. Parameters have the values that the configuration was found with.
+    What nothing constrains is 0. Parameters have the values that the configuration was found with; where blocks that
+    share one were found with several, there is no configuration of the whole.
     """
     outcome = study.outcome
     if outcome.consistent is not True or any(a.witness is None for a in outcome.answers):
         return None
-    found = {str(s.args[1]): text for a in outcome.answers for s, text in (a.witness or {}).items()}
+    found: dict[str, str] = {}
+    for a in outcome.answers:
+        for s, text in (a.witness or {}).items():
+            if s.args[0] in ("coordinate", "parameter", "time") and found.setdefault(str(s.args[1]), text) != text:
+                return None
     names = [c.name for c in study.system.coordinates]
     own = frozenset(names)
     others = {name: text for name, text in found.items() if name not in own}

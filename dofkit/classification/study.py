@@ -13,6 +13,7 @@ from dofkit.classification.dependence.circuits import Redundancies, left_open
 from dofkit.classification.dependence.conflicts import Conflict, conflict
 from dofkit.classification.dependence.redundancy import all_needed, redundancies
 from dofkit.classification.freedom.branches import Outcome, solve
+from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entries import entries_of
@@ -84,7 +85,9 @@ class Study:
     @cached_property
     def company(self) -> Companionship:
         """The blocks, to be asked what a form integrates to together with which others."""
-        return Companionship(self.setting)
+        parts = AnsweredParts(self.setting)
+        parts.know(zip(self.outcome.blocks, self.outcome.answers, strict=True))
+        return Companionship(parts)
 
     @cached_property
     def entries(self) -> list[ConstraintEntry]:

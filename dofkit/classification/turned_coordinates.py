@@ -7,17 +7,19 @@ angles are only read off where all three rates are solved for; a Gibbs vector ma
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from fractions import Fraction
 from itertools import chain
 from typing import NamedTuple
 
-import networkx as nx
-from flint import arb, arb_mat, nmod_mat
+from flint import arb, arb_mat
 
+from dofkit.base.libraries import nx
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
+from dofkit.exact.matrices.modular import without_time
+from dofkit.exact.points.frames import sparse_frame
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
@@ -26,8 +28,9 @@ from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block
 from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.normal_form import Finite
-from dofkit.relations.setting import Setting
+from dofkit.relations.setting import NamedRows, Setting
 from dofkit.system import Rotation
 
 #: A value of what nothing constrains, at which no angle is singular.
@@ -54,13 +57,16 @@ class TurnedGroup(NamedTuple):
 
 def partly_turned(chosen: Collection[str], rotations: Sequence[Rotation]) -> tuple[Rotation, ...]:
     """The rotations of which some angles are chosen and some are not: only all three stand for all three."""
-    return tuple(r for r in rotations if r.chart == "gibbs" and 0 < len({*r.names}.intersection(chosen)) < 3)
+    known = frozenset(chosen)
+    return tuple(r for r in rotations if r.chart == "gibbs" and 0 < len(known.intersection(r.names)) < 3)
 
 
 def turned_together(
     blocks: Sequence[Block], answers: Sequence[Answer], untouched: Collection[str], rotations: Sequence[Rotation]
 ) -> Iterator[TurnedGroup]:
     """What holds the angles of each body together, with what nothing touches."""
+    if not rotations:
+        return
     graph: nx.Graph = nx.Graph()
     for i, block in enumerate(blocks):
         graph.add_edges_from((i, name) for name in block.coordinates)
@@ -75,7 +81,7 @@ def turned_together(
         hidden = tuple(g for i in members for g in answers[i].hidden)
         rows = tuple(row for i in members for row in blocks[i].finite)
         still = chain.from_iterable(blocks[i].coordinates for i in members if _stays(answers[i]))
-        zero = (row.piece.expr for row in rows if isinstance(row.piece, Finite))
+        zero = (p.expr for row in rows if isinstance(p := row.piece, Finite) and not isinstance(p, JointEquation))
         fixed = frozenset(still).union(*(_vanishing(e) for e in zero))
         yield TurnedGroup(Block(names, rows), hidden, len(members) + len(free), fixed)
 
@@ -91,54 +97,56 @@ def _stays(a: Answer) -> bool:
     return a.dof == 0 and a.verdict == "proved" and (a.about == "reference" or a.linear)
 
 
+def rows_at_drawing(group: TurnedGroup, setting: Setting, most: float = math.inf) -> NamedRows | None:
+    """The rows of the relations at the drawing; None where they do not hold there.
+
+    Where not all are those of joints they are written out for at ``most`` so many coordinates.
+    """
+    numbers = dict.fromkeys(row.constraint for row in group.block.rows)
+    found = setting.joint_rows(numbers) if setting.joint_rows is not None and not group.hidden else None
+    if found is not None or len(group.block.coordinates) > most:
+        return found
+    chart = make_chart(group.block, setting, group.hidden)
+    point = pose_point(chart, {**(setting.reference or {}), ex.TIME: ex.ZERO}, 3)
+    if point is None or not on_variety(chart, point):
+        return None
+    names = [str(s.args[-1]) for s in chart.symbols if s != ex.TIME]
+    rows = without_time(field_jacobian(chart, point), len(names))
+    return NamedRows([{names[c]: v for c, v in row.items()} for row in rows], point.p)
+
+
 def chosen_at_drawing(group: TurnedGroup, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:
     """The first coordinates whose differentials complete the rows of the relations at the drawing.
 
-    Over GF(p), where a minor that is not 0 is not 0 over the numbers either. None where angles are singular there or
-    drawn at others than right ones, and for what is large.
+    Over GF(p), where a minor that is not 0 is not 0 over the numbers either. The others are those that the rows can be
+    solved for, the last ones where there is a choice [Whitney1935]. None where angles are singular there or drawn at
+    others than right ones, and for what is large.
     """
     names = group.block.coordinates
-    if setting.reference is None or len(names) > MOST_DRAWN or not any(map(_right_rates, turning)):
+    if setting.reference is None or not any(map(_right_rates, turning)):
         return None
-    chart = make_chart(group.block, setting, group.hidden)
-    point = pose_point(chart, {**setting.reference, ex.TIME: ex.ZERO}, 3)
-    if point is None or not on_variety(chart, point):
+    found = rows_at_drawing(group, setting, MOST_DRAWN)
+    if found is None:
         return None
     place = {name: k for k, name in enumerate(names)}
-    columns = [place.get(str(s.args[-1])) if s != ex.TIME else None for s in chart.symbols]
-    rows: list[dict[int | None, int]] = [
-        {columns[c]: v for c, v in row.items()} for row in field_jacobian(chart, point)
-    ]
-    rates = {name: {name: 1} for name in names} | {
-        a: row for r in turning if place.keys() >= {*r.names} for a, row in _right_rates(r).items()
-    }
-    rows += [{place[g]: v for g, v in rates[name].items()} for name in names]
-    before = len(rows) - len(names)
-    found = [names[j - before] for j in _first_independent(rows, len(names), point.p) if j >= before]
-    return None if any(not _right_rates(r) for r in partly_turned(found, turning)) else found
+    angle_of = {g: a for r in turning if place.keys() >= {*r.names} for a, g in _right_rates(r).items()}
+    rows = [{place[angle_of.get(name, name)]: v for name, v in row.items()} for row in found.rows]
+    solved = set(sparse_frame(rows, len(names), found.p).dependent)
+    chosen = [name for k, name in enumerate(names) if k not in solved]
+    return None if any(not _right_rates(r) for r in partly_turned(chosen, turning)) else chosen
 
 
-def _first_independent(rows: Sequence[Mapping[int | None, int]], width: int, p: int) -> list[int]:
-    """The rows, in order, that are independent of those before, over GF(p)."""
-    table = nmod_mat(width, len(rows), p)
-    for j, row in enumerate(rows):
-        for i, value in row.items():
-            if i is not None:
-                table[i, j] = value % p
-    reduced, rank = table.rref()
-    return [next(j for j in range(len(rows)) if int(reduced[i, j])) for i in range(rank)]
+def _right_rates(r: Rotation) -> dict[str, str]:
+    """Of a body drawn at right angles the part of the Gibbs vector whose rate is each Euler angle's; else none.
 
-
-def _right_rates(r: Rotation) -> dict[str, dict[str, int]]:
-    """The Euler angles' rates by those of half the Gibbs vector where the body is drawn at right angles; else none."""
+    The axes e_z, n = (-b, a, 0) and k = (a, b, 0) are orthonormal: up to signs they are those of the world.
+    """
     phi, theta = map(_right_angles, r.initial[:2])
     if phi is None or theta is None or theta % 2 == 0:
         return {}
-    s = (0, 1, 0, -1)
-    a, b = s[theta] * s[phi], -s[theta] * s[(phi + 1) % 4]
-    # the axes e_z, n = (-b, a, 0) and k = (a, b, 0) are orthonormal
-    by_angle = ((0, 0, 1), (-b, a, 0), (a, b, 0))
-    return {angle: dict(zip(r.names, row, strict=True)) for angle, row in zip(r.names, by_angle, strict=True)}
+    x, y, z = r.names
+    about_x = phi % 2 == 0
+    return dict(zip(r.names, (z, x, y) if about_x else (z, y, x), strict=True))
 
 
 def _right_angles(e: Expr) -> int | None:

@@ -19,8 +19,7 @@ from itertools import product as cartesian
 from math import prod
 from typing import NamedTuple
 
-import networkx as nx
-
+from dofkit.base.components import components
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import ArgumentKey, weakest
 from dofkit.configuration.cases import BoundedCase, cases_of
@@ -276,15 +275,12 @@ def _may_be_put(g: Expr, s: Expr, relations: Sequence[Expr]) -> bool:
 
 def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[RelationPart]:
     """The relations by the coordinates that they share; the moment is any."""
-    graph: nx.Graph = nx.Graph()
     known = frozenset(symbols)
-    for i, g in enumerate(relations):
-        graph.add_node(i)
-        graph.add_edges_from((i, s) for s in g.symbols & known)
     parts = []
-    for component in nx.connected_components(graph):
-        own = tuple(g for i, g in enumerate(relations) if i in component)
-        parts.append(RelationPart(own, tuple(s for s in symbols if s in component)))
+    for numbers in components(g.symbols & known for g in relations):
+        own = tuple(relations[i] for i in numbers)
+        mentioned = frozenset().union(*(g.symbols for g in own))
+        parts.append(RelationPart(own, tuple(s for s in symbols if s in mentioned)))
     return parts
 
 

@@ -15,10 +15,10 @@ from fractions import Fraction
 from itertools import combinations, islice, pairwise
 from typing import Any
 
-import networkx as nx
 from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
+from dofkit.base.libraries import nx
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr

@@ -35,7 +35,8 @@ def isolated(chart: Chart, found: Variety) -> Variety | None:
     """The set where some relations give a coordinate each and the others hold one coordinate each [IsolatedZeros].
 
     All of its points have such a coordinate at an isolated value, so its dimension is the number of the others; that
-    it has points is shown by an exact common zero. None where the relations are not so, or no zero was found. What was
+    it has points is shown by an exact common zero. What says nothing beside those given is left out: sin(z) = 0 beside
+    z = pi. None where the relations are not so, or no zero was found. What was
     ``found`` over GF(p) is kept where it has the same rank.
     """
     if "balls" not in chart.engines or chart.time is not None or len(chart.relations) > MAX_RELATIONS:
@@ -44,8 +45,9 @@ def isolated(chart: Chart, found: Variety) -> Variety | None:
         return None
     given, left = explicit_relations(chart.relations)
     symbols = [s for s in chart.symbols if s != ex.TIME]
-    parts = parts_of(left, symbols)
-    if not parts or any(not _of_one_coordinate(part) for part in parts):
+    needed = [g for g in left if g.symbols or not is_proved_zero(g, frozenset())]
+    parts = parts_of(needed, symbols)
+    if len(given) == len(chart.relations) or any(not _of_one_coordinate(part) for part in parts):
         return None
     zeros: dict[Expr, Expr] = {}
     for part in parts:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
+from dofkit.base.libraries import np
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.points.balls import BallPoint

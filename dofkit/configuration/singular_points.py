@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import numpy as np
 from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
+from dofkit.base.libraries import np
 from dofkit.configuration.local.dimension import numeric_dimension
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_motions_real

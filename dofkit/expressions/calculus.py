@@ -4,41 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from fractions import Fraction
+from functools import partial
 
 from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr, add, call, children, fn, mul, num, power, rebuild
 
 
 def substitute(e: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
     """``e`` with symbols replaced by expressions, all at once."""
-    keys = mapping.keys()
-    if keys.isdisjoint(e.symbols):
-        return e
-    memo: dict[Expr, Expr] = {}
+    return _substituted(e, mapping, {})
 
-    def go(node: Expr) -> Expr:
-        if keys.isdisjoint(node.symbols):
-            return node
-        if node.op == "sym":
-            return mapping[node]
-        found = memo.get(node)
-        if found is None:
-            found = memo[node] = rebuild(node, tuple(go(child) for child in children(node)))
-        return found
 
-    return go(e)
+def _substituted(node: Expr, mapping: Mapping[Expr, Expr], memo: dict[Expr, Expr]) -> Expr:
+    if mapping.keys().isdisjoint(node.symbols):
+        return node
+    if node.op == "sym":
+        return mapping[node]
+    found = memo.get(node)
+    if found is None:
+        found = memo[node] = rebuild(node, tuple([_substituted(child, mapping, memo) for child in children(node)]))
+    return found
 
 
 def replace_nodes(e: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
     """``e`` with nodes of any kind, such as sin(x) or 3/2, replaced by expressions, the outermost first."""
-    memo: dict[Expr, Expr] = dict(mapping)
+    return _replaced(e, dict(mapping))
 
-    def go(node: Expr) -> Expr:
-        found = memo.get(node)
-        if found is None:
-            found = memo[node] = rebuild(node, tuple(go(child) for child in children(node)))
-        return found
 
-    return go(e)
+def _replaced(node: Expr, memo: dict[Expr, Expr]) -> Expr:
+    found = memo.get(node)
+    if found is None:
+        found = memo[node] = rebuild(node, tuple([_replaced(child, memo) for child in children(node)]))
+    return found
 
 
 _DERIVATIVES: dict[str, Callable[[Expr], Expr]] = {
@@ -62,19 +58,18 @@ _DERIVATIVES: dict[str, Callable[[Expr], Expr]] = {
 
 def diff(e: Expr, symbol: Expr) -> Expr:
     """The partial derivative by one symbol, all other symbols held."""
-    memo: dict[Expr, Expr] = {}
+    return _diff(e, symbol, {})
 
-    def go(node: Expr) -> Expr:
-        if node is symbol or node == symbol:
-            return ONE
-        if symbol not in node.symbols:
-            return ZERO
-        found = memo.get(node)
-        if found is None:
-            found = memo[node] = _diff_node(node, go)
-        return found
 
-    return go(e)
+def _diff(node: Expr, symbol: Expr, memo: dict[Expr, Expr]) -> Expr:
+    if node is symbol or node == symbol:
+        return ONE
+    if symbol not in node.symbols:
+        return ZERO
+    found = memo.get(node)
+    if found is None:
+        found = memo[node] = _diff_node(node, partial(_diff, symbol=symbol, memo=memo))
+    return found
 
 
 def _diff_node(node: Expr, go: Callable[[Expr], Expr]) -> Expr:

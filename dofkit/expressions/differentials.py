@@ -11,6 +11,9 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 
+#: Functions that keep the degree of what stands inside, or do not ask for it: only ratios of their arguments count.
+HOMOGENEOUS = ("abs", "atan2")
+
 
 def differential_degree(e: Expr) -> int | None:
     """The degree in (dq, dt), None for the number 0. Raises TextError where terms differ."""
@@ -34,6 +37,10 @@ def differential_degree(e: Expr) -> int | None:
         degree = (differential_degree(e.args[0]) or 0) * e.args[1].args[0]
         if degree.denominator == 1:
             return int(degree)
+    if e.op == "fn":
+        inside = {differential_degree(u) or 0 for u in e.args[1:]}
+        if inside == {0} or (len(inside) == 1 and e.args[0] in HOMOGENEOUS):
+            return inside.pop() if e.args[0] == "abs" else 0
     raise TextError("a differential stands inside a function", hint="differentials are only added, multiplied, divided")
 
 

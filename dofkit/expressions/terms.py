@@ -34,6 +34,8 @@ def expand(e: Expr) -> Expr:
 
 def linear_terms(e: Expr) -> dict[Expr, Fraction]:
     """``e`` as a combination of its terms with rational coefficients; the number's term is `ONE`."""
+    if e.op == "sym":
+        return {e: Fraction(1)}
     total = expand(e)
     terms: dict[Expr, Fraction] = {}
     for term in total.args if total.op == "add" else (total,):

@@ -44,14 +44,12 @@ FUNCTIONS: dict[str, int] = {
 class Expr:
     """One node of an expression; see the module's table for ``op`` and ``args``."""
 
-    __slots__ = ("_functions", "_hash", "_symbols", "args", "op")
-
-    op: str
-    args: tuple[Any, ...]
+    __slots__ = ("_functions", "_hash", "_symbols", "args", "op", "shape")
 
     def __init__(self, op: str, args: tuple[Any, ...]) -> None:
         self.op = op
         self.args = args
+        self.shape: Any = None  # kept by `renaming`
         self._hash = hash((op, args))
         self._symbols: frozenset[Expr] | None = None
         self._functions: frozenset[str] | None = None
@@ -117,6 +115,10 @@ class Expr:
                 self._symbols = found
         return self._symbols
 
+    def remember(self, symbols: frozenset[Expr]) -> None:
+        """Keep every ``sym`` node that occurs, where these are known."""
+        self._symbols = symbols
+
     @property
     def functions(self) -> frozenset[str]:
         """The names of the functions that occur; ``pow`` for powers but whole ones, ``call`` for unknown functions."""
@@ -136,8 +138,7 @@ class Expr:
 
 
 ExprLike = Expr | int | Fraction
-_NO_SYMBOLS: frozenset[Expr] = frozenset()
-_NO_NAMES: frozenset[str] = frozenset()
+_NO_SYMBOLS, _NO_NAMES = frozenset[Expr](), frozenset[str]()
 
 
 def _function_of(e: Expr) -> frozenset[str]:
@@ -154,7 +155,7 @@ def num(value: int | Fraction) -> Expr:
 
 #: The numbers that occur most.
 _SMALL: dict[int, Expr] = {}
-_SMALL.update({n: num(n) for n in range(-16, 17)})
+_SMALL |= {n: num(n) for n in range(-16, 17)}
 
 ZERO, ONE, MINUS_ONE, TWO, HALF = (num(Fraction(v)) for v in (0, 1, -1, 2, Fraction(1, 2)))
 PI, E = Expr("const", ("pi",)), Expr("const", ("E",))
@@ -194,10 +195,7 @@ def parameter(name: str) -> Expr:
     return sym("parameter", name)
 
 
-TIME = sym("time", "t")
-DT = sym("dt", "t")
-
-
+TIME, DT = sym("time", "t"), sym("dt", "t")
 _ONCE: Fraction = ONE.args[0]
 
 

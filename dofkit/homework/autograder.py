@@ -23,10 +23,11 @@ from typing import Any
 from dofkit.base.errors import DofkitError
 from dofkit.base.workers.crews import StoppedError
 from dofkit.homework.answers.attribution import by_platform
+from dofkit.homework.answers.prairielearn import answers_of
 from dofkit.homework.answers.roster import Participant
 from dofkit.homework.answers.sources import DOCUMENTS, LINES, TABLES, Handed, hand_ins
 from dofkit.homework.answers.submission import FilePlace, clean
-from dofkit.homework.assignment import Prepared, load_assignment
+from dofkit.homework.assignment import Prepared, Visibility, load_assignment
 from dofkit.homework.formats import coursera, gradescope, prairielearn
 from dofkit.homework.formats.documents import text
 from dofkit.homework.judgement import needs_review
@@ -58,7 +59,7 @@ class Site:
     folder: str
     results: str
     seconds: float
-    document: Callable[[Result, Prepared | None], dict[str, Any]]
+    document: Callable[[Result, Prepared | None, Path], dict[str, Any]]
     users: Callable[[Path], list[Participant]] = lambda root: []
     form: Callable[[Path, Prepared], Handed | None] = lambda root, prepared: None
     excuses: bool = True
@@ -77,32 +78,34 @@ def _gradescope_users(root: Path) -> list[Participant]:
     ]
 
 
+def _gradescope_visibility(prepared: Prepared | None, root: Path) -> Visibility:
+    """When points are shown; never is no answer: without a due date that is when grades are published."""
+    shown = gradescope.visibility_of(prepared)
+    dates = _object(_object(_json(root / "submission_metadata.json")).get("assignment"))
+    endless = "due_date" in dates and not (dates["due_date"] or dates.get("late_due_date"))
+    return "after_published" if shown == "after_due_date" and endless else shown
+
+
 def _prairielearn_form(root: Path, prepared: Prepared) -> Handed | None:
     """The answers that were typed into a question, in inputs named ``PROBLEM.QUESTION``, or with ``_`` or ``-``."""
     given = _object(_json(root / "data" / "data.json")).get("submitted_answers")
     if not isinstance(given, dict):
         return None
-    answers: dict[str, dict[str, Any]] = {}
-    for problem, question in prepared.questions():
-        for sign in ".-_":
-            name = f"{problem.id}{sign}{question.id}"
-            if name in given:
-                answers.setdefault(problem.id, {})[question.id] = given[name]
-                break
-    return Handed("student", FilePlace("data.json"), {"answers": answers})
+    return Handed("student", FilePlace("data.json"), {"answers": answers_of(given, prepared.columns())})
 
 
 SITES: dict[str, Site] = {
     "gradescope": Site(
         Path("/autograder"), "submission", "results/results.json", 240.0,
-        lambda result, prepared: gradescope.document(result, gradescope.visibility_of(prepared)), _gradescope_users,
+        lambda result, prepared, root: gradescope.document(result, _gradescope_visibility(prepared, root)),
+        _gradescope_users,
     ),
     "prairielearn": Site(
-        Path("/grade"), "student", "results/results.json", 25.0, lambda result, _: prairielearn.document(result),
+        Path("/grade"), "student", "results/results.json", 25.0, lambda result, *_: prairielearn.document(result),
         form=_prairielearn_form,
     ),
     "coursera": Site(
-        Path("/shared"), "submission", "feedback.json", 120.0, lambda result, _: coursera.document(result),
+        Path("/shared"), "submission", "feedback.json", 120.0, lambda result, *_: coursera.document(result),
         excuses=False, listed="open.csv",
     ),
 }  # fmt: skip
@@ -201,7 +204,7 @@ def _result(one: Handed, prepared: Prepared, seconds: float, memory: int, studen
         watch = threading.Timer(seconds, keeper.close)
         watch.start()
         try:
-            lines = keeper.grade([one]).lines[0]
+            lines = keeper.grade([one]).told[0]
         except StoppedError:
             return undecided(prepared, student, TOO_LONG)
         finally:
@@ -217,7 +220,7 @@ def _write(site: Site, result: Result, prepared: Prepared | None) -> None:
     path = site.root / site.results
     path.parent.mkdir(parents=True, exist_ok=True)
     beside = path.with_name(f".{path.name}.new")
-    beside.write_text(text(site.document(result, prepared)), encoding="ascii")
+    beside.write_text(text(site.document(result, prepared, site.root)), encoding="ascii")
     os.replace(beside, path)
 
 

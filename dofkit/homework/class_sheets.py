@@ -13,31 +13,28 @@ from typing import Any, NamedTuple
 
 from ruamel.yaml import YAML
 
-from dofkit.base.errors import DofkitError
 from dofkit.base.version import __version__
 from dofkit.base.wording import many
 from dofkit.homework.answers.label_words import word_of
-from dofkit.homework.answers.roster import Participant, Roster
+from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared, load_assignment
+from dofkit.homework.earlier_sheets import ASSIGNMENT, VaryError, earlier, followed
 from dofkit.homework.formats.cells import cell
 from dofkit.homework.formats.html.rendering import rendered
 from dofkit.homework.formats.wording import FileNames
 from dofkit.homework.handout.figures import Draw
 from dofkit.homework.handout.markup import pictures_of
 from dofkit.homework.handout.sheets import write_sheet, written_sheet
-from dofkit.homework.own_sheets import OwnSheet, Variant, own_sheet, structure_told
+from dofkit.homework.own_sheets import OwnSheet, SheetDrawer, Variant, structure_told
 from dofkit.homework.problem import DRAWN, UNDRAWN, Problem, StudentSheet, Variants
 from dofkit.homework.variants.difficulty import Difficulty, difficulty_of, fit
 from dofkit.homework.variants.structure import written_scene
 
-#: Sheets that are drawn for a student before one that somebody else has is taken.
-MOST_DRAWS = 200
+#: Sheets that are drawn for a student before one that somebody else has is taken, and how many where that happened to
+#: so many before.
+MOST_DRAWS, FEWEST_DRAWS, MOST_IN_VAIN = 200, 4, 3
 #: What stands in the folder.
-ASSIGNMENT, TABLE, PAGE, SHEETS = "assignment.yaml", "variants.csv", "variants.html", "sheets"
-
-
-class VaryError(DofkitError):
-    """An assignment that cannot be varied."""
+TABLE, PAGE, SHEETS = "variants.csv", "variants.html", "sheets"
 
 
 class VariantRow(NamedTuple):
@@ -56,10 +53,11 @@ class VariantRow(NamedTuple):
 
 @dataclass(frozen=True)
 class ClassSheets:
-    """The varied assignment, and the sheet of each student."""
+    """The varied assignment, and the sheet of each student; ``gone``: those who are not in the roster any more."""
 
     prepared: Prepared
     sheets: tuple[tuple[StudentSheet, OwnSheet], ...]
+    gone: tuple[str, ...] = ()
 
     @property
     def rows(self) -> list[VariantRow]:
@@ -74,6 +72,8 @@ class ClassSheets:
                 yield f"problem '{problem.id}' is the same for everyone: its own key is {why}"
             elif len({v.mark for _, s in self.sheets for v in s.variants if v.problem.id == problem.id}) == 1:
                 yield f"problem '{problem.id}' is the same for everyone: nothing of it can differ as it is written"
+        for student in self.gone:
+            yield f"'{student}' is not in the roster any more, and keeps the sheet"
         seen: dict[str, str] = {}
         for whose, sheet in self.sheets:
             other = seen.setdefault(sheet.digest, whose.student)
@@ -102,50 +102,69 @@ def labels_told(found: Difficulty) -> str:
     return "; ".join(told)
 
 
-def class_sheets(source: str, roster: Roster, seed: str, out: Path) -> ClassSheets:
+def class_sheets(source: str, roster: Roster, seed: str, out: Path, anew: bool = False) -> ClassSheets:
     """A sheet for everyone in a roster, no two alike where there are as many.
 
-    Raises AssignmentError, and VaryError for an assignment that was varied before and for a roster of nobody.
+    Who has a sheet in the folder ``out`` keeps it, whatever has become of the roster since, unless all are drawn
+    ``anew``. Raises AssignmentError, and VaryError for an assignment that was varied before, for a roster of nobody,
+    and for a folder with sheets that come out another way.
     """
     given = load_assignment(source)
     if given.assignment.variants is not None:
         raise VaryError(f"{source} was made by `dofkit assignment vary`: vary what it was made from")
     if not roster.members:
         raise VaryError("there is nobody in the roster: a row for each student is needed")
-    students = tuple(
-        StudentSheet.model_validate({"student": one.student, "known_as": _others(one)}) for one in roster.members
-    )
     value = _standing_alone(given, out)
+    before = () if anew else earlier(out, value, seed)
+    students, gone = followed(before, roster)
     prepared = load_assignment(
         {**value, "variants": {"seed": seed, "students": [one.model_dump() for one in students]}}, base=out
     )
-    taken: set[str] = set()
-    found = []
-    for whose in students:
-        drawn = _different(prepared, seed, whose, taken)
-        taken.add(drawn[1].digest)
-        found.append(drawn)
+    draws = ClassDraws(SheetDrawer(prepared), seed)
+    found = [draws.kept(one) if one.sheet else draws.different(one) for one in students]
     marked = tuple(whose.model_copy(update={"sheet": sheet.digest}) for whose, sheet in found)
     final = Variants(seed=seed, version=__version__, students=marked).model_dump(exclude_defaults=True)
-    return ClassSheets(load_assignment({**value, "variants": final}, base=out), tuple(found))
+    return ClassSheets(load_assignment({**value, "variants": final}, base=out), tuple(found), gone)
 
 
-def _others(one: Participant) -> list[str]:
-    """What else a participant goes by."""
-    return list(dict.fromkeys(name for name in one.called() if name != one.student))
+class ClassDraws:
+    """Draws the sheets of a class one after the other."""
 
+    def __init__(self, drawer: SheetDrawer, seed: str) -> None:
+        self._drawer = drawer
+        self._seed = seed
+        self._taken: set[str] = set()
+        self._in_vain = 0
 
-def _different(prepared: Prepared, seed: str, whose: StudentSheet, taken: set[str]) -> tuple[StudentSheet, OwnSheet]:
-    """The first draw of a sheet that nobody has; the very first where all are taken."""
-    first = own_sheet(prepared, seed, whose)
-    sheet, draw = first, 0
-    while sheet.digest in taken and draw < MOST_DRAWS:
-        draw += 1
-        whose = whose.model_copy(update={"draw": draw})
-        sheet = own_sheet(prepared, seed, whose)
-    if sheet.digest in taken:
-        return whose.model_copy(update={"draw": 0}), first
-    return whose, sheet
+    def kept(self, whose: StudentSheet) -> tuple[StudentSheet, OwnSheet]:
+        """The sheet that a student has. Raises VaryError where it comes out another way."""
+        sheet = self._drawer.sheet(self._seed, whose)
+        if sheet.digest != whose.sheet:
+            raise VaryError(
+                f"the sheet of '{whose.student}' comes out another way than it did: vary with the version of dofkit "
+                "that made it, name another folder, or draw all sheets anew with --anew"
+            )
+        self._taken.add(sheet.digest)
+        return whose, sheet
+
+    def different(self, whose: StudentSheet) -> tuple[StudentSheet, OwnSheet]:
+        """The first draw of a sheet that nobody has; the very first where all are taken.
+
+        Where nothing new came for several students there is little left, and few draws are tried.
+        """
+        most = MOST_DRAWS if self._in_vain < MOST_IN_VAIN else FEWEST_DRAWS
+        first = sheet = self._drawer.sheet(self._seed, whose)
+        draw = 0
+        while sheet.digest in self._taken and draw < most:
+            draw += 1
+            whose = whose.model_copy(update={"draw": draw})
+            sheet = self._drawer.sheet(self._seed, whose)
+        if sheet.digest in self._taken:
+            self._in_vain += 1
+            return whose.model_copy(update={"draw": 0}), first
+        self._in_vain = 0
+        self._taken.add(sheet.digest)
+        return whose, sheet
 
 
 def _standing_alone(prepared: Prepared, out: Path) -> dict[str, Any]:

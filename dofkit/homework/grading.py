@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Generator, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
+from pathlib import Path
 from typing import Any, cast
 
 from flint import ctx
@@ -32,11 +34,12 @@ from dofkit.homework.judgement import (
     unreadable,
 )
 from dofkit.homework.key.key import Key
-from dofkit.homework.own_sheets import NobodysSheetError, own_steps
+from dofkit.homework.own_sheets import NobodysSheetError, SheetDrawer
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import NumberQuestion, QuestionBase
 from dofkit.homework.repairs import nearest_reading, parts_read
 from dofkit.homework.result import Item, PossibleReading, Result
+from dofkit.homework.review.filled_table import read_table
 from dofkit.homework.review.identity import answer_id
 from dofkit.homework.review.rows import Decision
 from dofkit.homework.sentences.said import Said, say
@@ -66,6 +69,7 @@ class Grader:
         self.condemned = {} if condemned is None else condemned
         self.max_score = sum((q.points for _, q in prepared.questions()), Fraction(0))
         self._known: dict[Spot, tuple[Judgement, Fraction | None]] = {}
+        self._drawer = SheetDrawer(prepared)
 
     def grade(self, submission: Submission) -> Result:
         """Every question with what the student answered, in the assignment's order; then what was not asked."""
@@ -81,7 +85,7 @@ class Grader:
         if submission.error is not None:
             return self.refused(submission.student, submission.error)
         try:
-            sheet = yield from own_steps(self.prepared, submission.student)
+            sheet = yield from self._drawer.own_steps(submission.student)
         except NobodysSheetError as error:
             return self.refused(submission.student, str(error))
         if sheet is not self.prepared:
@@ -256,10 +260,12 @@ def unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
         )  # fmt: skip
 
 
-def grade(assignment: Any, submission: Any) -> Result:
+def grade(assignment: Any, submission: Any, reviewed: str | os.PathLike[str] | None = None) -> Result:
     """Grade one submission: both are paths, mappings, or what was made of them.
 
-    Raises AssignmentError for what is no assignment; a submission that cannot be read is a result with its error.
+    ``reviewed``: a ``review.csv`` that a person filled in, which goes before what dofkit finds. Raises AssignmentError
+    for what is no assignment, ReviewError for what is no such table and OSError for one that is not there; a submission
+    that cannot be read is a result with its error.
 
     >>> scene = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]}
     >>> asked = {"id": "circle", "scene": scene, "questions": [{"id": "f", "ask": "dof", "points": 2}]}
@@ -267,5 +273,8 @@ def grade(assignment: Any, submission: Any) -> Result:
     2.0
     """
     prepared = assignment if isinstance(assignment, Prepared) else load_assignment(assignment)
+    if reviewed is not None:
+        decided = read_table(Path(reviewed), prepared.most_points()).decisions
+        prepared = replace(prepared, decisions={**prepared.decisions, **decided})
     given = submission if isinstance(submission, Submission) else read_submission(submission, prepared.columns())
     return Grader(prepared).grade(given)

@@ -27,6 +27,8 @@ from dofkit.scene.reading import load
 
 #: Draws of the structures of a sheet, and of the numbers of a problem, before it stays as it is.
 MOST_DRAWS, MOST_STRETCHES = 64, 6
+#: Problems that are kept, proved, for the next student.
+MOST_KEPT = 500
 #: What stands between the structure of a variant and its mark.
 _MARKED = " #"
 
@@ -56,6 +58,11 @@ def structure_told(mark: str) -> str:
     return mark.rpartition(_MARKED)[0]
 
 
+def mark_told(mark: str) -> str:
+    """What tells a variant from others of its structure."""
+    return mark.rpartition(_MARKED)[2]
+
+
 @dataclass(frozen=True)
 class OwnSheet:
     """One student's sheet."""
@@ -74,7 +81,7 @@ def own(prepared: Prepared, student: str) -> Prepared:
 
     Raises NobodysSheetError for who is not among its students, and where the sheet comes out another way than it did.
     """
-    return _last(own_steps(prepared, student))
+    return SheetDrawer(prepared).own(student)
 
 
 def own_of(prepared: Prepared, names: Iterable[str]) -> Prepared:
@@ -92,30 +99,6 @@ def own_of(prepared: Prepared, names: Iterable[str]) -> Prepared:
     return own(prepared, known.pop())
 
 
-def own_steps(prepared: Prepared, student: str) -> Generator[str, None, Prepared]:
-    """The same, telling of every problem that takes work that it comes next."""
-    variants = prepared.assignment.variants
-    if variants is None:
-        return prepared
-    found = variants.find(student)
-    if found is None:
-        raise NobodysSheetError(
-            f"'{student[:200]}' is not among the students of this assignment, or is the name of two: whose sheet is it?"
-        )
-    sheet = yield from _sheet_steps(prepared, variants.seed, found)
-    if found.sheet and found.sheet != sheet.digest:
-        raise NobodysSheetError(
-            f"the sheet of '{found.student}' comes out another way than dofkit {variants.version} made it: grade with "
-            "that version, or give more time"
-        )
-    return sheet.prepared
-
-
-def own_sheet(prepared: Prepared, seed: str, whose: StudentSheet) -> OwnSheet:
-    """The sheet that a seed gives a student, with what is told of each problem."""
-    return _last(_sheet_steps(prepared, seed, whose))
-
-
 _Made = TypeVar("_Made")
 
 
@@ -127,17 +110,86 @@ def _last(steps: Generator[str, None, _Made]) -> _Made:
             return cast(_Made, stop.value)
 
 
-def _sheet_steps(prepared: Prepared, seed: str, whose: StudentSheet) -> Generator[str, None, OwnSheet]:
-    chosen = _balanced(prepared, Stream(seed, whose.student, whose.draw))
-    variants: list[Variant] = []
-    for problem, structure in zip(prepared.assignment.problems, chosen, strict=True):
-        yield f"the problem {problem.id} of the sheet of {whose.student}"
-        variants.append(_variant(problem, structure, Stream(seed, whose.student, whose.draw, problem.id)))
-    update = {"problems": tuple(v.problem for v in variants), "variants": None}
-    assignment = prepared.assignment.model_copy(update=update)
-    keys = {v.problem.id: v.key for v in variants}
-    marks = {v.problem.id: v.mark for v in variants}
-    return OwnSheet(replace(prepared, assignment=assignment, keys=keys, structures={}, marks=marks), tuple(variants))
+class SheetDrawer:
+    """Draws the sheets of one assignment; a problem that comes out the same for several is proved once."""
+
+    def __init__(self, prepared: Prepared) -> None:
+        self.prepared = prepared
+        self._known: dict[tuple[str, int, str], Variant | None] = {}
+
+    def sheet(self, seed: str, whose: StudentSheet) -> OwnSheet:
+        """The sheet that a seed gives a student, with what is told of each problem."""
+        return _last(self._steps(seed, whose))
+
+    def own(self, student: str) -> Prepared:
+        """The sheet of a student. Raises NobodysSheetError."""
+        return _last(self.own_steps(student))
+
+    def own_steps(self, student: str) -> Generator[str, None, Prepared]:
+        """The sheet of a student, telling of every problem that takes work that it comes next.
+
+        Raises NobodysSheetError for who is not among the students, and where it comes out another way than it did.
+        """
+        variants = self.prepared.assignment.variants
+        if variants is None:
+            return self.prepared
+        found = variants.find(student)
+        if found is None:
+            raise NobodysSheetError(
+                f"'{student[:200]}' is not among the students of this assignment, or is the name of two: whose sheet "
+                "is it?"
+            )
+        sheet = yield from self._steps(variants.seed, found)
+        if found.sheet and found.sheet != sheet.digest:
+            raise NobodysSheetError(
+                f"the sheet of '{found.student}' comes out another way than dofkit {variants.version} made it: grade "
+                "with that version, or give more time"
+            )
+        return sheet.prepared
+
+    def _steps(self, seed: str, whose: StudentSheet) -> Generator[str, None, OwnSheet]:
+        prepared = self.prepared
+        chosen = _balanced(prepared, Stream(seed, whose.student, whose.draw))
+        variants: list[Variant] = []
+        for problem, structure in zip(prepared.assignment.problems, chosen, strict=True):
+            yield f"the problem {problem.id} of the sheet of {whose.student}"
+            variants.append(self._variant(problem, structure, Stream(seed, whose.student, whose.draw, problem.id)))
+        update = {"problems": tuple(v.problem for v in variants), "variants": None}
+        assignment = prepared.assignment.model_copy(update=update)
+        keys = {v.problem.id: v.key for v in variants}
+        marks = {v.problem.id: v.mark for v in variants}
+        return OwnSheet(
+            replace(prepared, assignment=assignment, keys=keys, structures={}, marks=marks), tuple(variants)
+        )
+
+    def _variant(self, problem: Problem, structure: Structure, stream: Stream) -> Variant:
+        """The problem in a structure, with numbers and names of its own as far as the answers' kinds stay."""
+        aspects = aspects_of(problem) if fit(structure.key, structure.key) is None else ()
+        for attempt in range(MOST_STRETCHES + 1):
+            written, numbers = structure.written, ""
+            if "geometry" in aspects and attempt < MOST_STRETCHES:
+                stretch = new_stretch(written, structure.key.scene.dimension, stream)
+                written = stretched(structure.key.scene, structure.written, stretch)
+                numbers = stretch.told(structure.key.scene, structure.written)
+            names = new_names(structure.key.scene, problem, stream) if "names" in aspects else {}
+            found = self._accepted(problem, structure, written, names)
+            if found is not None:
+                told = ", ".join(f"{new} for {old}" for old, new in names.items())
+                return found._replace(changed=structure.changed, numbers=numbers, names=told)
+        return Variant(_with_scene(problem, structure.written, {}), structure.key, structure.changed)
+
+    def _accepted(
+        self, problem: Problem, structure: Structure, written: Mapping[str, Any], names: Mapping[str, str]
+    ) -> Variant | None:
+        """What `_proved` finds, once for all students for whom the problem comes out the same."""
+        which = next(n for n, one in enumerate(self.prepared.structures[problem.id]) if one is structure)
+        place = (problem.id, which, json.dumps([written, names], sort_keys=True))
+        if place in self._known:
+            return self._known[place]
+        found = _proved(problem, structure, written, names)
+        if len(self._known) < MOST_KEPT:
+            self._known[place] = found
+        return found
 
 
 def _balanced(prepared: Prepared, stream: Stream) -> list[Structure]:
@@ -161,24 +213,7 @@ def _counted(problems: Sequence[Problem], chosen: Sequence[Structure]) -> Counte
     return found
 
 
-def _variant(problem: Problem, structure: Structure, stream: Stream) -> Variant:
-    """The problem in a structure, with numbers and names of its own as far as the answers' kinds stay."""
-    aspects = aspects_of(problem) if fit(structure.key, structure.key) is None else ()
-    for attempt in range(MOST_STRETCHES + 1):
-        written, numbers = structure.written, ""
-        if "geometry" in aspects and attempt < MOST_STRETCHES:
-            stretch = new_stretch(written, structure.key.scene.dimension, stream)
-            written = stretched(structure.key.scene, structure.written, stretch)
-            numbers = stretch.told(structure.key.scene, structure.written)
-        names = new_names(structure.key.scene, problem, stream) if "names" in aspects else {}
-        found = _accepted(problem, structure, written, names)
-        if found is not None:
-            told = ", ".join(f"{new} for {old}" for old, new in names.items())
-            return found._replace(changed=structure.changed, numbers=numbers, names=told)
-    return Variant(_with_scene(problem, structure.written, {}), structure.key, structure.changed)
-
-
-def _accepted(
+def _proved(
     problem: Problem, structure: Structure, written: Mapping[str, Any], names: Mapping[str, str]
 ) -> Variant | None:
     """The variant, where dofkit proves its key and finds the same kinds of answers; else None."""

@@ -17,6 +17,7 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.ring.degree import error_bits
 from dofkit.exact.ring.instructions import Scalar
+from dofkit.exact.ring.program import values
 from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.integrability.growth_vector import derived_flag, growth
@@ -24,6 +25,7 @@ from dofkit.integrability.lie_algebra import Span
 from dofkit.integrability.lie_algebra_at_points import SampledSpan, ball_span
 from dofkit.integrability.pfaffian_system import Codistribution, linear_rows
 from dofkit.integrability.prolongation import is_nonzero
+from dofkit.integrability.shared_forms import is_curved
 from dofkit.integrability.single_form import proof
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
@@ -180,9 +182,17 @@ def _rank_verdict(known: SampledForms, proof_of: Certificate | None, setting: Se
     }
     forms = [p for r in known.block.forms if isinstance(p := with_constants(r.piece, constants), Pfaffian)]
     wanted = n - sampled.span.dimension - (len(sampled.matrix) - len(forms))
-    if wanted > len(forms):
+    flat = forms if constants or wanted > len(forms) else _flat(known, forms)
+    if wanted > len(flat):
         return "probable"
-    return "proved" if sum(proof(f, setting.positive) is not None for f in forms) == wanted else "probable"
+    return "proved" if sum(proof(f, setting.positive) is not None for f in flat) == wanted else "probable"
+
+
+def _flat(known: SampledForms, forms: Sequence[Pfaffian]) -> list[Pfaffian]:
+    """The forms that may integrate by themselves: those with curvature at the point do not."""
+    rows, point = known.forms.rows, known.point
+    at, first = values(rows.ring, point), known.forms.finite
+    return [form for i, form in enumerate(forms) if not is_curved(rows, first + i, at, point)]
 
 
 def _label(place: int, known: SampledForms, proof_of: Certificate | None) -> HolonomyLabel:

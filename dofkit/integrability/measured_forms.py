@@ -14,8 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-import numpy as np
-
+from dofkit.base.libraries import np
 from dofkit.configuration.drawing.measured import independent_rows
 from dofkit.configuration.drawing.measured_blocks import drawing_of_block
 from dofkit.configuration.drawing.measured_relations import SLACK, MeasuredRelations

@@ -81,14 +81,15 @@ def vary(
     form: Annotated[
         str, typer.Option("--format", metavar="NAME", help="Of the sheets: html, pdf, tex or md.")
     ] = "html",
+    anew: Annotated[bool, typer.Option("--anew", help="Draw all sheets again, though the folder has some.")] = False,
 ) -> None:
     """Write a sheet for each student, equally hard, an assignment that grades them all, and a table of what differs.
 
     `dofkit grade FOLDER/assignment.yaml ...` finds everyone's own variant from the seed. The same seed gives a student
-    the same sheet everywhere; every key is proved.
+    the same sheet everywhere; every key is proved. Who has a sheet in the folder keeps it when the roster changes.
     """
     with failures_of(assignment):
-        made = _of("class_sheets")(assignment, _of("load_roster")(roster), seed, out)
+        made = _of("class_sheets")(assignment, _of("load_roster")(roster), seed, out, anew)
         _of("write_class")(made, form, drawing(), out)
     for remark in made.remarks():
         typer.echo(f"{assignment}: {remark}", err=True)

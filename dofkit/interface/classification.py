@@ -5,31 +5,40 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from contextlib import closing
-from typing import NamedTuple
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, NamedTuple, cast
 
 import typer
 
 from dofkit.base.errors import ArgumentError
+from dofkit.base.surface import handed_on
 from dofkit.interface.outcome import headline
 from dofkit.interface.presentation import Telling
 from dofkit.interface.progress import Progress
 from dofkit.interface.show.faults import safe
+from dofkit.interface.streams import ascii_only
 from dofkit.interface.summary import Summary
-from dofkit.interface.supervised import Printed, names_of, reports
+from dofkit.interface.supervised import Printed, given_for_all, names_of, reports
 from dofkit.methods.names import MethodName
 
 #: Exit statuses: a scene is what it must not be; a file could not be read.
 FAILED, UNREADABLE = 1, 2
 #: Seconds between two looks at the files that are watched.
 LOOKING = 0.2
+#: What only many scenes at once need, imported there.
+_MANY = dict.fromkeys(("Helpers", "kept_reports", "many_reports"), "dofkit.interface.many.run")
 #: Clears a terminal, and goes to its first line.
 _CLEARED = "\x1b[2J\x1b[H"
 
 
 class Asked(NamedTuple):
-    """What the command was asked: the files, how to tell of them, and what it fails on."""
+    """What the command was asked: the files, how to tell of them, and what it fails on.
+
+    ``workers`` and ``scheduler``: who answers many scenes at once; ``out``: the folder for their reports.
+    """
 
     files: tuple[str, ...]
     telling: Telling
@@ -37,6 +46,9 @@ class Asked(NamedTuple):
     method: MethodName = "auto"
     certificate: str | None = None
     fail_on: tuple[str, ...] = ()
+    workers: int | None = None
+    scheduler: str | None = None
+    out: Path | None = None
 
 
 def echo(printed: Printed) -> None:
@@ -50,7 +62,7 @@ def classified(asked: Asked) -> int:
     summary, unread = Summary(), False
     telling = asked.telling
     plain = not (telling.as_json or telling.only)
-    if plain and telling.brief:
+    if plain and telling.brief and asked.out is None:
         typer.echo(headline(max(map(len, names_of(asked.files)), default=0)))
     progress = Progress(len(asked.files), sys.stderr)
     for seconds, printed in _timed(asked, progress):
@@ -59,7 +71,7 @@ def classified(asked: Asked) -> int:
         unread = unread or printed.failed
     if plain and len(asked.files) > 1:
         lines = [safe(line) for line in summary.lines()]
-        typer.echo("\n".join(["", *lines] if telling.brief else lines))
+        typer.echo("\n".join(["", *lines] if telling.brief and asked.out is None else lines))
     if unread:
         return UNREADABLE
     return FAILED if summary.fails(asked.fail_on) else 0
@@ -67,8 +79,7 @@ def classified(asked: Asked) -> int:
 
 def _timed(asked: Asked, progress: Progress) -> Iterator[tuple[float, Printed]]:
     """What is printed of each file, with the seconds that it took."""
-    stream = reports(asked.files, asked.telling, asked.budget, asked.method, asked.certificate)
-    with closing(stream):
+    with closing(_stream(asked)) as stream:
         for file in asked.files:
             progress.begin(file)
             start = time.perf_counter()
@@ -77,6 +88,26 @@ def _timed(asked: Asked, progress: Progress) -> Iterator[tuple[float, Printed]]:
             finally:
                 progress.end()
             yield time.perf_counter() - start, printed
+        next(stream, None)
+
+
+def _stream(asked: Asked) -> Generator[Printed]:
+    """What is printed of each file: one after another, or many at once."""
+    if asked.workers is None and asked.scheduler is None and asked.out is None:
+        return reports(asked.files, asked.telling, asked.budget, asked.method, asked.certificate)
+    helpers, telling = _many("Helpers")(asked.workers, asked.scheduler), asked.telling
+    telling = telling._replace(ascii_only=ascii_only())
+    if asked.out is not None:
+        telling = Telling(True, only=telling.only, without=telling.without, limits=telling.limits)
+    given = given_for_all(asked.files, telling, asked.budget, asked.method)
+    given = replace(given, certificate=asked.certificate)
+    if asked.out is None:
+        return cast("Generator[Printed]", _many("many_reports")(asked.files, given, helpers))
+    return cast("Generator[Printed]", _many("kept_reports")(asked.files, given, helpers, asked.out))
+
+
+def _many(name: str) -> Any:
+    return handed_on(__name__, _MANY, name)
 
 
 def watched(asked: Asked) -> int:

@@ -73,17 +73,27 @@ def classify(
     method: options.Method = "auto",
     certificate: options.CertificatePath = None,
     limits: options.Limits = False,
+    workers: options.SceneWorkers = None,
+    scheduler: options.Scheduler = None,
+    out: options.ReportFolder = None,
 ) -> None:
     """Classify scenes: degrees of freedom, labels, integrals, redundancy, each with a verdict."""
     from dofkit.interface.classification import Asked, classified, watched
+    from dofkit.interface.named_files import named_files
 
     if budget is not None and math.isnan(budget):
         raise typer.BadParameter("it is a number of seconds", param_hint="--budget")
+    if out is not None and (watch or full or how or brief):
+        raise typer.BadParameter(
+            "it writes JSON lines: --watch, --brief, --full and --how are for what is printed", param_hint="--out"
+        )
+    files = named_files(files)
     place = None if certificate is None else str(certificate)
     telling = Telling.here(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
     telling = telling._replace(only=options.fields(only), without=options.listed(without), limits=limits)
     asked = Asked(tuple(files), telling, budget, cast("MethodName", method), place, options.failures(fail_on))
-    with failures_of("--watch"):
+    asked = asked._replace(workers=workers, scheduler=scheduler, out=out)
+    with failures_of("--watch" if watch else "classify"):
         status = watched(asked) if watch else classified(asked)
     if status:
         raise typer.Exit(status)
@@ -116,9 +126,10 @@ def convert(file: options.ModelPath, out: options.ScenePath = None, limits: opti
 @app.command()
 def lagrange(files: options.Files, as_json: options.AsJson = False, linearize: options.Linearize = False) -> None:
     """Derive equations of motion: Lagrangian, momenta, forces, one equation for each coordinate."""
+    from dofkit.interface.named_files import named_files
     from dofkit.interface.supervised import motions
 
-    _print(motions(files, linearize, Telling.here(as_json)))
+    _print(motions(named_files(files), linearize, Telling.here(as_json)))
 
 
 def _still(kind: str, about: str) -> None:
@@ -227,6 +238,23 @@ def export_otter(
             typer.echo(path)
 
 
+@export_app.command("grades")
+def export_grades(
+    assignment: options.Assignment,
+    results: Annotated[Path, typer.Argument(metavar="RESULTS", help="results.jsonl of `dofkit grade`, or its folder.")],
+    form: Annotated[str, typer.Option("--format", metavar="NAME", help="What a gradebook or platform reads.")],
+    out: Annotated[Path, typer.Option("--out", metavar="PATH", help="Where to write.")],
+    roster: options.RosterPath = None,
+) -> None:
+    """Write results that are there for another platform: nothing is graded again."""
+    from dofkit.homework.runs.conversion import convert
+    from dofkit.homework.runs.run import GradingOptions
+
+    with failures_of(assignment):
+        count = convert(assignment, results, GradingOptions(form, out, roster=roster))
+    typer.echo(f"{out}: {count} results")
+
+
 @app.command()
 def explain(
     words: Annotated[
@@ -284,9 +312,10 @@ def schema(
 
 
 def _pictures(files: list[str], kind: str, out: Path | None, ending: str) -> None:
+    from dofkit.interface.named_files import named_files
     from dofkit.interface.supervised import pictures
 
-    _print(pictures(files, kind, None if out is None else str(out), ending))
+    _print(pictures(named_files(files), kind, None if out is None else str(out), ending))
 
 
 def _print(printed: Generator[Printed]) -> None:

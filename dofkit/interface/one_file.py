@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
@@ -64,7 +65,7 @@ def answer_lines(given: Given, answer: Callable[[Scene, Given], Iterator[Json]])
     """Read a file and give its answer, or else its faults, each in its place: no file stops those that follow."""
     name, document = given.name, None
     try:
-        found = find(given.file) if given.data is None else FoundFile(name, given.data)
+        found = find(given.file) if given.data is None else FoundFile(name, given.data, _place(given.file))
         name = found.name
         read = SceneFile.read(found.data, name, found.path, given.telling.limits)
         document = read.document
@@ -77,6 +78,11 @@ def answer_lines(given: Given, answer: Callable[[Scene, Given], Iterator[Json]])
         raise
     except Exception as error:
         yield _fault_streams(given, name, _faults_of_error(error), document)
+
+
+def _place(file: str) -> Path | None:
+    """Where a file stands whose bytes are known already: others may stand beside it."""
+    return Path(file) if file != "-" and os.path.isfile(file) else None
 
 
 def _report_stages(scene: Scene, given: Given) -> Iterator[Json]:

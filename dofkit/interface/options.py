@@ -39,7 +39,11 @@ def catalogued(incomplete: str) -> list[str]:
 
 Files = Annotated[
     list[str],
-    typer.Argument(metavar="FILE...", help="Scenes: paths, catalog names, - for stdin.", autocompletion=catalogued),
+    typer.Argument(
+        metavar="FILE...",
+        help="Scenes and models: paths, folders, catalog names, - for stdin.",
+        autocompletion=catalogued,
+    ),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object a line, in the order given.")]
 Budget = Annotated[
@@ -75,6 +79,14 @@ Without = Annotated[
 FailOn = Annotated[
     list[str] | None,
     typer.Option("--fail-on", metavar="WHAT,...", help=f"Exit status 1 where a scene is {', '.join(FAILURES)}."),
+]
+SceneWorkers = Annotated[
+    int | None,
+    typer.Option("--workers", metavar="N", min=1, help="So many processes at once; with --out one for each core."),
+]
+ReportFolder = Annotated[
+    Path | None,
+    typer.Option("--out", metavar="DIR", help="Write JSON lines there; a later run answers only what is not there."),
 ]
 Limits = Annotated[bool, typer.Option("--limits", help="Of models: ranges of joints as inequalities.")]
 ModelPath = Annotated[str, typer.Argument(metavar="FILE", help="MJCF, URDF, or a SolveSpace sketch.")]

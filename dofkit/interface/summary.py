@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from heapq import nlargest
 from typing import Any
 
 from dofkit.base.verdicts import VERDICTS
@@ -14,51 +15,52 @@ _MOST_NAMED, _SLOWEST = 8, 3
 
 
 class Summary:
-    """The files so far: of each what was found (None: it could not be read), and its seconds, loading included."""
+    """The files so far, counted: how many, how sure, how long; of all names only the few that are told are kept."""
 
     def __init__(self) -> None:
-        self._counted: list[tuple[Mapping[str, Any] | None, float]] = []
+        self._files, self._unread, self._seconds = 0, 0, 0.0
+        self._verdicts, self._are = Counter[str](), Counter[str]()
+        self._asked, self._wrong = 0, 0
+        self._named: list[str] = []
+        self._slowest: list[tuple[float, int, str]] = []
 
     def add(self, outcome: Mapping[str, Any] | None, seconds: float) -> None:
-        """Count one file."""
-        self._counted.append((outcome, seconds))
+        """Count one file: what was found (None: it could not be read), and its seconds, loading included."""
+        self._files += 1
+        self._seconds += seconds
+        if outcome is None:
+            self._unread += 1
+            return
+        self._verdicts[outcome["verdict"]] += 1
+        self._are.update(outcome["is"])
+        timed = (outcome.get("seconds", seconds), -self._files, outcome["scene"])
+        self._slowest = nlargest(_SLOWEST, [*self._slowest, timed])
+        if outcome.get("expects"):
+            self._asked += 1
+        if outcome.get("expects") and outcome["unmet"]:
+            self._wrong += 1
+            self._named += [outcome["scene"]] if self._wrong <= _MOST_NAMED else []
 
     def fails(self, on: tuple[str, ...]) -> bool:
         """Is a scene one of these?"""
-        return any(name in outcome["is"] for outcome in self._outcomes for name in on)
-
-    @property
-    def _outcomes(self) -> list[Mapping[str, Any]]:
-        return [outcome for outcome, _ in self._counted if outcome is not None]
+        return any(self._are[name] for name in on)
 
     def lines(self) -> Iterator[str]:
         """What is said of them all."""
-        outcomes = self._outcomes
-        by_verdict = Counter(outcome["verdict"] for outcome in outcomes)
-        said = [f"{by_verdict[verdict]} {verdict}" for verdict in VERDICTS if by_verdict[verdict]]
-        unread = len(self._counted) - len(outcomes)
-        if unread:
-            said.append(f"{unread} could not be read")
-        seconds = sum(seconds for _, seconds in self._counted)
-        yield f"{many(len(self._counted), 'scene')} in {_seconds(seconds)}: {', '.join(said)}"
-        yield from self._expected()
-        are = Counter(name for outcome in outcomes for name in outcome["is"] if name != "undecided")
+        said = [f"{self._verdicts[verdict]} {verdict}" for verdict in VERDICTS if self._verdicts[verdict]]
+        if self._unread:
+            said.append(f"{self._unread} could not be read")
+        yield f"{many(self._files, 'scene')} in {_seconds(self._seconds)}: {', '.join(said)}"
+        if self._asked:
+            yield f"  right by their own answers: {self._asked - self._wrong} of {self._asked}"
+        if self._wrong:
+            more = f" and {self._wrong - _MOST_NAMED} more" if self._wrong > _MOST_NAMED else ""
+            yield f"  otherwise than they expect: {', '.join(self._named)}{more}"
+        are = [f"{self._are[name]} {name}" for name in FAILURES if self._are[name] and name != "undecided"]
         if are:
-            yield f"  {', '.join(f'{are[name]} {name}' for name in FAILURES if are[name])}"
-        by_time = [(found.get("seconds", took), found["scene"]) for found, took in self._counted if found]
-        slowest = sorted(by_time, key=lambda pair: -pair[0])[:_SLOWEST]
-        if slowest:
-            yield f"  slowest: {', '.join(f'{scene} {_seconds(seconds)}' for seconds, scene in slowest)}"
-
-    def _expected(self) -> Iterator[str]:
-        """How many are as they expect, and which are not."""
-        asked = [outcome for outcome in self._outcomes if outcome.get("expects")]
-        wrong = [outcome["scene"] for outcome in asked if outcome["unmet"]]
-        if asked:
-            yield f"  right by their own answers: {len(asked) - len(wrong)} of {len(asked)}"
-        if wrong:
-            more = f" and {len(wrong) - _MOST_NAMED} more" if len(wrong) > _MOST_NAMED else ""
-            yield f"  otherwise than they expect: {', '.join(wrong[:_MOST_NAMED])}{more}"
+            yield f"  {', '.join(are)}"
+        if self._slowest:
+            yield f"  slowest: {', '.join(f'{scene} {_seconds(seconds)}' for seconds, _, scene in self._slowest)}"
 
 
 def _seconds(seconds: float) -> str:

@@ -10,13 +10,14 @@ import json
 import os
 import stat
 import sys
+from collections import Counter
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 from dofkit.base.deadline import DEFAULT_SECONDS, limit
 from dofkit.base.documents.document import MOST_BYTES
-from dofkit.base.workers import Job, Json, Worker
+from dofkit.base.workers import Job, JobOutcome, Json, Worker
 from dofkit.base.workers.processes import can_fork
 from dofkit.interface.presentation import Telling
 from dofkit.interface.streams import ascii_only
@@ -100,6 +101,13 @@ class Printed(NamedTuple):
     outcome: Mapping[str, Any] | None = None
 
 
+class Runner(Protocol):
+    """What does jobs: a worker, or several of them."""
+
+    def run(self, job: Job) -> JobOutcome:
+        """Do one job."""
+
+
 def reports(
     files: Sequence[str], telling: Telling, budget: float | None, method: MethodName, certificate: str | None = None
 ) -> Generator[Printed]:
@@ -107,13 +115,17 @@ def reports(
 
     ``certificate``: where the certificate of a file is written; a folder for those of several files.
     """
+    given = given_for_all(files, telling._replace(ascii_only=ascii_only()), budget, method)
+    return _answers(files, given, report_by, (ONE_FILE,), places_of(files, certificate))
+
+
+def given_for_all(files: Sequence[str], telling: Telling, budget: float | None, method: MethodName) -> Given:
+    """What is asked of every file."""
     seconds = DEFAULT_SECONDS if budget is None else budget
-    widest = max(map(len, names_of(files)), default=0)
-    given = Given("", seconds, method, telling._replace(ascii_only=ascii_only()), widest=widest)
-    return _answers(files, given, _report, (ONE_FILE,), _places(files, certificate))
+    return Given("", seconds, method, telling, widest=max(map(len, names_of(files)), default=0))
 
 
-def _places(files: Sequence[str], certificate: str | None) -> list[str | None]:
+def places_of(files: Sequence[str], certificate: str | None) -> list[str | None]:
     """Where the certificate of each file is written: in a folder by its name, numbered where another has it."""
     if certificate is None:
         return [None] * len(files)
@@ -124,8 +136,11 @@ def _places(files: Sequence[str], certificate: str | None) -> list[str | None]:
 
 def _own_names(files: Sequence[str]) -> list[str]:
     """The name of each file, numbered where one before has it."""
-    names = names_of(files)
-    return [name if names.index(name) == k else f"{name}-{names[:k].count(name) + 1}" for k, name in enumerate(names)]
+    found, met = [], Counter[str]()
+    for name in names_of(files):
+        met[name] += 1
+        found.append(name if met[name] == 1 else f"{name}-{met[name]}")
+    return found
 
 
 def names_of(files: Sequence[str]) -> list[str]:
@@ -154,7 +169,7 @@ def pictures(files: Sequence[str], kind: str, out: str | None, ending: str) -> G
     given = Given("", DEFAULT_SECONDS, "auto", Telling.here(False)._replace(ascii_only=ascii_only()))
     try:
         for file, place in zip(files, places, strict=True):
-            asked = replace(given, file=file, data=_data(file), picture=PictureGiven(kind, place))
+            asked = replace(given, file=file, data=data_of(file), picture=PictureGiven(kind, place))
             job = Job(f"{ONE_PICTURE}:picture_lines", asked, PICTURE_SHARE * limit(given.budget))
             outcome = worker.run(job)
             yield Printed(**outcome.value) if outcome.finished else _plain(asked, outcome.reason)
@@ -188,14 +203,20 @@ def _answers(
     worker = Worker(modules=modules, fork=can_fork())
     try:
         for file, place in zip(files, places or [None] * len(files), strict=True):
-            yield ask(worker, replace(given, file=file, data=_data(file), certificate=place))
+            yield ask(worker, replace(given, file=file, data=data_of(file), certificate=place))
     finally:
         worker.kill()
 
 
-def _report(worker: Worker, given: Given) -> Printed:
-    reading = limit(max(given.budget, DEFAULT_SECONDS))
-    seconds = limit(given.budget) * (1 if given.certificate is None else CERTIFICATE_SHARE)
+def limits_of(given: Given) -> tuple[float, float]:
+    """Seconds for reading a file, and for its report."""
+    share = 1 if given.certificate is None else CERTIFICATE_SHARE
+    return limit(max(given.budget, DEFAULT_SECONDS)), share * limit(given.budget)
+
+
+def report_by(worker: Runner, given: Given) -> Printed:
+    """What is printed of the report on one file, whatever becomes of the worker."""
+    reading, seconds = limits_of(given)
     outcome = worker.run(Job("dofkit.interface.one_file:report_lines", given, seconds, reading))
     if not outcome.finished:
         cut = Cut(given, outcome.value, outcome.reason)
@@ -219,7 +240,7 @@ def _plain(given: Given, reason: str) -> Printed:
     return Printed(json.dumps({"scene": given.name, "error": error}) + "\n", "", True)
 
 
-def _data(file: str) -> bytes | None:
+def data_of(file: str) -> bytes | None:
     """The bytes of standard input, or of a pipe: they may be long in coming, so that no clock runs for them."""
     if file == "-":
         return b"" if sys.stdin is None else sys.stdin.buffer.read(MOST_BYTES + 1)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-import networkx as nx
-
+from dofkit.base.libraries import nx
 from dofkit.system import GROUND, Connection, System
 
 
@@ -31,8 +30,9 @@ def _is_tree(system: System, joints: list[Connection]) -> bool:
     """Does every joint join what was apart, and is there nothing else but couplings and bounds?"""
     own = {c.constraint for c in joints}
     for index, c in enumerate(system.connections):
-        bounded = all(relation.sense != "=" for relation in system.constraints[index].relations)
-        if index not in own and not c.rates and not bounded:
+        if index in own or c.rates:
+            continue
+        if any(relation.sense == "=" for relation in system.constraints[index].relations):
             return False
     apart: nx.utils.UnionFind[str] = nx.utils.UnionFind()
     for c in joints:
@@ -48,10 +48,13 @@ def _floating(system: System, joints: list[Connection]) -> Iterator[str]:
     for c in joints:
         held.union(*c.members)
     roots = {held[GROUND]}
+    own: dict[str | None, list[str]] = {}
+    for q in system.coordinates:
+        own.setdefault(q.owner, []).append(q.name)
     for name in system.bodies:
         if held[name] not in roots:
             roots.add(held[name])
-            yield from (q.name for q in system.coordinates if q.owner == name)
+            yield from own.get(name, ())
     yield from (q.name for q in system.coordinates if q.owner not in system.bodies)
 
 

@@ -12,8 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-import networkx as nx
-
+from dofkit.base.libraries import nx
 from dofkit.base.wording import many, verb
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.mobility.placement import Placement

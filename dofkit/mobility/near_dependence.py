@@ -12,8 +12,7 @@ from itertools import pairwise
 from math import ceil, floor, log10
 from typing import Any
 
-import numpy as np
-
+from dofkit.base.libraries import np
 from dofkit.mobility.placement import Placement
 from dofkit.mobility.twists import TURNS, Member, rows_of
 

@@ -7,8 +7,7 @@ from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import networkx as nx
-
+from dofkit.base.libraries import nx
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.rows import LinearRow
 from dofkit.exact.points.field import field_point

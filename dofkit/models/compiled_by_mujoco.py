@@ -8,15 +8,24 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.workers import Job, Worker
+from dofkit.base.workers import Job
+from dofkit.base.workers.pool import shared
 from dofkit.models.markup import Element, read_markup
 from dofkit.models.model_document import ModelFile
 
-#: Seconds that the compiler may take; bytes of its memory.
-SECONDS, MEMORY = 60.0, 4 << 30
+#: Seconds that the compiler may take.
+SECONDS = 60.0
+#: What works in a process of its own, which is kept for the models that follow.
+COMPILER = "dofkit.models.mujoco_model"
 #: Files that a model may include, one in another.
 MOST_INCLUDED = 300
 
+#: Attributes that place or weigh something.
+_MEASURES = (
+    *("pos", "quat", "axisangle", "xyaxes", "zaxis", "euler", "axis", "fromto", "anchor", "relpose", "ref"),
+    *("mass", "diaginertia", "fullinertia", "density", "polycoef", "size", "gravity"),
+)
+_NO_NUMBER = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
 _LINE = re.compile(r"line (\d+)")
 _NOISE = re.compile(r"^(?:XML )?Error: (?:Error: )?|,? ?line \d+\s*$|\bElement name '', id -?\d+")
 
@@ -33,20 +42,31 @@ def compiled(file: ModelFile) -> CompiledModel:
     """The model compiled. Raises SceneError for what the compiler does not take."""
     root = read_markup(file.data, file.name)
     included = tuple(_included(root, file))
-    worker = Worker(MEMORY, ("dofkit.models.mujoco_model", "mujoco"))
-    try:
-        payload = {"path": None if file.path is None else str(file.path), "text": file.text}
-        outcome = worker.run(Job("dofkit.models.mujoco_model:described_model", payload, SECONDS))
-    finally:
-        worker.kill()
+    faults = [*_not_finite(root), *(fault for part in included for fault in _not_finite(part))]
+    if faults:
+        raise SceneError(tuple(faults), file.name)
+    payload = {"path": None if file.path is None else str(file.path), "text": file.text}
+    outcome = shared(COMPILER).run(Job(f"{COMPILER}:described_model", payload, SECONDS))
     if not outcome.finished:
         raise SceneError((_fault(outcome.reason, outcome.error),), file.name)
     return CompiledModel(outcome.value, root, included)
 
 
+def _not_finite(root: Element) -> Iterator[Fault]:
+    """Numbers that are none, of which the compiler makes places that are none."""
+    for part in root.every():
+        for key in _MEASURES:
+            odd = [word for word in part.get(key).split() if _NO_NUMBER.fullmatch(word)]
+            if odd:
+                hint = "write a finite number"
+                yield Fault(f"`{key}` of <{part.tag}> holds '{odd[0]}'", line=part.line, column=1, hint=hint)
+
+
 def _fault(reason: str, error: str) -> Fault:
     """What the compiler says, in its line."""
-    said = reason.removeprefix(f"{error}: ") if error else reason
+    if not error:
+        return Fault(f"MuJoCo's compiler was stopped: {reason}", hint="make the model smaller, or split it")
+    said = reason.removeprefix(f"{error}: ")
     lines = _LINE.findall(said)
     while (shorter := _NOISE.sub("", said).strip()) != said:
         said = shorter

@@ -42,6 +42,11 @@ def is_model(data: bytes | str) -> bool:
     return start.startswith((b"<?xml", b"<!", _SKETCH)) or _TAG.match(start) is not None
 
 
+def is_known_model(data: bytes | str) -> bool:
+    """Does a file begin as one of the `FORMATS`?"""
+    return is_model(data) and _first_tag(_beginning(data)) in {one.tag for one in FORMATS}
+
+
 def format_of(data: bytes | str) -> ModelFormat | None:
     """The format of a file by its beginning; None for a scene. Raises SceneError for XML that is no model."""
     if not is_model(data):

@@ -7,6 +7,7 @@ those that SolveSpace shows: r004 for what was drawn fourth, c001 for the first 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -32,7 +33,10 @@ _COMMENT = 1000
 #: SolveSpace stops where its equations hold to within this.
 SOLVED = 1e-6
 _DERIVED = 0x80000000
-_SKETCHES = (5000, 5001)
+_IN_SPACE = 5000
+#: The group of the axes.
+_REFERENCES = 1
+_SKETCHES = (_IN_SPACE, 5001)
 #: What the points of an entity are called.
 _ROLES = {_LINE: ("start", "end"), _CIRCLE: ("centre",), _ARC: ("centre", "start", "end")}
 
@@ -42,8 +46,11 @@ def read(file: ModelFile) -> ModelDocument:
     found = read_sketch(file)
     plane = _main_plane(found)
     if not plane:
-        hint = "sketches in a workplane are read; those of space are not"
-        fault = Fault("no point of this file is drawn in a workplane", line=1, column=1, hint=hint)
+        drawn = [g for h, g in found.groups.items() if g.whole("type") == _IN_SPACE and h != _REFERENCES]
+        names = f": {listed(g.values.get('name', '') for g in drawn)} is drawn in space" if drawn else ""
+        hint = "draw it in a workplane: Sketch, In Workplane; sketches of space are not read"
+        line = drawn[0].line if drawn else 1
+        fault = Fault(f"no point of this file is drawn in a workplane{names}", line=line, column=1, hint=hint)
         raise SceneError((fault,), file.name)
     draft = SceneDraft(f"SolveSpace sketch {file.name}", dimension=2)
     return _SketchScene(found, draft, plane).document()
@@ -183,12 +190,21 @@ class _SketchScene:
         other = [e for h, e in self.file.entities.items() if h in own and self._elsewhere(h, e)]
         if other:
             self.draft.leave_out(f"{len(other)} points outside the plane of most points: one plane is read")
+        space = [group.values.get("name", "") for group in self._spatial_groups(other)]
+        if space:
+            self.draft.leave_out(f"{listed(space)}: sketches in space, whose constraints would need three coordinates")
         odd = {e.whole("type") for h, e in self.file.entities.items() if h in own} & {12000, 12001, 15000, 16000}
         if odd:
             self.draft.leave_out("cubic curves, texts and images: their points are read, and not what they do between")
         groups = [g.values.get("name", "") for g in self.file.groups.values() if g.whole("type") not in _SKETCHES]
         if groups:
             self.draft.leave_out(f"{listed(groups)}: groups that are derived from sketches")
+
+    def _spatial_groups(self, entities: Iterable[Record]) -> list[Record]:
+        """The sketches of space in which entities were drawn, in the order of the file."""
+        requests = [self.file.requests.get(entity.handle() >> 16) for entity in entities]
+        drawn_in = {request.handle("group.v") for request in requests if request is not None}
+        return [g for h, g in self.file.groups.items() if h in drawn_in and g.whole("type") == _IN_SPACE]
 
     def _elsewhere(self, handle: int, record: Record) -> bool:
         return record.whole("type") in _POINTS and handle not in self.points

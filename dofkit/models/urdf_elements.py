@@ -208,6 +208,8 @@ class _RobotReader:
             return RobotLink(part.line, Transform(np.eye(3), np.zeros(3)), 0.0, np.zeros((3, 3)))
         mass, inertia = inertial.first("mass"), inertial.first("inertia")
         weight = 0.0 if mass is None else self._numbers(mass, "value", (0.0,))[0]
+        if mass is not None and weight < 0:
+            self._fault(mass, f"the mass of '{part.get('name')}' is negative", "write what it weighs, or 0")
         xx, xy, xz, yy, yz, zz = (
             0.0 if inertia is None else self._numbers(inertia, key, (0.0,))[0]
             for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")

@@ -13,6 +13,7 @@ from dofkit.base.verdicts import OPEN, About, ArgumentKey, Claim, Verdict
 from dofkit.exact.matrices.sparse import SparseRow, Supports
 from dofkit.exact.zero.independence import Doubt
 from dofkit.expressions.tree import Expr
+from dofkit.relations.blocks import Block
 
 #: The chance of an error at points over GF(p) is below 2 to the minus this; ratios that tell 0 from not 0 are larger.
 BITS, GAP = 30, 1e3
@@ -59,6 +60,13 @@ class FollowedClasses(NamedTuple):
     spared: int = 0
 
 
+class AnsweredPart(NamedTuple):
+    """Of a block that joints without loops hold together: what they hold, answered by itself."""
+
+    block: Block
+    answer: Answer
+
+
 DEFECTS = logging.getLogger("dofkit.defects")
 
 
@@ -76,7 +84,8 @@ class Answer:
     points it is told; ``argument``: by which row of the table, with a chance of error below 2^-``bits``, or a ``gap``;
     ``witness``: a certified configuration, as text, and ``real`` the rows there; ``first_order_sure``: is the number of
     velocities at the reference proved? ``exists``: and that the relations hold there at all times? ``trusted``: is
-    what is not 0 over GF(p) known not to be 0?
+    what is not 0 over GF(p) known not to be 0? ``parts``: what was answered apart, all other rows being independent of
+    each other and of these; None where the whole was looked at together, and only then is there a ``matrix``.
     """
 
     consistent: bool | None = True
@@ -111,6 +120,7 @@ class Answer:
     linear: bool = False
     looked: FollowedClasses = field(default_factory=FollowedClasses)
     size: Size = field(default_factory=Size)
+    parts: tuple[AnsweredPart, ...] | None = None
 
     @property
     def claim(self) -> Claim:

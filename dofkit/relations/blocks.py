@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
-import networkx as nx
-
+from dofkit.base.components import components
 from dofkit.expressions import tree as ex
+from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
+from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Pfaffian, Piece
+from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Pfaffian, Piece, linear_form
 from dofkit.relations.reductions import Reductions
 
 
@@ -47,7 +49,9 @@ class Block:
 
 
 def coordinates_of(piece: Piece) -> frozenset[str]:
-    """Every coordinate a piece mentions, in coefficients, velocities and differentials too."""
+    """Every coordinate a piece mentions, in coefficients, velocities and differentials too; of a joint all of them."""
+    if isinstance(piece, JointEquation):
+        return piece.joint.mentioned
     named: frozenset[str] = frozenset()
     if isinstance(piece, Pfaffian):
         named = frozenset(piece.coefficients)
@@ -57,28 +61,57 @@ def coordinates_of(piece: Piece) -> frozenset[str]:
     return frozenset(named | {str(s.args[1]) for s in symbols if s.args[0] in ("coordinate", "velocity")})
 
 
+def with_boundaries(rows: Sequence[Row]) -> list[Row]:
+    """The rows with u = 0 in place of the conditions u >= 0 and -u >= 0, as the later one's."""
+    kept: dict[int, Row] = {}
+    sides: dict[frozenset[tuple[Expr, Fraction]], int] = {}
+    for place, row in enumerate(rows):
+        kept[place] = row
+        if not isinstance(row.piece, DomainCondition) or row.piece.sense != ">=":
+            continue
+        form, terms = linear_form(row.piece.expr), linear_terms(row.piece.expr).items()
+        pair = sides.pop(frozenset((term, -c) for term, c in terms), None)
+        if pair is None or form is None:
+            sides[frozenset(terms)] = place
+            continue
+        del kept[pair]
+        kept[place] = Row(row.constraint, form if form.coefficients else Finite(row.piece.expr))
+    return list(kept.values())
+
+
 def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block], list[str]]:
     """(blocks, coordinates that nothing touches). Rows without coordinates are blocks of their own.
 
     Two rows share a block if they share a coordinate anywhere, coefficients included; conditions are rows here.
     """
-    graph: nx.Graph = nx.Graph()
     touched = [coordinates_of(row.piece) for row in rows]
-    for i, mentioned in enumerate(touched):
-        graph.add_node(i)
-        graph.add_edges_from((i, name) for name in mentioned)
     place = {c: k for k, c in enumerate(coordinates)}
     blocks = []
-    for component in nx.connected_components(graph):
-        numbers = sorted(i for i in component if isinstance(i, int))
+    for numbers in components(_linked(rows, touched)):
         conditions = tuple(dict.fromkeys(p for i in numbers if isinstance(p := rows[i].piece, DomainCondition)))
         members = [rows[i] for i in numbers if not isinstance(rows[i].piece, DomainCondition)]
         ordered = [r for r in members if isinstance(r.piece, Finite)]
         ordered += [r for r in members if not isinstance(r.piece, Finite)]
-        names = sorted((name for name in component if isinstance(name, str)), key=place.__getitem__)
-        blocks.append((numbers[0], Block(tuple(names), tuple(ordered), conditions)))
-    used = frozenset().union(*touched) if touched else frozenset()
-    return [b for _, b in sorted(blocks, key=lambda pair: pair[0])], [c for c in coordinates if c not in used]
+        names = sorted(_all({id(touched[i]): touched[i] for i in numbers}.values()), key=place.__getitem__)
+        blocks.append(Block(tuple(names), tuple(ordered), conditions))
+    used = _all({id(mentioned): mentioned for mentioned in touched}.values())
+    return blocks, [c for c in coordinates if c not in used]
+
+
+def _linked(rows: Sequence[Row], touched: Sequence[frozenset[str]]) -> Iterator[Iterable[Hashable]]:
+    """What joins rows: the coordinates that they mention, and the joint, of which one equation names them for all."""
+    known: set[int] = set()
+    for row, mentioned in zip(rows, touched, strict=True):
+        if not isinstance(row.piece, JointEquation):
+            yield mentioned
+            continue
+        joint = id(row.piece.joint)
+        yield (joint,) if joint in known else (joint, *mentioned)
+        known.add(joint)
+
+
+def _all(parts: Iterable[frozenset[str]]) -> frozenset[str]:
+    return frozenset[str]().union(*parts)
 
 
 def blocks_of(coordinates: Sequence[str], rows: Sequence[Row], reductions: Reductions) -> tuple[list[Block], list[str]]:

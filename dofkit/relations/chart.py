@@ -20,7 +20,7 @@ class Chart:
     ``columns`` are generator indices (-1: the symbol occurs nowhere); ``unknowns`` are the symbols that a
     real search moves: coordinates and generic geometry. ``relations`` are what the nodes compute; ``engines`` those
     that may look at it; ``size`` is the scale of lengths; ``reductions``: those in
-    use, and ``kinds`` which of them may use each relation.
+    use, and ``kinds`` which of them may use each relation. ``within``: they hang by joints on other bodies.
     """
 
     ring: Ring
@@ -35,6 +35,7 @@ class Chart:
     size: float = 1.0
     reductions: Reductions = ALL
     kinds: tuple[ReductionName, ...] = ()
+    within: bool = False
 
     @property
     def coordinates(self) -> int:

@@ -19,6 +19,8 @@ from dofkit.relations.setting import Setting
 
 def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
     """Coordinates that a finite relation gives explicitly (theta = w t), where they stand inside functions."""
+    if not finite:
+        return {}
     inside = {s for e in (*expressions(block), *finite) for s in _inside_functions(e)}
     found: dict[Expr, Expr] = {}
     for g in finite:
@@ -71,6 +73,7 @@ def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more:
         setting.size,
         setting.reductions,
         _kinds(block, setting, len(extra)),
+        setting.within,
     )
 
 

@@ -18,6 +18,7 @@ ReductionName = Literal[
     "welds",
     "clusters",
     "eliminations",
+    "bridges",
     "classes",
     "closed",
     "cheapest",
@@ -77,6 +78,13 @@ REDUCTIONS: Mapping[ReductionName, Reduction] = {
         "linear relations among the finite ones, solved beforehand and not at every point; where relations are "
         "followed from a drawing, the coordinates that such a relation gives (z = 0)",
         "an invertible change of linear equations has the same solutions (Gauss), and they are a graph",
+    ),
+    "bridges": Reduction(
+        "joints that close no loop",
+        "at a drawing, the equations of joints that are all that holds some bodies to the rest; in space they are not "
+        "even written out",
+        "the set is a product with the joint's own manifold, after moving these bodies as one; so its equations are "
+        "independent of all others",
     ),
     "classes": Reduction(
         "classes of dependent relations",

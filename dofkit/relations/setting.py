@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal, NamedTuple
@@ -11,6 +11,13 @@ from dofkit.exact.engines import BOTH, Engines
 from dofkit.expressions.tree import Expr
 from dofkit.relations.reductions import ALL, Reductions
 from dofkit.system import Coordinate, Distance
+
+
+class NamedRows(NamedTuple):
+    """Rows over GF(``p``) by the names of coordinates, without zeros."""
+
+    rows: list[dict[str, int]]
+    p: int
 
 
 class TurnedBody(NamedTuple):
@@ -35,7 +42,9 @@ class Setting:
     that rigid links join, by constraint; ``reductions``: those in use; ``welds``: the constraints that weld;
     ``geometric``: those that are no texts, whose numbers are measured where there is a ``tolerance``; then ``bodies``
     and the ``centre`` of all that is drawn are told too. ``tilts``: the second of the Euler angles of bodies whose
-    angles texts name; where its sine is 0 the other two turn alike.
+    angles texts name; where its sine is 0 the other two turn alike. ``bridges``: the joints that close no loop;
+    ``within``: what is asked of hangs by such joints on more. ``joint_rows``: of constraints at the drawing, where the
+    geometry of joints alone tells them.
     """
 
     positive: frozenset[Expr]
@@ -57,3 +66,6 @@ class Setting:
     bodies: tuple[TurnedBody, ...] = ()
     centre: tuple[float, ...] = ()
     tilts: frozenset[str] = frozenset()
+    bridges: frozenset[int] = frozenset()
+    within: bool = False
+    joint_rows: Callable[[Iterable[int]], NamedRows | None] | None = None

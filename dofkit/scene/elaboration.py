@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import check as out_of_time
 from dofkit.base.errors import Fault
+from dofkit.expressions.unwritten import Unwritten
 from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.ledger import Ledger
@@ -72,7 +73,8 @@ def _constraint_of(world: World, constraint: ConstraintBase, name: str) -> Const
         message = f"'{kind}' is for dimension {allowed}; this scene has dimension {world.dimension}"
         world.fault(message, "type", hint=_INSTEAD[world.dimension])
         return Constraint(name, kind, constraint.facts, constraint.in_words, ())
-    relations = tuple(constraint.relations(world))
+    found = constraint.relations(world)
+    relations = found if isinstance(found, Unwritten) else tuple(found)
     return Constraint(name, kind, constraint.facts, constraint.in_words, relations, tuple(constraint.notes(world)))
 
 
@@ -86,7 +88,8 @@ def _connection(mentioned: Mentioned, index: int, constraint: Constraint) -> Con
         tuple(mentioned.places),
         tuple(mentioned.directions),
         mentioned.number,
-        any(relation.part == "drive" for relation in constraint.relations),
+        not isinstance(constraint.relations, Unwritten)
+        and any(relation.part == "drive" for relation in constraint.relations),
         tuple(mentioned.rates),
     )
 

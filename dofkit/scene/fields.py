@@ -286,12 +286,12 @@ def untagged(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
 class WrittenModel(BaseModel):
     """The base of what a person writes: frozen, no unknown keys, an empty value the same as none."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
     @model_validator(mode="wrap")
     @classmethod
     def _retell(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        if isinstance(data, Mapping) and None in data.values():
+        if isinstance(data, (dict, Mapping)) and None in data.values():
             data = {key: value for key, value in data.items() if value is not None or key not in cls.model_fields}
         try:
             return handler(data)

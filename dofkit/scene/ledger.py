@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from fractions import Fraction
 
 from dofkit.base.errors import Fault, TextError
+from dofkit.expressions.differentials import in_velocities, linear_in_accelerations
+from dofkit.expressions.renaming import Template
 from dofkit.expressions.text import Names, parse_expression, parse_relations
+from dofkit.expressions.text.patterns import pattern_of
 from dofkit.expressions.tree import Expr, num, parameter
 from dofkit.expressions.vectors import Vec
 from dofkit.scene.fields import Vector, as_written, suggestion
@@ -59,12 +62,48 @@ class Ledger:
         self.fault(f"there is no {what} '{name}'", *where, hint=hint)
 
 
+#: Relations as expressions and their senses against 0.
+Equations = list[tuple[Expr, Sense]]
+
+
 class ParsedTexts:
     """Expressions of texts that are read with some names, each parsed once however often it occurs."""
 
     def __init__(self, names: Names) -> None:
         self.names = names
         self._parsed: dict[str, Expr | TextError] = {}
+        self._patterns: dict[Hashable, tuple[tuple[str, ...], list[tuple[Template, Sense]]]] = {}
+        self._made: dict[Hashable, tuple[list[int], Template]] = {}
+
+    def equations(self, text: str) -> Equations:
+        """The relations of a text that may mention anything, as expressions and their senses against 0.
+
+        A text that is one read before up to the names of coordinates is that one in other names. Raises TextError for
+        what cannot be read, and for second derivatives and differentials that say nothing where they stand.
+        """
+        pattern = pattern_of(text, self.names.lookup)
+        known = None if pattern is None else self._patterns.get(pattern.key)
+        if pattern is not None and known is not None:
+            names = dict(zip(known[0], pattern.names, strict=True))
+            return [(template.of([names[n] for n in template.names]), sense) for template, sense in known[1]]
+        found = _equations(text, self.names)
+        for e, sense in found:
+            linear_in_accelerations(e, sense)
+            in_velocities(e)
+        if pattern is not None:
+            self._patterns[pattern.key] = pattern.names, [(Template(e), sense) for e, sense in found]
+        return found
+
+    def in_names(self, kind: Hashable, names: Sequence[str], make: Callable[[], Expr]) -> Expr:
+        """What ``make`` makes of some names, all different: the same for one ``kind`` but for these; made once."""
+        known = self._made.get(kind)
+        if known is not None:
+            places, template = known
+            return template.of([names[k] for k in places])
+        found = make()
+        template = Template(found)
+        self._made[kind] = [names.index(name) for name in template.names], template
+        return found
 
     def expression(self, text: str) -> Expr | TextError:
         """The expression of a text, or why it is none."""
@@ -145,19 +184,34 @@ class Texts(Ledger):
                 self.fault(message, *where, hint=_instead(kind, allow))
                 return
 
-    def relations(
-        self, text: str, *where: str | int, names: Names | None = None, allow: frozenset[str] = ANYTHING
-    ) -> list[tuple[Expr, Sense]]:
-        """The relations of a text, each as an expression and its sense against 0."""
+    def in_names(self, kind: Hashable, symbols: Sequence[Expr], make: Callable[[], Expr]) -> Expr:
+        """What ``make`` makes of some symbols; see `ParsedTexts`."""
+        return self._reader.in_names(kind, [str(s.args[1]) for s in symbols], make)
+
+    def equations(self, text: str, *where: str | int) -> Equations:
+        """The relations of a text that may mention anything, and what says nothing is a fault; see `ParsedTexts`."""
         try:
-            found = parse_relations(text, names or self.names)
+            return self._reader.equations(text)
         except TextError as error:
             self.fault(error.message, *where, hint=self.advice(error, text), column=error.column)
             return []
-        told = []
-        for comparison in found:
-            sense, swap = _SENSES[comparison.relation]
-            e = comparison.right - comparison.left if swap else comparison.left - comparison.right
+
+    def relations(self, text: str, *where: str | int, names: Names, allow: frozenset[str]) -> Equations:
+        """The relations of a text in other names, each as an expression and its sense against 0."""
+        try:
+            found = _equations(text, names)
+        except TextError as error:
+            self.fault(error.message, *where, hint=self.advice(error, text), column=error.column)
+            return []
+        for e, _ in found:
             self.only(e, allow, *where)
-            told.append((e, sense))
-        return told
+        return found
+
+
+def _equations(text: str, names: Names) -> Equations:
+    told: Equations = []
+    for comparison in parse_relations(text, names):
+        sense, swap = _SENSES[comparison.relation]
+        e = comparison.right - comparison.left if swap else comparison.left - comparison.right
+        told.append((e, sense))
+    return told

@@ -9,7 +9,7 @@ from functools import partial
 from dofkit.base.errors import SceneError
 from dofkit.base.wording import verb
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.tree import Expr, parameter
+from dofkit.expressions.tree import parameter
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.reference import pose_of, reference_of, undrawn
@@ -82,9 +82,8 @@ def system_of(scene: Scene, found: Survey) -> System:
 
 
 def _touched(constraints: Iterable[Constraint]) -> frozenset[str]:
-    """The coordinates that relations mention, by their values, velocities or differentials."""
-    symbols = frozenset[Expr]().union(*(r.expr.symbols for c in constraints for r in c.relations))
-    return frozenset(str(s.args[1]) for s in symbols if s.args[0] not in ("parameter", "time", "dt"))
+    """The coordinates that relations mention."""
+    return frozenset[str]().union(*(c.mentioned for c in constraints))
 
 
 def _partly(found: Survey, missing: Sequence[str]) -> Iterator[str]:

@@ -22,9 +22,9 @@ class BodyPoint(WrittenModel):
 
 
 def _point_kind(value: object) -> str:
-    if isinstance(value, (Mapping, BodyPoint)):
-        return "material"
-    return "name" if isinstance(value, str) else "place"
+    if isinstance(value, str):
+        return "name"
+    return "material" if isinstance(value, (dict, Mapping, BodyPoint)) else "place"
 
 
 #: A particle's name, a point fixed in the world, or a material point of a body.

@@ -16,6 +16,7 @@ from dofkit.base.arguments import description_of
 from dofkit.base.documents import Document, read_document
 from dofkit.base.documents.fast_flow import DEEPEST
 from dofkit.base.errors import ArgumentError, Fault, SceneError
+from dofkit.base.memory import undisturbed
 from dofkit.models.formats import is_model, read_model
 from dofkit.models.model_document import ModelFile
 from dofkit.scene.constraints.equations import as_equation
@@ -39,6 +40,7 @@ _TAKEN = "a Scene, a path, a catalog name or a mapping"
 SceneLike = Scene | str | os.PathLike[str] | Mapping[str, Any]
 
 
+@undisturbed()
 def load(source: SceneLike, *, name: str | None = None, limits: bool = False) -> Scene:
     """The scene of a YAML or JSON file, of the catalog, or of a mapping; a Scene is returned as it is.
 
@@ -63,6 +65,7 @@ def load(source: SceneLike, *, name: str | None = None, limits: bool = False) ->
     return SceneFile.read(found.data, name or found.name, found.path, limits).scene()
 
 
+@undisturbed()
 def loads(data: bytes | str, name: str = "scene") -> Scene:
     """The scene of a YAML or JSON text (or its bytes in UTF-8), which is called ``name`` unless it says otherwise.
 
@@ -179,7 +182,7 @@ def _too_deep(source: object) -> tuple[str | int, ...] | None:
     for _ in range(DEEPEST):
         below: list[tuple[tuple[str | int, ...], object]] = []
         for path, value in level:
-            if isinstance(value, Mapping):
+            if isinstance(value, (dict, Mapping)):
                 below += [((*path, str(key)), part) for key, part in value.items() if _holds(part)]
             elif isinstance(value, (list, tuple)):
                 below += [((*path, i), part) for i, part in enumerate(value) if _holds(part)]
@@ -190,7 +193,7 @@ def _too_deep(source: object) -> tuple[str | int, ...] | None:
 
 
 def _holds(value: object) -> bool:
-    return isinstance(value, (Mapping, list, tuple))
+    return not isinstance(value, str) and isinstance(value, (dict, list, tuple, Mapping))
 
 
 def _scene_and_faults(value: Mapping[str, Any], checked: bool) -> tuple[Scene | None, tuple[Fault, ...]]:

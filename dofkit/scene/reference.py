@@ -106,7 +106,7 @@ def reference_of(
 
 def undrawn(drawing: Drawing, drawn: Set[str], pose: Mapping[Expr, Expr], touched: Set[str]) -> tuple[str, ...]:
     """The bodies, particles and coordinates that a constraint has ``touched`` and that are not drawn."""
-    table = drawing.vocabulary.table
+    table, known = drawing.vocabulary.table, frozenset(str(s.args[1]) for s in pose)
     found = [b for b, names in table.bodies.items() if b not in drawn and not touched.isdisjoint(names)]
-    bare = (q for q in table.coordinates if q.name in touched and coordinate(q.name) not in pose)
+    bare = (q for q in table.coordinates if q.name in touched and q.name not in known)
     return tuple(dict.fromkeys([*found, *(q.owner or q.name for q in bare)]))

@@ -13,7 +13,7 @@ from pydantic import BeforeValidator, Field, PrivateAttr, WrapValidator
 
 from dofkit.base.display import Displayed
 from dofkit.base.errors import Fault
-from dofkit.scene.constraints import TYPES, AnyConstraint, ConstraintBase
+from dofkit.scene.constraints import TYPES, ConstraintBase, OneConstraint
 from dofkit.scene.constraints.equations import as_equation
 from dofkit.scene.fields import (
     Listed,
@@ -96,9 +96,9 @@ def _tolerance(value: object) -> object:
 
 _Mapping = BeforeValidator(_mapping)
 _AnyConstraint = Annotated[
-    AnyConstraint,
+    OneConstraint,
     WrapValidator(_CONSTRAINT.validated),
-    BeforeValidator(as_equation, json_schema_input_type=str | AnyConstraint),
+    BeforeValidator(as_equation, json_schema_input_type=str | OneConstraint),
 ]
 
 

@@ -156,7 +156,7 @@ def _subscripted(value: Any) -> bool:
                 return True
         elif isinstance(part, (list, tuple)):
             left += part
-        elif isinstance(part, Mapping):
+        elif isinstance(part, (dict, Mapping)):
             left += part
             left += part.values()
     return False

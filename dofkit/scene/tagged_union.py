@@ -32,7 +32,7 @@ class TaggedUnion:
 
     def validated(self, value: object, handler: ValidatorFunctionWrapHandler) -> Any:
         """A member, its faults at paths free of the key. Raises as Pydantic's validators do."""
-        if isinstance(value, Mapping):
+        if isinstance(value, (dict, Mapping)):
             given = value.get(self.key)
             if given is None:
                 raise fault_error(f"{self.called} needs its `{self.key}`", self.listing + ", ".join(self.known))

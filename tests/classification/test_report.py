@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import dofkit
@@ -54,3 +55,26 @@ def test_one_coordinate_and_one_equation_are_singular() -> None:
     report = dofkit.classify({"coordinates": ["x"], "constraints": ["x = 1", "2 x = 2"]})
     assert "1 coordinate in 1 independent part" in report.modelled
     assert "only 1 is independent here" in (report.count.errs or "")
+
+
+def test_a_witness_satisfies_the_relations_of_every_block() -> None:
+    """Blocks that are equal up to names have their own points; blocks that share a parameter have one value of it."""
+    twins = {"coordinates": ["x", "y", "u", "v"], "constraints": ["x^3 + y^2 = 5", "u^3 + v^2 = 5"]}
+    at = {name: float(Fraction(text)) for name, text in (dofkit.classify(twins).witness or {}).items()}
+    assert abs(at["x"] ** 3 + at["y"] ** 2 - 5) < 1e-12
+    assert abs(at["u"] ** 3 + at["v"] ** 2 - 5) < 1e-12
+    shared = {"parameters": {"a": "positive"}, "coordinates": ["x", "y", "u", "v"]}
+    shared["constraints"] = ["x^3 + y^2 = a", "u^5 + v = a^2"]
+    at = {name: float(Fraction(text)) for name, text in (dofkit.classify(shared).witness or {}).items()}
+    assert abs(at["x"] ** 3 + at["y"] ** 2 - at["a"]) < 1e-12
+    assert abs(at["u"] ** 5 + at["v"] - at["a"] ** 2) < 1e-12
+
+
+def test_no_witness_is_put_together_of_points_with_other_parameters() -> None:
+    """x asks for a >= 7/8 and y for a <= 9/8: most values of a do for one of the two only."""
+    apart = {"parameters": ["a"], "coordinates": ["x", "y"], "constraints": ["x^2 = a - 7/8", "y^2 = 9/8 - a"]}
+    at = dofkit.classify(apart).witness
+    if at is not None:
+        found = {name: float(Fraction(text)) for name, text in at.items()}
+        assert abs(found["x"] ** 2 - found["a"] + 7 / 8) < 1e-12
+        assert abs(found["y"] ** 2 - 9 / 8 + found["a"]) < 1e-12

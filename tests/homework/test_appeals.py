@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 
 import dofkit
+from dofkit.homework.assignment import load_assignment
+from dofkit.homework.own_sheets import SheetDrawer
 from dofkit.homework.runs.run import GradingOptions, run
 
 QUESTION = "questions: [{id: f, ask: dof, points: 2}]"
@@ -86,3 +88,32 @@ def test_answers_without_evidence_say_why(tmp_path: Path, capsys: pytest.Capture
     (told,) = json.loads((folder / "answers.json").read_text())
     assert (told["status"], told["files"]) == ("right", [])
     assert told["uncovered"] == "no cofactors were found that do everywhere"
+
+
+@pytest.mark.sweep
+def test_certificates_are_of_the_students_own_scenes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Another particle for each: of both the scene, and the right answer both ways."""
+    rod = {"name": "rod", "type": "link", "between": [[0, 0], "A"], "length": 2}
+    scene = {"dimension": 2, "particles": ["A"], "constraints": [rod]}
+    asked = [{"id": "rod", "ask": "equation", "constraint": "rod"}]
+    students = [{"student": "ana"}, {"student": "bo"}]
+    sheet = {"title": "T", "problems": [{"id": "p", "scene": scene, "questions": asked, "vary": ["names"]}]}
+    varied = {**sheet, "variants": {"seed": "7", "students": students}}
+    (tmp_path / "sheet.json").write_text(json.dumps(varied))
+    drawer = SheetDrawer(load_assignment(varied))
+    lines = []
+    for name in ("ana", "bo"):
+        x, y = drawer.own(name).keys["p"].coordinates
+        lines.append(json.dumps({"student": name, "answers": {"p": {"rod": f"{x}^2 + {y}^2 = 4"}}}))
+    assert lines[0][20:] != lines[1][20:]
+    (tmp_path / "in.jsonl").write_text("\n".join(lines))
+    folder = tmp_path / "why"
+    assert run(str(tmp_path / "sheet.json"), [str(tmp_path / "in.jsonl")], GradingOptions(certificates=folder))
+    capsys.readouterr()
+    told = json.loads((folder / "answers.json").read_text())
+    assert [(one["status"], len(one["files"])) for one in told] == [("right", 2)] * 2
+    assert len({one["variant"] for one in told}) == 2
+    assert len(list(folder.glob("p.????????.json"))) == 2
+    for path in folder.glob("p.*.json"):
+        found = dofkit.verify(None, path)
+        assert (found.failed, found.verified) == ([], found.claims)

@@ -169,6 +169,26 @@ def test_when_points_are_shown(line: str, expected: str, sheet: Path, tmp_path: 
     assert "point" not in found["output"].lower()
 
 
+@pytest.mark.parametrize(
+    ("dates", "expected"),
+    [
+        ({"due_date": "2026-11-30T23:00:00-07:00", "late_due_date": None}, "after_due_date"),
+        ({"due_date": None, "late_due_date": None}, "after_published"),
+        ({"due_date": None, "late_due_date": "2026-12-02T23:00:00-07:00"}, "after_due_date"),
+        ({}, "after_due_date"),
+    ],
+)
+@pytest.mark.parametrize("line", ["", "visibility: after_due_date\n"])
+def test_without_a_due_date_points_are_shown_when_they_are_published(
+    line: str, dates: dict[str, Any], expected: str, sheet: Path, tmp_path: Path
+) -> None:
+    sheet.write_text(line + ASSIGNMENT.replace("visibility: visible\n", ""))
+    root = hand_in(tmp_path / "root" / "submission", answers__json=submission())
+    (root / "submission_metadata.json").write_text(json.dumps({"assignment": {"id": 1, **dates}}))
+    grade_at(replace(SITES["gradescope"], root=root), sheet, MEMORY)
+    assert written(root, "gradescope")["visibility"] == expected
+
+
 @pytest.mark.parametrize("attempts", ["0", "1.5", "-3", "many"])
 def test_attempts_are_counted(attempts: str, sheet: Path) -> None:
     sheet.write_text(f"attempts: {attempts}\n{ASSIGNMENT}")

@@ -20,14 +20,16 @@ from shared.homework_cases import FILES, document
 from shared.late import LONG
 
 import dofkit
+from dofkit.base.line_journal import BusyError
+from dofkit.base.workers.batches import in_order
 from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.answers.submission import FilePlace, of_value
 from dofkit.homework.grading import Grader
 from dofkit.homework.runs.batch import Orders
 from dofkit.homework.runs.crew import local_crew
-from dofkit.homework.runs.in_order import HandedIn, in_order
-from dofkit.homework.runs.journal import BusyError, Journal
+from dofkit.homework.runs.journal import Journal
 from dofkit.homework.runs.keeper import Keeper
+from dofkit.homework.runs.repeats import HandedIn
 from dofkit.interface import cli
 
 POINT = {"coordinates": ["x", "y"], "constraints": [{"name": "circle", "type": "equation", "text": "x^2 + y^2 = 1"}]}

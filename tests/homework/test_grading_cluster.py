@@ -11,14 +11,15 @@ from typing import Any
 import pytest
 
 import dofkit
+from dofkit.base.workers.batches import in_order
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.answers.submission import FilePlace
 from dofkit.homework.runs.batch import Orders
 from dofkit.homework.runs.crew import cluster_crew, local_crew
-from dofkit.homework.runs.in_order import in_order
 from dofkit.homework.runs.keeper import Keeper
 from dofkit.interface import cli
 
+pytestmark = pytest.mark.sweep
 distributed: Any = pytest.importorskip("distributed", reason="a cluster needs the extra `cluster`")
 
 SCENE = {"coordinates": ["x", "y"], "constraints": [{"name": "circle", "type": "equation", "text": "x^2 + y^2 = 1"}]}

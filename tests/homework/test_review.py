@@ -22,6 +22,7 @@ import dofkit
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.formats.wording import stop_of
 from dofkit.homework.key.codes import CODES
+from dofkit.homework.own_sheets import SheetDrawer
 from dofkit.homework.result import Item
 from dofkit.homework.review.filled_table import ReviewError, read_table
 from dofkit.homework.review.identity import answer_id, mark_of, question_mark
@@ -274,6 +275,19 @@ def test_what_a_person_decides_holds_for_all_and_for_later_ones(course: Course) 
     assert rows[3]["remark"] == "The particle is A."
 
 
+def test_the_function_takes_a_review_too(course: Course) -> None:
+    course.grade()
+    table = course.fill({UNREAD: "3"}, decided_by="Ng")
+    given = {"student": "z", "answers": {"p": {"rod": UNREAD, "f": 1}}}
+    for path in (table, str(table)):
+        found = dofkit.grade(SHEET, given, reviewed=path)
+        assert [(item.score, item.decided_by) for item in found.items] == [(2.0, None), (3.0, "Ng"), (0.0, None)]
+    assert dofkit.grade(SHEET, given).needs_review == 1
+    table.write_text("id,marks\n")
+    with pytest.raises(ReviewError, match="there is no column 'points'"):
+        dofkit.grade(SHEET, given, reviewed=table)
+
+
 def test_without_a_name_it_was_the_review(course: Course) -> None:
     course.grade()
     course.grade("--reviewed", str(course.fill({UNREAD: "4"})))
@@ -509,3 +523,60 @@ def test_every_code_has_a_text() -> None:
     assert len(codes) > 20
     assert codes - set(CODES) == set()
     assert all(told.strip() for told in CODES.values())
+
+
+# results that are there
+
+
+def exported(course: Course, *more: str) -> tuple[int, str, str]:
+    return called(course.capsys, "export", "grades", str(course.sheet), *more)
+
+
+def test_results_are_written_for_another_platform_without_grading_again(course: Course) -> None:
+    course.grade()
+    course.grade("--reviewed", str(course.fill({UNREAD: "3"}, remark="So be it.")))
+    course.grade("--format", "moodle", "--reviewed", str(course.out / "review.csv"), out=str(course.folder / "a.csv"))
+    for source in (course.out, course.out / "results.jsonl"):
+        told = exported(course, str(source), "--format", "moodle", "--out", str(course.folder / "b.csv"))
+        assert told == (0, f"{course.folder / 'b.csv'}: 4 results\n", "")
+        for name in ("{}.csv", "{}.apart.csv"):
+            first, second = ((course.folder / name.format(which)).read_bytes() for which in "ab")
+            assert first == second
+    pages = course.folder / "pages"
+    assert exported(course, str(course.out), "--format", "html", "--out", str(pages))[0] == 0
+    page = (pages / "review.html").read_text()
+    assert str(course.out / "review.csv") in page
+    assert "So be it." in page
+
+
+def test_results_of_another_assignment_are_not_taken(course: Course) -> None:
+    course.grade()
+    out = str(course.folder / "x.csv")
+    course.sheet.write_text(course.sheet.read_text().replace('"points": 4', '"points": 5'))
+    for more, why in (
+        ((str(course.out), "--format", "canvas", "--out", out), "a result of another assignment, of 7 points, not 8"),
+        ((str(course.sheet), "--format", "canvas", "--out", out), "line 1: this is no result of dofkit"),
+        ((str(course.out), "--format", "native", "--out", out), "--format is one of gradescope"),
+        ((str(course.out), "--format", "canvas", "--out", str(course.sheet)), "would overwrite"),
+    ):
+        status, _, err = exported(course, *more)
+        assert (status, why in err) == (2, True), err
+    assert not Path(out).exists()
+
+
+def test_the_review_says_what_a_students_own_problem_says(course: Course) -> None:
+    """The rod's length for each, and what is right of it."""
+    students = [{"student": name} for name in ("ana", "bo")]
+    varied = {**SHEET, "variants": {"seed": "7", "students": students}}
+    course.sheet.write_text(json.dumps(varied))
+    prepared = load_assignment(varied)
+    own = {one["student"]: SheetDrawer(prepared).own(one["student"]).keys["p"].coordinates for one in students}
+    assert own["ana"] != own["bo"]
+    course.hand_in([("ana", {"f": "1 or 2"}), ("bo", {"f": "1 or 2"})])
+    course.grade()
+    told = {row["given_by"]: row["variant"] for row in course.table()}
+    for name, (x, _) in own.items():
+        particle = x.removeprefix("x_")
+        assert re.fullmatch(rf"as given #[0-9a-f]{{8}}: rod: link \(0, 0\)-{particle}, length \w+\. The answer is 1\.",
+                            told[name])  # fmt: skip
+        assert told[name] in (course.out / "review.html").read_text()

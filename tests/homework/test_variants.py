@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from collections import Counter
@@ -16,18 +17,20 @@ import pytest
 
 import dofkit
 from dofkit.base.documents import read_document
+from dofkit.homework import own_sheets
 from dofkit.homework.answers.roster import load_roster
 from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.autograder import main
-from dofkit.homework.class_sheets import VaryError, class_sheets, write_class
+from dofkit.homework.class_sheets import ClassDraws, class_sheets, write_class
+from dofkit.homework.earlier_sheets import VaryError
 from dofkit.homework.echo import echo
 from dofkit.homework.export import OtterError, export_otter
 from dofkit.homework.grading import Grader
 from dofkit.homework.key.key import Key
 from dofkit.homework.notebooks import QuestionError, item_of
-from dofkit.homework.own_sheets import NobodysSheetError, OwnSheet, own, own_sheet, structure_told
-from dofkit.homework.problem import Problem
+from dofkit.homework.own_sheets import NobodysSheetError, OwnSheet, SheetDrawer, own, structure_told
+from dofkit.homework.problem import Problem, StudentSheet
 from dofkit.homework.review.identity import answer_id
 from dofkit.homework.starting import best_questions
 from dofkit.homework.variants.difficulty import difficulty_of
@@ -80,8 +83,9 @@ def varied(*problems: dict[str, Any], students: int = 6) -> Prepared:
 
 def sheets(prepared: Prepared) -> Iterator[OwnSheet]:
     assert prepared.assignment.variants is not None
+    drawer = SheetDrawer(prepared)
     for whose in prepared.assignment.variants.students:
-        yield own_sheet(prepared, prepared.assignment.variants.seed, whose)
+        yield drawer.sheet(prepared.assignment.variants.seed, whose)
 
 
 LABEL = {"ask": "label", "constraint": "rod"}
@@ -461,3 +465,96 @@ def test_variants_of_the_whole_catalog(name: str, free: bool) -> None:
         assert (variant.key.report.dof == 0) == (base.report.dof == 0)
         if not free:
             assert difficulty_of(variant.problem, variant.key) == prepared.structures["p"][0].difficulty
+
+
+# a course that changes
+
+
+def graded(capsys: pytest.CaptureFixture[str], *arguments: object) -> dict[str, dict[str, Any]]:
+    """The results of a command by student."""
+    capsys.readouterr()
+    cli.app(["grade", *map(str, arguments), "--workers", "1"], standalone_mode=False)
+    found = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    return {one["student"]: one for one in found}
+
+
+ROD = problem("rod", PENDULUM, {"ask": "dof"}, {"ask": "coordinates"})
+
+
+def varied_class(folder: Path, roster: str, *more: str, status: int = 0) -> Path:
+    """A class with sheets in `made`; the command ends with this status."""
+    (folder / "roster.csv").write_text(roster)
+    (folder / "sheet.json").write_text(json.dumps({"title": "T", "problems": [ROD]}))
+    given = ["--roster", str(folder / "roster.csv"), "--seed", "7", "--out", str(folder / "made"), "--format", "md"]
+    ended = cli.app(["assignment", "vary", str(folder / "sheet.json"), *given, *more], standalone_mode=False)
+    assert (ended or 0) == status
+    return folder / "made" / "assignment.yaml"
+
+
+def test_nobodys_sheet_changes_with_the_roster(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Another order, one gone, one under another name, one with another address, one more at the top."""
+    made = varied_class(tmp_path, "Name,Email,ID\nAda,a@x,1\nBob,b@x,2\nCy,c@x,3\nDi,d@x,4\n")
+    before = {path.name: path.read_text() for path in (tmp_path / "made" / "sheets").glob("*.md")}
+    first = load_assignment(made)
+    assert len(before) == 4
+    capsys.readouterr()
+    varied_class(tmp_path, "Name,Email,ID\nNew,n@x,9\nDi King,d@x,4\nCy,c@y,3\nAda,a@x,1\n")
+    assert "'b@x' is not in the roster any more" in capsys.readouterr().err
+    after = {path.name: path.read_text() for path in (tmp_path / "made" / "sheets").glob("*.md")}
+    assert {name: after[name] for name in before} == before
+    assert len(set(after.values())) == 5
+    again = load_assignment(made)
+    for name in ("a@x", "b@x", "c@x", "d@x"):
+        assert own(again, name).marks == own(first, name).marks
+    assert own(again, "c@y").marks == own(again, "Cy").marks == own(first, "c@x").marks
+    assert own(again, "Di King").marks == own(first, "Di").marks
+
+
+def test_a_folder_keeps_the_sheets_it_has(tmp_path: Path) -> None:
+    roster = "Name,Email,ID\nAda,a@x,1\nBob,b@x,2\n"
+    made = varied_class(tmp_path, roster)
+    text = made.read_text()
+    varied_class(tmp_path, roster, "--seed", "8", status=2)
+    assert made.read_text() == text
+    varied_class(tmp_path, roster, "--seed", "8", "--anew")
+    assert made.read_text() != text
+    made.write_text(re.sub("sheet: [0-9a-f]+", "sheet: '00'", made.read_text()))
+    varied_class(tmp_path, roster, "--seed", "8", status=2)
+    varied_class(tmp_path, "Name,Email\nAda,b@x\n", "--seed", "8", status=2)
+
+
+def test_sheets_are_found_by_a_later_roster_and_by_what_platforms_call_files(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    made = varied_class(tmp_path, "Name,Email\nAda Lovelace,a@x\nBob,b@x\nCy,c@x\n")
+    prepared = load_assignment(made)
+    (tmp_path / "later.csv").write_text("Name,Email,ID\nAda King,a@x,4711\nBob,b@x,4712\nCy,c@x,4713\n")
+    right = {name: own(prepared, name).keys["rod"].coordinates[0] for name in ("a@x", "b@x", "c@x")}
+    assert len(set(right.values())) > 1, "an answer for another's sheet is not right"
+    folder = tmp_path / "in"
+    for name, student, who in (
+        ("Ada Lovelace_12_assignsubmission_file_", "", "a@x"),
+        ("4712", "", "b@x"),
+        ("any", "student: 4713\n", "c@x"),
+    ):
+        (folder / name).mkdir(parents=True)
+        (folder / name / "answers.yaml").write_text(f"{student}rod: {{q1: {right[who]}}}\n")
+    files = [folder / name / "answers.yaml" for name in ("Ada Lovelace_12_assignsubmission_file_", "any")]
+    found = graded(capsys, made, *files)
+    assert found["a@x"]["items"][1]["status"] == "right"
+    assert "not among the students" in found["4713"]["error"]
+    for name in ("Ada Lovelace_12_assignsubmission_file_", "any", "4712"):
+        who = {"any": "c@x", "4712": "b@x"}.get(name, "a@x")
+        one = graded(capsys, made, folder, "--roster", tmp_path / "later.csv")[who]
+        assert (one["items"][1]["status"], one["doubt"], one["error"]) == ("right", None, None), name
+
+
+def test_many_with_few_sheets_are_quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ten letters for 300: what comes out the same is proved once."""
+    asked = problem("p", {"dimension": 2, "particles": ["A"]}, {"ask": "dof"}, vary=["names"])
+    draws, proofs = ClassDraws(SheetDrawer(varied(asked, students=1)), "7"), []
+    monkeypatch.setattr(
+        own_sheets, "_proved", lambda *given, proved=own_sheets._proved: proofs.append(given) or proved(*given)
+    )
+    found = {draws.different(StudentSheet(student=f"s{n}"))[1].digest for n in range(300)}
+    assert (len(found), len(proofs)) == (10, 10)

@@ -296,10 +296,6 @@ def test_no_motion_at_all(made: dict[str, Any], conflicting: list[str]) -> None:
         pytest.param(
             scene("x y z u", "x^2 + y^2 = 1", "(x^2 + y^2 - 1) zdot^2 + udot^2 = ydot^2"), id="0 on the circle"
         ),
-        pytest.param(
-            scene("x y z", "sin(x) dy = cos(x) dz", "sqrt(ydot^2 + zdot^2) = xdot"),
-            id="a root that is an absolute value",
-        ),
     ],
 )
 def test_what_may_be_linear_in_disguise_is_not_decided(made: dict[str, Any]) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from shared.command_line import called
+from shared.command_line import called, interruptible
 from shared.late import LONG
 
 import dofkit
@@ -201,10 +201,7 @@ def test_a_closed_pipe_is_no_failure(files: Path) -> None:
 @pytest.mark.skipif(os.name == "nt", reason="Windows cannot interrupt one process alone")
 def test_an_interrupt_is_no_traceback() -> None:
     """It comes while the standard input is read: more is written than a pipe holds, and still more is waited for."""
-    code = "import signal\nfrom dofkit.interface import cli\nsignal.signal(2, signal.default_int_handler)\ncli.main()"
-    with subprocess.Popen(
-        [sys.executable, "-c", code, "classify", "-"], stdin=subprocess.PIPE, stdout=-1, stderr=-1
-    ) as process:
+    with interruptible("classify", "-") as process:
         assert process.stdin is not None
         process.stdin.write(b"#" * (1 << 20))
         process.stdin.flush()

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from shared.command_line import called
+from shared.command_line import called, interruptible
 from shared.known_scenes import swept
 from shared.late import LONG
 
@@ -369,17 +369,16 @@ def test_forced_colours_are_in_reports_lines_and_faults(monkeypatch: pytest.Monk
 def test_a_file_is_watched(tmp_path: Path) -> None:
     file = tmp_path / "scene.yaml"
     file.write_text("coordinates: [x, y]\n", encoding="utf-8")
-    command = [sys.executable, "-m", "dofkit", "classify", "--watch", "--only", "dof", str(file)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+    with interruptible("classify", "--watch", "--only", "dof", str(file)) as process:
         assert process.stdout is not None
-        assert process.stdout.readline() == "scene  dof 2 (proved)\n"
+        assert process.stdout.readline() == b"scene  dof 2 (proved)\n"
         time.sleep(0.05)
         file.write_text("coordinates: [x, y]\nconstraints: [x = y]\n", encoding="utf-8")
-        assert process.stdout.readline() == "scene  dof 1 (proved)\n"
+        assert process.stdout.readline() == b"scene  dof 1 (proved)\n"
         process.send_signal(signal.SIGINT)
         _, err = process.communicate(timeout=LONG)
     assert process.returncode == 130
-    assert "Traceback" not in err
+    assert b"Traceback" not in err
 
 
 def test_only_files_are_watched(capsys: pytest.CaptureFixture[str]) -> None:

@@ -153,6 +153,14 @@ def test_an_equality_that_is_not_read_is_a_warning() -> None:
     scene = load(model(body, f"<tendon>{spatial}</tendon><equality><tendon name='k' tendon1='t'/></equality>"))
     report = dofkit.classify(scene)
     assert any("less freedom: constraint k" in told for told in report.warnings)
+    assert any("the tendons t, which run around shapes" in told for told in scene.left_out)
+
+
+def test_what_is_no_number_is_told_in_its_line() -> None:
+    with pytest.raises(SceneError) as raised:
+        load(model(f"<body name='a'\n pos='0 nan 0'>\n<joint axis='0 0 -INF'/>{GEOM}</body>"))
+    told = [(fault.line, fault.message) for fault in raised.value.faults]
+    assert told == [(3, "`pos` of <body> holds 'nan'"), (5, "`axis` of <joint> holds '-INF'")]
 
 
 def test_missing_files_never_stop_a_model(tmp_path: Path) -> None:

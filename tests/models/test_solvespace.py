@@ -76,6 +76,29 @@ def test_a_constraint_that_is_not_read_is_a_warning() -> None:
     assert any("less freedom: constraint c005: of kind same-orientation" in told for told in report.warnings)
 
 
+def in_space(sketch: RandomSketch) -> None:
+    """A point of a sketch in space, whose group stands last."""
+    sketch.record("Group", h_v="00000009", type="5000", name="sketch-in-3d")
+    sketch.record("Request", h_v="00000777", type="100", group_v="00000009")
+    sketch.record("Entity", h_v="07770000", type="2000", actPoint_z="3.0")
+
+
+def test_sketches_in_space_are_told_by_name() -> None:
+    sketch = square()
+    in_space(sketch)
+    told = load(sketch.text()).left_out
+    assert any(one.startswith("1 points outside the plane") for one in told)
+    assert any(one.startswith("sketch-in-3d: sketches in space") for one in told)
+
+
+def test_a_file_with_nothing_but_a_sketch_in_space_says_so_in_its_line() -> None:
+    sketch = RandomSketch()
+    in_space(sketch)
+    with pytest.raises(SceneError, match="sketch-in-3d is drawn in space") as raised:
+        load(sketch.text())
+    assert raised.value.faults[0].line == 1 + sketch.text().split("\n").index("Group.h.v=00000009")
+
+
 START = "\xb1\xb2\xb3SolveSpaceREVa\n"
 POINT = "Entity.h.v=00010001\nEntity.type={}\nAddEntity\n"
 FAULTS = {

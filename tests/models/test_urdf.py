@@ -144,6 +144,7 @@ FAULTS: dict[str, tuple[str, ...]] = {
         link("a") + link("b") + joint("j", "fixed", "a", "b", "<origin xyz='1 2'/>"),),
     "line 2, column 1: the axis of 'j' is zero": (
         link("a") + link("b") + joint("j", "revolute", "a", "b", "<axis xyz='0 0 0'/>"),),
+    "line 2, column 1: the mass of 'a' is negative": (link("a", "<inertial><mass value='-1'/></inertial>"),),
     "line 3, column 1: 'j' mimics 'k', which it cannot": (
         link("a") + link("b"), joint("j", "revolute", "a", "b", "<mimic joint='k'/>")),
     "every link is the child of a joint": (

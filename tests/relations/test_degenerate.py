@@ -164,7 +164,7 @@ ONE_RATE: list[Row] = [
     ("x y", ["sin(xdot) = 0"], "xdot = k pi, one branch for every k", rate(None, None, None)),
     ("x y", ["exp(xdot) + xdot = 2"], "one root without a formula", rate(None, None, None)),
     ("x y", ["abs(xdot) = xdot"], "xdot >= 0, an inequality", rate(None, None, None)),
-    ("x y", ["xdot = abs(ydot)"], "a motion may pass from one branch to the other", rate(None, None, None)),
+    ("x y", ["xdot = abs(ydot)"], "x - y = C or x + y = C, and xdot >= 0: an inequality as well", rate(1, 1, False)),
 ]
 
 #: Numbers that are 0 by an identity that may be missed: the true freedom, or an honest None.

@@ -31,6 +31,7 @@ LESS: Mapping[str, tuple[str, Callable[[int], int], Callable[[int], int]]] = {
     "welds": ("followed", lambda n: 9 + 3 - 2, lambda n: 9 + 3 * n - 2),
     "clusters": ("followed", lambda n: 4, lambda n: 2 * n),  # two of the joints
     "eliminations": ("followed", lambda n: 2 * n, lambda n: 3 * n),
+    "bridges": ("relations", lambda n: 0, lambda n: 5 * n),
     "closed": ("forms", lambda n: 0, lambda n: n - 1),
 }
 #: Degrees of freedom of the families' scenes, by hand.
@@ -43,6 +44,7 @@ FREEDOM: Mapping[str, Callable[[int], int]] = {
     "welds": lambda n: 1,  # a parallelogram
     "clusters": lambda n: 1,
     "eliminations": lambda n: 1,
+    "bridges": lambda n: n,  # a chain of hinges
     "classes": lambda n: n + 1,  # a parallelogram and n rods
     "closed": lambda n: 3 * n - (n - 1),
     "cheapest": lambda n: 3,  # one lamina

@@ -1,6 +1,11 @@
-"""The command line, run in this process."""
+"""The command line, run in this process or in one that can be interrupted."""
 
 from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import pytest
 
@@ -16,3 +21,20 @@ def called(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, st
         status = stop.code if isinstance(stop.code, int) else 0
     told = capsys.readouterr()
     return status, told.out, told.err
+
+
+#: What a shell starts in the background ignores interrupts, and so does all that it starts.
+_INTERRUPTIBLE = (
+    "import signal\nfrom dofkit.interface import cli\nsignal.signal(2, signal.default_int_handler)\ncli.main()"
+)
+
+
+@contextmanager
+def interruptible(*arguments: str) -> Iterator[subprocess.Popen[bytes]]:
+    """The command line in a process that heeds SIGINT, and is killed where the test fails before it ends."""
+    command = [sys.executable, "-c", _INTERRUPTIBLE, *arguments]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        try:
+            yield process
+        finally:
+            process.kill()

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import Literal
 
-import networkx as nx
-
+from dofkit.base.components import components
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import About
 from dofkit.classification.dependence.by_implication import MAX_CHOICES, constraint_follows
@@ -107,13 +106,10 @@ def analysed(group: list[OwnedRows], needed: Collection[int]) -> Redundancies:
     return analyse(group, needed)
 
 
-def sharing(parts: Sequence[OwnedRows]) -> list[list[OwnedRows]]:
+def joined_parts(parts: Sequence[OwnedRows]) -> list[list[OwnedRows]]:
     """Blocks that share a constraint are looked at together."""
-    graph: nx.Graph = nx.Graph()
-    for k, part in enumerate(parts):
-        graph.add_edges_from((("part", k), ("constraint", o)) for o in part.owners)
-    components = nx.connected_components(graph)
-    return [[parts[k] for kind, k in sorted(c) if kind == "part"] for c in components]
+    owned = [part for part in parts if part.owners]
+    return [[owned[k] for k in numbers] for numbers in components(part.owners for part in owned)]
 
 
 def without_hidden(block: Block, a: Answer) -> list[SparseRow]:

@@ -12,8 +12,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
-import networkx as nx
-
+from dofkit.base.components import components
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import About, Verdict
 from dofkit.classification.dependence.sufficient_sets import Implication, SufficientSets
@@ -183,15 +182,12 @@ def _order(parts: Sequence[OwnedRows]) -> list[int]:
 
 def _groups(bases: Sequence[_Basis]) -> list[tuple[int, list[int]]]:
     """Constraints joined by circuits of rows."""
-    graph: nx.Graph = nx.Graph()
-    for basis in bases:
-        for i, support in basis.supports.items():
-            graph.add_node(basis.owners[i])
-            graph.add_edges_from((basis.owners[i], basis.owners[j]) for j in support)
+    circuits = [{b.owners[i], *(b.owners[j] for j in support)} for b in bases for i, support in b.supports.items()]
     extra = Counter(b.owners[i] for b in bases for i in b.supports)
     groups = []
-    for component in nx.connected_components(graph):
-        groups.append((sum(extra[o] for o in component), sorted(component)))
+    for numbers in components(circuits):
+        members = {o for k in numbers for o in circuits[k]}
+        groups.append((sum(extra[o] for o in members), sorted(members)))
     return sorted(groups, key=lambda group: group[1])
 
 

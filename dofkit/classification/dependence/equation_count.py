@@ -14,8 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-import networkx as nx
-
+from dofkit.base.components import components
 from dofkit.base.deadline import check
 from dofkit.classification.dependence.implications import NearDrawing
 from dofkit.classification.dependence.sufficient_sets import SufficientSets
@@ -68,11 +67,9 @@ def counted(block: Block, setting: Setting, a: Answer, numbered: Sequence[int]) 
         return None
     owners = [r.constraint for r in block.rows]
     following = Counter(owners[i] for i in supports)
-    graph: nx.Graph = nx.Graph()
-    for i, support in supports.items():
-        graph.add_node(owners[i])
-        graph.add_edges_from((owners[i], owners[j]) for j in support)
-    groups = [(sum(following[o] for o in c), sorted(c)) for c in nx.connected_components(graph)]
+    circuits = [{owners[i], *(owners[j] for j in support)} for i, support in supports.items()]
+    joined = [{o for k in numbers for o in circuits[k]} for numbers in components(circuits)]
+    groups = [(sum(following[o] for o in c), sorted(c)) for c in joined]
     equations = {o: tuple(numbered[i] for i in supports if owners[i] == o) for o in owners}
     independent = {o: k - following[o] for o, k in Counter(owners).items()}
     return EquationCount(independent, equations, sorted(groups, key=lambda g: g[1]))

@@ -10,10 +10,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import product as cartesian
+from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.freedom.through_reference import all_of, conditional, through_reference
+from dofkit.classification.freedom.velocity_domain import none_holds, still_conditions
 from dofkit.configuration.states import States, value_at, vanishes
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
@@ -23,7 +25,7 @@ from dofkit.relations.beside_others import MAX_WAYS, Way, form_rate, ways_of
 from dofkit.relations.blocks import Row, coordinates_of, split
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Normal, Pfaffian
+from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece
 from dofkit.relations.setting import Setting
 
 #: No coordinate has this name.
@@ -35,6 +37,13 @@ MAX_CHOICES, STATES = 16, 4
 PARTED_STATES = 40
 #: Real states that are looked at where a relation may hold on one part of the set and fail on another.
 MANY_STATES = 16
+
+
+class AskedBranch(NamedTuple):
+    """What is 0 on one branch of a relation, and the conditions on which it holds."""
+
+    relations: tuple[Expr, ...]
+    conditions: tuple[DomainCondition, ...]
 
 
 def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool | None:
@@ -72,19 +81,33 @@ def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
         return False
     known = all(a.consistent for a in answers)
     given = [r.piece for r in way.rows if isinstance(r.piece, DomainCondition)]
-    asked = [p for b in relation.branches for p in b if isinstance(p, DomainCondition) and p not in given]
-    branches = [[at_state(p) for p in b if isinstance(p, RELATIONS)] for b in relation.branches]
+    branches = [
+        AskedBranch(
+            tuple(at_state(p) for p in b if isinstance(p, RELATIONS)),
+            tuple(p for p in b if isinstance(p, DomainCondition) and p not in given),
+        )
+        for b in relation.branches
+        if not _beyond(b, way.rows, hidden, setting)
+    ]
     still = all(isinstance(p, Finite) for p in relation.pieces)
     written = [s.written.piece.expr for s in way.slots if isinstance(s.written.piece, Nonlinear) and not still]
-    more = [*(e for b in branches for e in b), *(c.expr for c in (*given, *asked))]
+    more = [*(e for b in branches for e in b.relations), *(c.expr for b in branches for c in b.conditions)]
+    more += [c.expr for c in given]
     moving = {str(s.args[1]) for e in more for s in e.symbols if s.args[0] in ("coordinate", "velocity")}
     try:
         states = States(sorted({*names, *moving}), way.rows, hidden, setting, [*more, *written], still)
         smaller = any(a.degenerate or a.dof is None for a in answers)
-        held = _vanishes_on_states(states, branches, written, given, asked, smaller)
+        held = _vanishes_on_states(states, branches, written, given, smaller)
     except (OutOfTimeError, ArithmeticError):
         return None
     return held if held or known else None
+
+
+def _beyond(branch: Sequence[Piece], rows: Sequence[Row], hidden: Sequence[Expr], setting: Setting) -> bool:
+    """Do the conditions of a branch on positions hold nowhere where some rows do?"""
+    asked = still_conditions([p for p in branch if isinstance(p, DomainCondition)])
+    finite = [r.piece.expr for r in rows if isinstance(r.piece, Finite)]
+    return bool(asked) and none_holds([*finite, *hidden], asked, setting.positive)
 
 
 def _undefined(relation: Normal, names: Sequence[str], rows: Sequence[Row], setting: Setting) -> bool:
@@ -115,18 +138,18 @@ def at_state(piece: Finite | Pfaffian | Nonlinear) -> Expr:
 
 def _vanishes_on_states(
     states: States,
-    branches: Sequence[Sequence[Expr]],
+    branches: Sequence[AskedBranch],
     written: Sequence[Expr],
     given: Sequence[DomainCondition],
-    asked: Sequence[DomainCondition],
     smaller: bool,
 ) -> bool | None:
-    """Does a branch vanish at every state that is drawn? ``given`` conditions hold there, those ``asked`` have to.
+    """Does a branch hold at every state that is drawn? ``given`` conditions hold there.
 
     ``smaller``: over the reals the set may be smaller than over GF(p), where nothing is refuted then. Nor is it where
     the set may have parts without real points.
     """
     many = STATES if states.rational else PARTED_STATES
+    asked = any(b.conditions for b in branches)
     seen = list[bool | None]()
     for k in range(many):
         p = states.draw(k)
@@ -140,7 +163,7 @@ def _vanishes_on_states(
     if seen and all(seen) and not asked and not states.chosen:
         return True
     told = [
-        all_of((_some_vanish(states, p, branches), *(_satisfied(states, p, c) for c in asked)))
+        _some_hold(states, p, branches)
         for p in states.certain(MANY_STATES if asked or False in seen else STATES)
         if _all_vanish(states, p, written) and all(_satisfied(states, p, c) is not False for c in given)
     ]
@@ -150,9 +173,22 @@ def _vanishes_on_states(
     return True if told and all(told) and (sure or len(told) > 1 or not seen) else None
 
 
-def _some_vanish(states: States, point: FieldPoint | BallPoint, branches: Sequence[Sequence[Expr]]) -> bool | None:
+def _some_vanish(states: States, point: FieldPoint, branches: Sequence[AskedBranch]) -> bool | None:
     """Does one of the branches vanish? None where some expression has no value."""
-    found = [_all_vanish(states, point, branch) for branch in branches]
+    return _any([_all_vanish(states, point, b.relations) for b in branches])
+
+
+def _some_hold(states: States, point: BallPoint, branches: Sequence[AskedBranch]) -> bool | None:
+    """Does one of the branches vanish where its conditions hold? None where a ball does not tell."""
+    return _any(
+        [
+            all_of((_all_vanish(states, point, b.relations), *(_satisfied(states, point, c) for c in b.conditions)))
+            for b in branches
+        ]
+    )
+
+
+def _any(found: Sequence[bool | None]) -> bool | None:
     return True if True in found else None if None in found else False
 
 

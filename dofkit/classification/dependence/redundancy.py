@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-import networkx as nx
-
+from dofkit.base.components import components
 from dofkit.base.deadline import unless_late
 from dofkit.classification.dependence.by_implication import MAX_CHOICES, implied
 from dofkit.classification.dependence.by_leaving_out import by_leaving_out, owners_of
-from dofkit.classification.dependence.by_rank import analysed, at_a_point, holds_where, sharing, without_hidden
+from dofkit.classification.dependence.by_rank import analysed, at_a_point, holds_where, joined_parts, without_hidden
 from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse, left_open
 from dofkit.classification.dependence.implications import implication_of
 from dofkit.classification.dependence.regions import is_region, of_regions
@@ -21,7 +20,7 @@ from dofkit.classification.freedom.through_reference import through_reference
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Normal
+from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 
@@ -39,10 +38,12 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
         return found
     found += copied(reduced, outcome)
     blocks: BlocksOf = defaultdict(list)
-    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
+    for block, a in outcome.parts:
         for i in dict.fromkeys(r.constraint for r in block.rows):
             blocks[i].append((block, a))
-    for numbers in _parts(reduced, outcome):
+    apart = outcome.bridged
+    found += [_independent(apart)] if apart else []
+    for numbers in _parts(reduced, outcome, apart):
         found += unless_late(partial(_of_part, reduced, setting, blocks, numbers), [left_open(numbers)])
     return found
 
@@ -62,16 +63,19 @@ def all_needed(found: Sequence[Redundancies], reduced: Sequence[Reduced], outcom
     return told
 
 
-def _parts(reduced: Sequence[Reduced], outcome: Outcome) -> list[list[int]]:
-    """The constraints in use, those together that share coordinates."""
-    graph: nx.Graph = nx.Graph()
+def _parts(reduced: Sequence[Reduced], outcome: Outcome, apart: Collection[int]) -> list[list[int]]:
+    """The constraints in use but those ``apart``, those together that share coordinates."""
+    used: list[int] = []
+    names: list[frozenset[str]] = []
     for i, r in enumerate(reduced):
+        if i in apart:
+            continue
         every = [p for n in r.normals for b in n.branches for p in b]
         pieces = every if is_region(r) else [p for p in every if not isinstance(p, Inequality | DomainCondition)]
         if pieces and i not in outcome.copies:
-            graph.add_node(i)
-            graph.add_edges_from((i, c) for p in pieces for c in coordinates_of(p))
-    return sorted(sorted(i for i in c if isinstance(i, int)) for c in nx.connected_components(graph))
+            used.append(i)
+            names.append(frozenset().union(*map(coordinates_of, pieces)))
+    return [[used[k] for k in numbers] for numbers in components(names)]
 
 
 def _of_part(
@@ -91,10 +95,9 @@ def _of_relations(
 ) -> list[Redundancies]:
     """Of constraints that share coordinates: by implication where rank does not measure dependence, else by rank."""
     blocks = list({id(block): (block, a) for i in numbers for block, a in blocks_of.get(i, ())}.values())
+    if _each_takes_one(reduced, numbers, blocks):
+        return [_independent({i: reduced[i].equations for i in numbers})]
     if not _measured_by_rank(reduced, setting, numbers, blocks):
-        normals = [n for i in numbers for n in reduced[i].normals]
-        if _each_takes_one(normals, blocks):
-            return [_independent({i: reduced[i].equations for i in numbers})]
         return [_as_free(implied(reduced, setting, numbers), blocks)]
     numbered = _numbered(reduced[i] for i in numbers)
     answered = [
@@ -104,8 +107,10 @@ def _of_relations(
     needed = set[int]().union(*(r.needed for r in settled))
     by_rank = [
         unless_late(partial(analysed, group, needed), left_open(o for rows in group for o in rows.owners))
-        for group in sharing([a for a in answered if isinstance(a, OwnedRows)])
+        for group in joined_parts([a for a in answered if isinstance(a, OwnedRows)])
     ]
+    if any(_conditional(reduced[i]) for r in by_rank for i in r.redundant):
+        return [*settled, _as_free(implied(reduced, setting, numbers), blocks)]
     straight = all(a.linear for _, a in blocks)
     where = "everywhere" if straight else unless_late(partial(holds_where, reduced, setting, numbers, by_rank), None)
     if where is False:
@@ -114,6 +119,11 @@ def _of_relations(
         known = partial(at_a_point, reduced=reduced, setting=setting, numbers=numbers)
         return _agreed([*settled, *map(known, by_rank)])
     return [replace(r, about=where) for r in _agreed([*settled, *by_rank])]
+
+
+def _conditional(r: Reduced) -> bool:
+    """Does a constraint hold within a part of the space only? Its rows alone do not tell whether it follows."""
+    return any(isinstance(p, DomainCondition) for n in r.normals for b in n.branches for p in b)
 
 
 def _as_free(found: Redundancies, blocks: Sequence[tuple[Block, Answer]]) -> Redundancies:
@@ -178,9 +188,9 @@ def _of_block(
         yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied)
 
 
-def _independent(counted: dict[int, int]) -> Redundancies:
+def _independent(counted: Mapping[int, int]) -> Redundancies:
     """So many equations of each constraint, all independent."""
-    return Redundancies(counted, [], [], {}, equations=dict.fromkeys(counted, ()))
+    return Redundancies(dict(counted), [], [], {}, equations=dict.fromkeys(counted, ()))
 
 
 def _numbered(reduced: Iterable[Reduced]) -> dict[int, int]:
@@ -188,15 +198,19 @@ def _numbered(reduced: Iterable[Reduced]) -> dict[int, int]:
     return {id(p): k for r in reduced for k, n in enumerate(r.normals) for p in n.pieces}
 
 
-def _each_takes_one(normals: Sequence[Normal], blocks: Sequence[tuple[Block, Answer]]) -> bool:
+def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]) -> bool:
     """Is the freedom less by as many as there are equations, one row each? Then none follows from the others.
 
-    What k equations leave has no part of which the freedom is less by more than k.
+    On the branches in use the rows of the others leave no part of which the freedom is less by more than they are.
     """
-    one = all(len(b) == 1 for n in normals for b in n.branches)
+    rows = Counter(r.constraint for block, _ in blocks for r in block.rows)
+    one = rows == {i: reduced[i].equations for i in numbers}
     plain = all(a.velocity_dof is not None and not a.hidden and not a.degenerate for _, a in blocks)
-    taken = sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
-    return one and plain and taken == len(normals) == sum(len(block.rows) for block, _ in blocks)
+    return (
+        one
+        and plain
+        and sum(rows.values()) == sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
+    )
 
 
 def copied(reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
@@ -215,13 +229,11 @@ def copied(reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
 
 def merged(found: Sequence[Redundancies]) -> list[tuple[int, list[int]]]:
     """Groups that share a constraint are one."""
-    graph: nx.Graph = nx.Graph()
     groups = [g for r in found for g in r.groups]
-    for _, members in groups:
-        nx.add_path(graph, members) if len(members) > 1 else graph.add_node(members[0])
     merged = []
-    for component in nx.connected_components(graph):
-        merged.append((sum(n for n, members in groups if members[0] in component), sorted(component)))
+    for numbers in components(members for _, members in groups):
+        together = {i for k in numbers for i in groups[k][1]}
+        merged.append((sum(groups[k][0] for k in numbers), sorted(together)))
     return sorted(merged, key=lambda g: g[1])
 
 

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from itertools import product as cartesian
 from math import prod
 
-import networkx as nx
-
+from dofkit.base.components import components
 from dofkit.classification.feasibility.refutation import SignClaim
 from dofkit.expressions.differentials import accelerations_of
 from dofkit.expressions.tree import Expr
@@ -98,12 +97,9 @@ def _choice(
 
 def parts_of(reduced: Sequence[Reduced], numbers: Sequence[int], shared: bool) -> list[Part]:
     """The parts with an inequality; ``shared``: what shares time or a parameter belongs together as well."""
-    graph: nx.Graph = nx.Graph()
-    for i in numbers:
-        graph.add_node(i)
-        graph.add_edges_from((i, name) for name in _mentioned(reduced[i], shared))
-    groups = [sorted(i for i in c if isinstance(i, int)) for c in nx.connected_components(graph)]
-    parts = [Part(tuple(g), tuple(reduced[i] for i in g)) for g in groups if g]
+    together = components(_mentioned(reduced[i], shared) for i in numbers)
+    groups = [sorted(numbers[k] for k in group) for group in together]
+    parts = [Part(tuple(g), tuple(reduced[i] for i in g)) for g in groups]
     return sorted((p for p in parts if p.inequalities), key=lambda p: p.numbers)
 
 

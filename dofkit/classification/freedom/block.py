@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.agreement import agreed, numeric
+from dofkit.classification.freedom.bridged_blocks import bridged_answer
 from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.distance_geometry import lengths_unmet
 from dofkit.configuration.drawing.at_reference import at_reference
@@ -50,6 +51,9 @@ IRREGULAR = (
 
 def answer(block: Block, setting: Setting) -> Answer:
     """All that is asked of one block, and how large the model was."""
+    bridged = bridged_answer(block, setting, answer)
+    if bridged is not None:
+        return bridged
     found = _engines(block, setting)
     level = None if found.dof is None or setting.reference is not None else level_angle(block, setting)
     if level is not None:
@@ -210,11 +214,12 @@ def _spans(forms: Codistribution, found: Variety) -> list[tuple[FieldPoint, Samp
     return good
 
 
-def alone(rows: Sequence[Row], setting: Setting, coordinates: Sequence[str]) -> Answer:
-    """A constraint's own rows with the others forgotten."""
+def alone(
+    rows: Sequence[Row], setting: Setting, coordinates: Sequence[str], answered: Callable[[Block], Answer]
+) -> Answer:
+    """A constraint's own rows with the others forgotten; ``answered`` answers a part at no drawing."""
     blocks, _ = split(coordinates, rows)
-    plain = replace(setting, pose={}, reference=None, grows=False, flag=False)
-    answers = [confirmed(b, answer(b, plain), setting, len(rows) == 1) for b in blocks]
+    answers = [confirmed(b, answered(b), setting, len(rows) == 1) for b in blocks]
     merged = Answer()
     for a in answers:
         merged.verdict = weakest(merged.verdict, a.verdict)

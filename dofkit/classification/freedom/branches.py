@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 from itertools import product as cartesian
+from math import prod
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.domain import restricted_to_domain
-from dofkit.classification.freedom.isomorphic_blocks import alike, retold
-from dofkit.classification.freedom.through_reference import passes, through_reference
+from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses
+from dofkit.classification.freedom.through_reference import crossing_at, through_reference
 from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.modulo_others import with_reductions_checked
-from dofkit.relations.answer import Answer
+from dofkit.relations.answer import Answer, AnsweredPart
 from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
-from dofkit.relations.blocks import Block, Row, blocks_of, split
+from dofkit.relations.blocks import Block, Row, blocks_of, split, with_boundaries
 from dofkit.relations.integration_constants import names_in, with_rows
-from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Still
+from dofkit.relations.joint_equations import JointEquation
+from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Pfaffian, Piece, Still
 from dofkit.relations.normal.one_sided import holds_somewhere
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -58,6 +60,26 @@ class Outcome:
         if self.impossible or any(a.consistent is False for a in self.answers):
             return False
         return None if self.unsettled or any(a.consistent is None for a in self.answers) else True
+
+    @cached_property
+    def pieces(self) -> Mapping[int, list[Piece]]:
+        """What each constraint says on the branches in use, by its number; of a copy what its original says."""
+        found = defaultdict[int, list[Piece]](list)
+        for row in self.rows:
+            found[row.constraint].append(row.piece)
+        return {**found, **{copy: found[i] for copy, i in self.copies.items()}}
+
+    @property
+    def parts(self) -> list[AnsweredPart]:
+        """The blocks with their answers; of those whose parts were answered apart, the parts."""
+        pairs = (AnsweredPart(block, a) for block, a in zip(self.blocks, self.answers, strict=True))
+        return [part for p in pairs for part in ((p,) if p.answer.parts is None else p.answer.parts)]
+
+    @property
+    def bridged(self) -> Counter[int]:
+        """Of joints that close no loop the equations that are in no part, by constraint: independent of all others."""
+        within = {id(row) for part in self.parts for row in part.block.rows}
+        return Counter(row.constraint for block in self.blocks for row in block.rows if id(row) not in within)
 
     @property
     def written_rows(self) -> list[Row]:
@@ -118,7 +140,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
                 impossible.append(i)
             elif i not in copied:
                 rows += [Row(i, p) for p in normal.branches[branch] if not isinstance(p, Inequality)]
-        ways = ways_of(with_rows(rows, constants), positive)
+        ways = ways_of(with_boundaries(with_rows(rows, constants)), positive)
         why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
         for way in ways:
             names = [*(c.name for c in system.coordinates), *names_in(way.rows, constants)]
@@ -131,7 +153,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     best.copies = copied if outcomes else {}
     best.unsettled = unsettled
     if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
-        best.first_order, best.crossing = _first_order(system, normals, setting, constants), True
+        best.first_order, best.crossing = _first_order(system, reduced, normals, setting, constants), True
         best.kinked = any(normal.kinked for _, normal in normals)
     return best
 
@@ -172,21 +194,34 @@ def _confirmed(only: Outcome, setting: Setting) -> list[Answer]:
 
 
 def _first_order(
-    system: System, normals: Sequence[tuple[int, Normal]], setting: Setting, constants: Mapping[str, Row]
+    system: System,
+    reduced: Sequence[Reduced],
+    normals: Sequence[tuple[int, Normal]],
+    setting: Setting,
+    constants: Mapping[str, Row],
 ) -> int | None:
     """Velocities allowed to first order where branches cross: there the gradient of a product is 0.
 
-    None where the reference is on no branch of a relation.
+    Of a relation between velocities they are those that it allows at the reference, the most that one of its branches
+    does. None where the reference is on no branch of a relation, or allows none.
     """
-    if not all(passes(n, setting) for _, n in normals if len(n.branches) > 1):
+    written = [q.expr for r in reduced for q in r.constraint.relations if q.sense == "="]
+    options: list[tuple[tuple[Row, ...], ...]] = []
+    for (i, n), e in zip(normals, written, strict=True):
+        crossing = crossing_at(n, e, setting)
+        if crossing is None:
+            return None
+        options.append(tuple(tuple(Row(i, p) for p in b if not isinstance(p, Inequality)) for b in crossing))
+    if prod(map(len, options)) > MAX_CHOICES:
         return None
-    rows = [
-        Row(i, p) for i, n in normals if len(n.branches) == 1 for p in n.branches[0] if not isinstance(p, Inequality)
-    ]
-    rows = with_rows(rows, constants)
-    blocks, untouched = split([*(c.name for c in system.coordinates), *names_in(rows, constants)], rows)
-    parts = [in_time(b, setting).instantaneous for b in blocks]
-    return None if any(p is None for p in parts) else len(untouched) + sum(p for p in parts if p is not None)
+    names = [c.name for c in system.coordinates]
+    told = []
+    for choice in cartesian(*options):
+        rows = with_rows([row for part in choice for row in part], constants)
+        blocks, untouched = split([*names, *names_in(rows, constants)], rows)
+        parts = [in_time(b, setting).instantaneous for b in blocks]
+        told.append(None if any(p is None for p in parts) else len(untouched) + sum(p for p in parts if p is not None))
+    return None if None in told else max((t for t in told if t is not None), default=None)
 
 
 def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
@@ -195,14 +230,21 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
     found = {}
     for i, r in enumerate(reduced):
         check()
-        if not r.normals or r.inequalities or any(normal.branches in ((), ((),)) for normal in r.normals):
+        if not r.normals or r.inequalities or any(_says_nothing(normal) for normal in r.normals):
             continue
-        key = frozenset(Counter(_up_to_a_number(normal) for normal in r.normals).items())
+        keys = [_up_to_a_number(normal) for normal in r.normals]
+        key: Hashable = keys[0] if len(keys) == 1 else frozenset(Counter(keys).items())
         if key in seen:
             found[i] = seen[key]
         else:
             seen[key] = i
     return found
+
+
+def _says_nothing(normal: Normal) -> bool:
+    """Is there nothing to compare: it holds always or never, or is not written out, as no other joint is the same?"""
+    branches = normal.branches
+    return branches in ((), ((),)) or isinstance(branches[0][0], JointEquation)
 
 
 def _up_to_a_number(normal: Normal) -> Hashable:
@@ -215,7 +257,9 @@ def _scaled(piece: object) -> Hashable:
         first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
         number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
         return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if number.op == "num" else piece.expr
-    return repr(piece)
+    if isinstance(piece, Pfaffian):
+        return type(piece), tuple(piece.coefficients.items()), piece.dt
+    return piece
 
 
 def _answered(
@@ -234,29 +278,31 @@ class AnsweredBlocks:
     def __init__(self, system: System) -> None:
         self._roles = {c.name: (c.owner, c.role) for c in system.coordinates}
         self._answers: dict[tuple[int, ...], tuple[Block, Answer]] = {}
-        self._alike: dict[Hashable, tuple[tuple[str, ...], Answer]] = {}
+        self._alike: dict[Hashable, AnsweredBlock] = {}
         self._shapes: set[Hashable] = set()
 
     def answers(self, blocks: Sequence[Block], setting: Setting) -> list[Answer]:
         """The blocks' answers; those that may be twins are looked through for one that was answered."""
         shapes = Counter(map(_shape, blocks)) if len(blocks) > 1 and "twins" in setting.reductions else Counter()
         self._shapes |= {shape for shape, times in shapes.items() if times > 1}
-        return [self._answer(block, setting) for block in blocks]
+        likenesses = Likenesses(setting, self._roles)
+        return [self._answer(block, setting, likenesses) for block in blocks]
 
-    def _answer(self, block: Block, setting: Setting) -> Answer:
-        same = tuple(id(p) for p in (*(row.piece for row in block.rows), *block.conditions))
+    def _answer(self, block: Block, setting: Setting, likenesses: Likenesses) -> Answer:
+        same = tuple([id(row.piece) for row in block.rows] + [id(c) for c in block.conditions])
         if same not in self._answers:
-            twins = _shape(block) in self._shapes
-            self._answers[same] = block, self._twin(block, setting) if twins else in_time(block, setting)
+            twins = _shape(block) in self._shapes and not any(isinstance(r.piece, JointEquation) for r in block.rows)
+            found = self._twin(block, setting, likenesses) if twins else in_time(block, setting)
+            self._answers[same] = block, found
         return self._answers[same][1]
 
-    def _twin(self, block: Block, setting: Setting) -> Answer:
-        key = alike(block, setting, self._roles)
-        if key in self._alike:
-            own, known = self._alike[key]
-            return retold(known, own, block.coordinates)
+    def _twin(self, block: Block, setting: Setting, likenesses: Likenesses) -> Answer:
+        key, names = likenesses.of(block)
+        known = self._alike.get(key)
+        if known is not None:
+            return known.told_of(block, names)
         found = in_time(block, setting)
-        self._alike[key] = (block.coordinates, found)
+        self._alike[key] = AnsweredBlock(block, names, found)
         return found
 
 

@@ -13,6 +13,13 @@ from typing import Literal
 from flint import arb
 
 from dofkit.classification.freedom.block import answer
+from dofkit.classification.freedom.velocity_domain import (
+    in_motion,
+    in_motion_at,
+    none_holds,
+    on_velocities,
+    still_conditions,
+)
 from dofkit.configuration.finite_blocks import OFF_REFERENCE
 from dofkit.configuration.search import find
 from dofkit.exact.errors import NoValueError
@@ -35,11 +42,18 @@ SEEDS = 6
 
 def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answer:
     """The answer where the block's conditions hold; inconsistent where they hold nowhere, undecided where unknown."""
-    if not block.conditions or result.consistent is not True:
+    if not block.conditions or result.consistent is False:
         return result
+    if result.consistent is None:
+        return _nowhere(result, block.conditions, "proved") if _empty(block, result, setting) else result
+    moving = on_velocities(block.conditions)
     if result.instantaneous is not None and setting.reference is not None:
         known = {**setting.reference, ex.TIME: ex.ZERO}
-        holds = [holds_at(c, known, setting.positive) for c in block.conditions]
+        holds = [holds_at(c, known, setting.positive) for c in still_conditions(block.conditions)]
+        if moving and False not in holds:
+            regular = result.instantaneous == result.velocity_dof
+            told = in_motion_at(block, result.hidden, setting, known) if regular else None
+            holds.append(told or None)
         if all(holds):
             return result
         if None in holds and False not in holds:
@@ -48,7 +62,21 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
         result = restricted_to_domain(block, answer(block, elsewhere), elsewhere)
         result.reasons.append(OFF_REFERENCE)
         return result
-    return _somewhere(block, result, setting)
+    return _while_moving(block, result, setting) if moving else _somewhere(block, result, setting)
+
+
+def _empty(block: Block, result: Answer, setting: Setting) -> bool:
+    """Do the conditions on positions hold nowhere where the finite relations do?"""
+    relations = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + result.hidden
+    conditions = still_conditions(block.conditions)
+    return bool(conditions) and none_holds(relations, conditions, setting.positive)
+
+
+def _while_moving(block: Block, result: Answer, setting: Setting) -> Answer:
+    holds = in_motion(block, result.hidden, setting)
+    if holds is None:
+        return _open(result, block.conditions)
+    return result if holds else _nowhere(result, block.conditions, "proved")
 
 
 def _somewhere(block: Block, result: Answer, setting: Setting) -> Answer:

@@ -2,81 +2,94 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Hashable, Mapping
+from copy import copy
+from typing import NamedTuple
 
-from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
+from dofkit.expressions.renaming import Renaming
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer, Size
-from dofkit.relations.blocks import Block, coordinates_of, expressions
-from dofkit.relations.normal.normal_form import Pfaffian, Piece
+from dofkit.relations.blocks import Block
+from dofkit.relations.piece_shapes import piece_shape
 from dofkit.relations.setting import Setting
 
 
-def alike(block: Block, setting: Setting, roles: Mapping[str, tuple[str | None, str]]) -> Hashable:
-    """Equal for blocks that are the same up to the names of coordinates and of generic geometry.
+class Likeness(NamedTuple):
+    """``key``: equal for blocks that are the same up to ``names``: of coordinates, and of generic geometry after them.
 
-    What the engines know of a block goes in: its rows, and its coordinates' places in the drawing, values and roles.
+    The name at one place of the one stands for that at the same place of the other, one for one.
     """
-    symbols = [ex.coordinate(c) for c in block.coordinates]
-    everything = [*expressions(block), *(c.expr for c in block.conditions)]
-    mentioned = frozenset[Expr]().union(*(e.symbols for e in everything))
-    generic = [p for p in setting.generic if p in mentioned]
-    names = {s: ex.coordinate(f"_{i}") for i, s in enumerate(symbols)}
-    names |= {p: ex.parameter(f"_{i}") for i, p in enumerate(generic)}
-    names |= {ex.velocity(c): ex.velocity(f"_{i}") for i, c in enumerate(block.coordinates)}
-    owners: dict[str | None, int] = {}
-    return (
-        tuple(_renamed(row.piece, names) for row in block.rows),
-        tuple((c.sense, substitute(c.expr, names)) for c in block.conditions),
-        tuple(_value(setting.pose, s) for s in (*symbols, *generic)),
-        None if setting.reference is None else tuple(_value(setting.reference, s) for s in (*symbols, *generic)),
-        tuple(_role(roles.get(c), owners) for c in block.coordinates),
-        tuple(_kind(p, setting) for p in generic),
-    )
+
+    key: Hashable
+    names: tuple[str, ...]
 
 
-def _value(values: Mapping[Expr, Expr], symbol: Expr) -> Expr | None:
-    return values.get(symbol)
+class Likenesses:
+    """What blocks of one system are compared by.
+
+    What the engines know of a block goes in: its rows, which of them are measured, and its coordinates' places in the
+    drawing, values and roles. Of names only who owns which coordinate counts, and which is the same as which.
+    """
+
+    def __init__(self, setting: Setting, roles: Mapping[str, tuple[str | None, str]]) -> None:
+        self._setting, self._roles = setting, roles
+        self._generic = {str(p.args[1]): k for k, p in enumerate(setting.generic)}
+        self._positive = frozenset(str(p.args[1]) for p in setting.positive)
+        self._pose = _by_name(setting.pose)
+        self._reference = None if setting.reference is None else _by_name(setting.reference)
+
+    def of(self, block: Block) -> Likeness:
+        """What one block is compared by."""
+        shapes = [piece_shape(p) for p in (*(row.piece for row in block.rows), *block.conditions)]
+        mentioned = {n for shape in shapes for n in shape.names if n in self._generic}
+        generic = sorted(mentioned, key=self._generic.__getitem__)
+        names = (*block.coordinates, *generic)
+        places: dict[str, int] = {name: k for k, name in enumerate(names)}
+        measured = self._setting.geometric if self._setting.tolerance is not None else frozenset[int]()
+        key = (
+            len(block.coordinates),
+            len(block.rows),
+            tuple((shape.key, tuple([places.get(n, n) for n in shape.names])) for shape in shapes),
+            tuple([self._pose.get(n) for n in names]) if self._pose else (),
+            None if self._reference is None else tuple([self._reference.get(n) for n in names]),
+            self._roles_of(block),
+            tuple([(p[:2], p in self._positive) for p in generic]),
+            tuple([row.constraint in measured for row in block.rows]) if measured else (),
+        )
+        return Likeness(key, names)
+
+    def _roles_of(self, block: Block) -> Hashable:
+        owners: dict[str | None, int] = {None: -1}
+        found = []
+        for name in block.coordinates:
+            owner, role = self._roles.get(name, (None, ""))
+            found.append((owners.setdefault(owner, len(owners)), role, name in self._setting.tilts))
+        return tuple(found)
 
 
-def _role(found: tuple[str | None, str] | None, owners: dict[str | None, int]) -> Hashable:
-    if found is None:
-        return None
-    owner, role = found
-    return (None if owner is None else owners.setdefault(owner, len(owners)), role)
+def _by_name(values: Mapping[Expr, Expr]) -> dict[str, Expr]:
+    return {str(s.args[1]): value for s, value in values.items()}
 
 
-def _kind(p: Expr, setting: Setting) -> Hashable:
-    return (str(p.args[1])[:2], p in setting.positive)
+class AnsweredBlock(NamedTuple):
+    """A block by its names, and its answer."""
 
+    block: Block
+    names: tuple[str, ...]
+    answer: Answer
 
-def _renamed(piece: Piece, names: Mapping[Expr, Expr]) -> Hashable:
-    if isinstance(piece, Pfaffian):
-        forms = tuple((substitute(s, names), substitute(a, names)) for s, a in piece.items())
-        return (type(piece).__name__, forms)
-    return (type(piece).__name__, substitute(piece.expr, names))
-
-
-def nameless(piece: Piece) -> Hashable:
-    """Equal for pieces that are the same up to the names of their coordinates."""
-    names: dict[Expr, Expr] = {}
-    for i, c in enumerate(sorted(coordinates_of(piece))):
-        names[ex.coordinate(c)] = ex.coordinate(f"_{i}")
-        names[ex.velocity(c)] = ex.velocity(f"_{i}")
-    return _renamed(piece, names)
-
-
-def retold(a: Answer, own: Sequence[str], other: Sequence[str]) -> Answer:
-    """The answer of a block with the coordinates ``own`` for its twin with the coordinates ``other``."""
-    names = dict(zip(own, other, strict=True))
-    symbols = {ex.coordinate(x): ex.coordinate(y) for x, y in names.items()}
-    return replace(
-        a,
-        labels=dict(a.labels),
-        reasons=list(a.reasons),
-        hidden=[substitute(g, symbols) for g in a.hidden],
-        dependent=tuple(names.get(c, c) for c in a.dependent),
-        size=Size(),
-    )
+    def told_of(self, twin: Block, names: tuple[str, ...]) -> Answer:
+        """The answer for a twin with other names."""
+        a = copy(self.answer)
+        renaming = Renaming(dict(zip(self.names, names, strict=True)))
+        a.labels, a.reasons, a.size = dict(a.labels), list(a.reasons), Size()
+        a.hidden = [renaming.of(g) for g in a.hidden]
+        a.dependent = tuple([renaming.names.get(c, c) for c in a.dependent])
+        if a.witness is not None:
+            a.witness = {renaming.of(s): text for s, text in a.witness.items()}
+        if a.real is not None:
+            a.real = a.real._replace(names=tuple([renaming.names.get(n, n) for n in a.real.names]))
+        if a.conflict:
+            owners = {r.constraint: s.constraint for r, s in zip(self.block.rows, twin.rows, strict=True)}
+            a.conflict = tuple(sorted(owners[i] for i in a.conflict))
+        return a

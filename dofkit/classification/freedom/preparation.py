@@ -2,28 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from itertools import chain, count
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import Fault, SceneError, TextError
 from dofkit.expressions import tree as ex
-from dofkit.expressions.differentials import accelerations_of
 from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.renaming import shape_of
 from dofkit.expressions.tree import Expr
+from dofkit.expressions.unwritten import Unwritten
 from dofkit.integrability.accelerations import without_accelerations
-from dofkit.relations.normal.normal_form import Inequality, Normal, normalise, without_instants
+from dofkit.mobility.bridges import bridges
+from dofkit.mobility.rows_at_drawing import RowsAtDrawing
+from dofkit.relations.joint_equations import unwritten
+from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Piece, normalise
+from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
+from dofkit.relations.piece_shapes import NormalTemplate
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.reductions import ALL, Reductions
 from dofkit.relations.setting import Setting, TurnedBody
 from dofkit.system import System
+
+#: The kinds of symbols that no finite relation holds.
+RATES = frozenset({"velocity", "acceleration", "differential", "dt"})
+INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
 
 
 def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced], Setting]:
     """Each relation as what it says, and what may be assumed of the symbols."""
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     positive |= frozenset(ex.parameter(p) for p in system.generic if p.startswith("_L"))
-    reduced = reduce_all(system, positive)
+    apart = bridges(system) if "bridges" in reductions and system.tolerance is None else frozenset[int]()
+    reduced = reduce_all(system, positive, apart)
     setting = Setting(
         positive,
         tuple(ex.parameter(p) for p in system.generic),
@@ -41,6 +52,8 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         bodies=_turned(system) if system.tolerance else (),
         centre=_centre(system) if system.tolerance else (),
         tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
+        bridges=apart,
+        joint_rows=RowsAtDrawing(system, positive).of if apart else None,
     )
     return reduced, setting
 
@@ -85,11 +98,17 @@ def _links(system: System) -> dict[int, list[tuple[str, str]]]:
     return found
 
 
-def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
-    """Every relation of every constraint as what it says; all that cannot be one are faults together."""
+def reduce_all(system: System, positive: frozenset[Expr], apart: frozenset[int] = frozenset()) -> list[Reduced]:
+    """Every relation of every constraint as what it says; all that cannot be one are faults together.
+
+    Those of joints ``apart`` are not written out where they are not yet.
+    """
     found, faults = [], []
-    fresh = _fresh(system)
+    read = _Normals(system, positive)
     for i, constraint in enumerate(system.constraints):
+        if i in apart and isinstance(constraint.relations, Unwritten):
+            found.append(Reduced(constraint, unwritten(constraint.relations), ()))
+            continue
         normals, inequalities = [], []
         for relation in constraint.relations:
             check()
@@ -97,7 +116,7 @@ def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
                 inequalities.append(Inequality(relation.expr, relation.sense == ">"))
                 continue
             try:
-                normals.append(_normal(relation.expr, positive, constraint.facts.written, fresh))
+                normals.append(read.normal(relation.expr, constraint.facts.written))
             except TextError as error:
                 faults.append(Fault(f"'{constraint.name}': {error.message}", ("constraints", i), hint=error.hint))
         found.append(Reduced(constraint, tuple(normals), tuple(inequalities)))
@@ -106,13 +125,49 @@ def reduce_all(system: System, positive: frozenset[Expr]) -> list[Reduced]:
     return found
 
 
-def _normal(e: Expr, positive: frozenset[Expr], written: bool, fresh: Iterator[str]) -> Normal:
-    if accelerations_of(e):
-        return without_accelerations(e, positive, fresh)
-    return without_instants(normalise(e, positive, written))
+class _Normals:
+    """What relations say; of those that are the same up to names, in the same order, one is looked at."""
+
+    def __init__(self, system: System, positive: frozenset[Expr]) -> None:
+        self._positive = positive
+        self._fresh = _fresh(system)
+        self._known: dict[Hashable, NormalTemplate] = {}
+
+    def normal(self, e: Expr, written: bool) -> Normal:
+        """What ``e = 0`` says. Raises TextError where it can be no relation."""
+        kinds = {s.args[0] for s in e.symbols}
+        if not written and kinds.isdisjoint(RATES):
+            return Normal(((Finite(e),),))
+        if "acceleration" in kinds:
+            return without_accelerations(e, self._positive, self._fresh)
+        if not written:
+            return without_instants(normalise(e, self._positive, written))
+        shape = shape_of(e)
+        key = (shape.skeleton, shape.order)
+        if key in self._known:
+            return self._known[key].of(shape.names)
+        found = without_instants(normalise(e, self._positive, written))
+        self._known[key] = NormalTemplate(found, shape.names)
+        return found
 
 
 def _fresh(system: System) -> Iterator[str]:
     """Names for constants of integration: C, C1, C2, ... without those of the scene."""
     taken = {c.name for c in system.coordinates} | {*system.parameters, *system.generic, *system.functions}
     return (name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in taken)
+
+
+def without_instants(normal: Normal) -> Normal:
+    """A product's branch that only fixes the time (t = 0 of ``t (x - y) = 0``) is no branch of motion: left out."""
+    kept = tuple(b for b in normal.branches if not any(_instant(p) for p in b))
+    if not kept or len(kept) == len(normal.branches):
+        return normal
+    return Normal(kept, (*(n for n in normal.notes if n != PRODUCT_NOTE), INSTANT_NOTE))
+
+
+def _instant(piece: Piece) -> bool:
+    return (
+        isinstance(piece, Finite)
+        and bool(piece.expr.symbols)
+        and all(s.args[0] in ("time", "parameter") for s in piece.expr.symbols)
+    )

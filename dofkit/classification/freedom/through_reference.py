@@ -7,17 +7,20 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import product as cartesian
 
+from dofkit.classification.freedom.velocity_domain import still_conditions
 from dofkit.configuration.drawing.at_reference import ball_matrix, ball_point
 from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.zero.identity import is_proved_zero, is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
+from dofkit.expressions.differentials import accelerations_of, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.domain import DomainCondition, holds_at
-from dofkit.relations.normal.normal_form import Finite, Normal, Piece
+from dofkit.relations.normal.normal_form import Finite, Normal, Piece, normalise, velocities_of
 from dofkit.relations.normal.signs import arguments_of, by_signs
 from dofkit.relations.normal.zero_set import zero_set
 from dofkit.relations.setting import Setting
@@ -27,7 +30,7 @@ def through_reference(normal: Normal, setting: Setting) -> Normal:
     """The branches that hold at the reference configuration; all of them where none is given, or none holds there."""
     if setting.reference is None:
         return normal
-    if any(isinstance(p, Finite) and arguments_of(p.expr) for branch in normal.branches for p in branch):
+    if any(isinstance(p, Finite) and _is_kinked(p) for branch in normal.branches for p in branch):
         normal = _at_kinks(normal, {**setting.reference, ex.TIME: ex.ZERO}, setting.positive)
     if len(normal.branches) < 2:
         return normal
@@ -35,9 +38,27 @@ def through_reference(normal: Normal, setting: Setting) -> Normal:
     return replace(normal, branches=kept) if kept else normal
 
 
-def passes(normal: Normal, setting: Setting) -> bool:
-    """Does one of the branches hold at the reference configuration?"""
-    return any(_holds(b, setting) for b in normal.branches)
+def crossing_at(normal: Normal, written: Expr, setting: Setting) -> tuple[tuple[Piece, ...], ...] | None:
+    """What a relation with several branches asks of velocities at the reference, by branches; else its only branch.
+
+    Of a finite one nothing: its gradient is 0 where branches cross. None where none holds there.
+    """
+    if len(normal.branches) == 1:
+        return normal.branches
+    if accelerations_of(written):
+        return None
+    relation, _ = in_velocities(written)
+    if not velocities_of(relation):
+        return ((),) if any(_holds(b, setting) for b in normal.branches) else None
+    there = substitute(relation, {**(setting.reference or {}), ex.TIME: ex.ZERO})
+    if not velocities_of(there):
+        return ((),) if is_zero(there, setting.positive) else None
+    return normalise(there, setting.positive, True).branches or None
+
+
+def _is_kinked(piece: Finite) -> bool:
+    """Are there absolute values? There are none in the equations of a joint."""
+    return not isinstance(piece, JointEquation) and bool(arguments_of(piece.expr))
 
 
 def _at_kinks(normal: Normal, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> Normal:
@@ -81,7 +102,8 @@ def _holds(branch: Sequence[Piece], setting: Setting) -> bool:
     point = pose_point(chart, known, 5)
     if point is None or not on_variety(chart, point):
         return False
-    return all(holds_at(p, known, setting.positive) is not False for p in branch if isinstance(p, DomainCondition))
+    conditions = still_conditions([p for p in branch if isinstance(p, DomainCondition)])
+    return all(holds_at(c, known, setting.positive) is not False for c in conditions)
 
 
 def _block(pieces: Sequence[Finite]) -> Block:

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import chain, count, islice
 
 from dofkit.base.deadline import OutOfTimeError, check
-from dofkit.classification.freedom.block import answer
+from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.expressions.text import to_text
 from dofkit.integrability.first_integrals import FirstIntegral, first_integrals, integral_by_row, is_first_integral
 from dofkit.integrability.pfaffian_system import codistribution
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.normal.normal_form import Pfaffian
-from dofkit.relations.setting import Setting
 
 #: Blocks up to this many constraints and coordinates are searched for companions and integrals.
 MAX_CONSTRAINTS, MAX_COORDINATES = 10, 12
@@ -44,7 +43,7 @@ class CompanionIntegrals:
 class Companionship:
     """The blocks of a system, asked one constraint at a time; what was found for a block is kept."""
 
-    setting: Setting
+    parts: AnsweredParts
     _integrals: dict[tuple[int, ...], CompanionIntegrals] = field(default_factory=dict)
 
     def of(self, constraint: int, block: Block, a: Answer) -> Together:
@@ -98,17 +97,15 @@ class Companionship:
         What some of its rows integrate to need not be: where y = 0, dx = y dz says nothing of z, though it makes z
         constant beside x = 0 alone.
         """
-        plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)
-        return is_first_integral(codistribution(block, plain, a.hidden, [f.expr]), f.expr)
+        return is_first_integral(codistribution(block, self.parts.plain, a.hidden, [f.expr]), f.expr)
 
     def _holonomic(self, constraint: int, rows: Sequence[Row], block: Block) -> bool:
-        plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)
         for part in split(block.coordinates, rows)[0]:
             linear = [
                 i for i, r in enumerate(part.rows) if r.constraint == constraint and isinstance(r.piece, Pfaffian)
             ]
             if linear:
-                found = answer(part, plain)
+                found = self.parts.of(part)
                 if not found.consistent or any(not _true(found, i) for i in linear):
                     return False
         return True
@@ -139,11 +136,10 @@ class Companionship:
     def _searched(self, block: Block, owners: Sequence[int]) -> CompanionIntegrals:
         numbers = [i for i, r in enumerate(block.rows) if r.constraint in owners]
         part = Block(block.coordinates, tuple(block.rows[i] for i in numbers))
-        plain = replace(self.setting, pose={}, reference=None, grows=False, flag=False)
-        whole = answer(part, plain)
+        whole = self.parts.of(part)
         if whole.dof is None:
             return CompanionIntegrals({}, [])
-        forms = codistribution(part, plain, whole.hidden)
+        forms = codistribution(part, self.parts.plain, whole.hidden)
         sought = len(part.coordinates) - whole.dof - len(part.finite) - len(whole.hidden)
         integrals = first_integrals(forms, sought)
         shift = forms.finite - len(part.finite)

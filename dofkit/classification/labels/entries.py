@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -14,17 +14,18 @@ from dofkit.base.wording import verb
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.freedom.block import alone
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.isomorphic_blocks import nameless
+from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import in_words
+from dofkit.classification.labels.one_sided import kept_in_system, sides_of, with_sides
 from dofkit.classification.labels.reasons import Others
+from dofkit.classification.labels.shared_entries import SharedEntries
 from dofkit.integrability.modulo_others import label_modulo_others
-from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.integration_constants import fixed_constants
-from dofkit.relations.normal.normal_form import Inequality, Nonlinear, Pfaffian, Piece, Still
+from dofkit.relations.normal.normal_form import Inequality, Nonlinear, Pfaffian, Still
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict
@@ -51,18 +52,24 @@ def entries_of(
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
-    traits_of = _Remembered(setting).traits
-    entries, consistent = [], outcome.consistent
+    shared, entries, consistent = SharedEntries(setting), list[ConstraintEntry](), outcome.consistent
     for i, r in enumerate(reduced):
         number = known.independent.get(i, None if told[i] else 0)
         circuit = None if i not in known.circuits else [names[j] for j in known.circuits[i]]
         try:
             check()
-            beside = partial(_with_others, i, told[i], company, names)
-            alone = _by_itself(i, r, told[i], setting)
             copied = i in outcome.copies
-            evidence = Evidence(told[i], alone, number, circuit, constants, traits_of, beside, copied)
-            entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, known))
+            apart = known.says_more_of(i) or bool(sides_of(i, outcome))
+            kind = None if apart else shared.kind(r, told[i], number, copied, i in known.following)
+            made = shared.known(kind, r)
+            if made is None:
+                beside = partial(_with_others, i, told[i], company, names)
+                alone = _by_itself(i, r, told[i], company.parts)
+                evidence = Evidence(told[i], alone, number, circuit, constants, shared.traits, beside, copied)
+                made = with_sides(entry(r, evidence, setting, consistent), i, outcome, setting)
+                made = _with_dependence(made, i, r, known)
+                shared.keep(kind, made)
+            entries.append(made)
         except OutOfTimeError as error:
             entries.append(unfinished(r, str(error)))
     return entries
@@ -78,6 +85,10 @@ class _Dependence(NamedTuple):
     gone: Mapping[int, Verdict]
     open: Mapping[int, str]
     following: Mapping[int, set[int]]
+
+    def says_more_of(self, i: int) -> bool:
+        """Is anything known of a constraint beyond how many of its equations are independent: all of them?"""
+        return i in self.circuits or i in self.gone or i in self.open or bool(self.following.get(i))
 
 
 def _dependence(dependent: Sequence[Redundancies], outcome: Outcome) -> _Dependence:
@@ -116,7 +127,16 @@ def labels_in_system(
     told = _labelled_rows(len(reduced), outcome, setting)
     if not outcome.consistent:
         return [(None, "undecided")] * len(reduced)
-    return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
+    labels = [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
+    return [_with_sides(label, i, outcome, setting) for i, label in enumerate(labels)]
+
+
+def _with_sides(
+    label: tuple[bool | None, Verdict], i: int, outcome: Outcome, setting: Setting
+) -> tuple[bool | None, Verdict]:
+    """A label as one of the whole constraint, the sides among it to which it keeps velocities."""
+    kept = kept_in_system(i, outcome, setting)
+    return label if kept.holds or not label[0] else (kept.holds, "undecided" if kept.holds is None else kept.verdict)
 
 
 def _following(dependent: Sequence[Redundancies]) -> dict[int, set[int]]:
@@ -132,7 +152,7 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
     """An entry with its redundant equations by name, where their number is what was found before."""
     if following is None or made.independent is None or len(following) != made.equations - made.independent:
         return made
-    written = [relation for relation in r.constraint.relations if relation.sense == "="]
+    written = [relation for relation in r.constraint.relations if relation.sense == "="] if following else []
     names = [in_words(written[k], r.constraint.text) for k in sorted(following)]
     reason = made.reason
     if names and made.equations > 1:
@@ -144,18 +164,17 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
 
 def _unmeasured(outcome: Outcome) -> set[int]:
     """The constraints of blocks whose velocities are not known: not all of their equations were looked at."""
-    open_blocks = (b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.velocity_dof is None)
-    return {r.constraint for block in open_blocks for r in block.rows}
+    return {r.constraint for block, a in outcome.parts if a.velocity_dof is None for r in block.rows}
 
 
-def _by_itself(i: int, r: Reduced, told: Sequence[LabelledRow], setting: Setting) -> Answer | None:
+def _by_itself(i: int, r: Reduced, told: Sequence[LabelledRow], parts: AnsweredParts) -> Answer | None:
     """What a constraint that is not finite says without the others."""
     written = [Row(i, p) for normal in r.normals for p in normal.pieces if not isinstance(p, Inequality)]
     if any(isinstance(row.piece, Nonlinear) for row in written):
         still = [t.row for t in told if isinstance(t.row.piece, Still)]
-        return _curved(told) or _alone_in_time([*written, *still], setting)
+        return _curved(told) or _alone_in_time([*written, *still], parts)
     if any(isinstance(t.row.piece, Pfaffian) for t in told):
-        return _inherited(told) or _alone_in_time([t.row for t in told], setting)
+        return _inherited(told) or _alone_in_time([t.row for t in told], parts)
     return None
 
 
@@ -170,23 +189,6 @@ def _with_others(
     found = (company.of if in_system else company.modulo)(i, only.block, only.answer)
     companions = None if found.companions is None else tuple(f"'{names[k]}'" for k in found.companions)
     return Others(companions, found.integral, found.identically)
-
-
-class _Remembered:
-    """Labels of pieces, found once for those that differ in names only."""
-
-    def __init__(self, setting: Setting) -> None:
-        self._setting = setting
-        self._known: dict[Hashable, Traits] = {}
-
-    def traits(self, piece: Piece) -> Traits:
-        if not isinstance(piece, Pfaffian):
-            return traits(piece, self._setting.positive, self._setting.engines)
-        key = nameless(piece)
-        found = self._known.get(key)
-        if found is None:
-            found = self._known[key] = traits(piece, self._setting.positive, self._setting.engines)
-        return found
 
 
 def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list[LabelledRow]]:
@@ -217,13 +219,14 @@ def _curved(told: Sequence[LabelledRow]) -> Answer | None:
     return next((t.answer for t in told if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
 
 
-def _alone_in_time(own: Sequence[Row], setting: Setting) -> Answer:
+def _alone_in_time(own: Sequence[Row], parts: AnsweredParts) -> Answer:
     mentioned = {name for row in own for name in coordinates_of(row.piece)}
-    coordinates = [c.name for c in setting.roles if c.name in mentioned] if len(setting.roles) < LISTED else []
+    roles = parts.setting.roles
+    coordinates = [c.name for c in roles if c.name in mentioned] if len(roles) < LISTED else []
     coordinates += sorted(mentioned - set(coordinates))
     try:
         check()
-        return alone(own, setting, coordinates)
+        return alone(own, parts.setting, coordinates, parts.of)
     except (OutOfTimeError, ArithmeticError):
         return Answer(None, verdict="undecided")
 

@@ -78,10 +78,12 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     constraint, normals = reduced.constraint, reduced.normals
     pieces: list[Piece] = [p for normal in normals for p in normal.pieces] + list(reduced.inequalities)
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
+    forms = _integrable_forms(normals, evidence.rows)
     own_constants = {c: evidence.constants.get(c, ex.parameter(c)) for c in reduced.constants}
     shown = [with_constants(p, own_constants) for p in pieces]
-    proofs = _proofs(form, [p for p in shown if isinstance(p, Pfaffian)], evidence.by_itself, setting)
-    labels = _labels_of(reduced, evidence, form, proofs, consistent)
+    own_forms = [p for f in forms if isinstance(p := with_constants(f, own_constants), Pfaffian)]
+    proofs = _proofs(form, own_forms, evidence.by_itself, setting)
+    labels = _labels_of(reduced, evidence, form, proofs, forms, consistent)
     traits = _traits_together([evidence.traits_of(p) for p in shown], form == "pfaffian")
     integrals = _integrals_of(form, labels, proofs, evidence, bool(consistent))
     reasons = _labels(labels.in_system, labels.alone, evidence.rows)
@@ -108,6 +110,26 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     )
 
 
+def _integrable_forms(normals: Sequence[Normal], rows: Sequence[LabelledRow]) -> list[Pfaffian]:
+    """The forms that are put to the test of integrability, each once: of the branches like the one in use.
+
+    xdot^2 - 2 z xdot ydot + ydot^2 = 0 says xdot = ydot = 0 where abs(z) < 1, and one form where abs(z) > 1; on the
+    circle between it holds finite relations too.
+    """
+    used = [t.row.piece for t in rows if isinstance(t.row.piece, Pfaffian)]
+    chosen: list[Pfaffian] = []
+    for n in normals:
+        kinds = [(len(_forms([b])), any(isinstance(p, Finite) for p in b)) for b in n.branches]
+        own = {kind for kind, b in zip(kinds, n.branches, strict=True) if any(f in used for f in _forms([b]))}
+        wide = own or {kind for kind in kinds if not kind[1]} or set(kinds)
+        chosen += _forms([b for kind, b in zip(kinds, n.branches, strict=True) if kind in wide])
+    return [f for k, f in enumerate(chosen) if f not in chosen[:k]]
+
+
+def _forms(branches: Sequence[Sequence[Piece]]) -> list[Pfaffian]:
+    return [p for b in branches for p in b if isinstance(p, Pfaffian)]
+
+
 class _EntryLabels(NamedTuple):
     """Holonomic in the system and alone, and how sure each is."""
 
@@ -117,9 +139,13 @@ class _EntryLabels(NamedTuple):
 
 
 def _labels_of(
-    reduced: Reduced, evidence: Evidence, form: Form, proofs: Sequence[Integrability], consistent: bool | None
+    reduced: Reduced,
+    evidence: Evidence,
+    form: Form,
+    proofs: Sequence[Integrability],
+    forms: Sequence[Pfaffian],
+    consistent: bool | None,
 ) -> _EntryLabels:
-    forms = [p for normal in reduced.normals for p in normal.pieces if isinstance(p, Pfaffian)]
     in_system, sure = label_in_system(evidence.rows, reduced.inequalities, proofs, forms)
     own, sure_own = _alone(form, evidence.by_itself, proofs, forms, reduced.inequalities)
     if consistent is False and in_system is None:
@@ -265,11 +291,11 @@ def label_in_system(
     """(holonomic, verdict): all rows are consequences of finite relations; an inequality never is."""
     if inequalities:
         return False, "proved"
-    proved = {id(f) for f, p in zip(forms, proofs, strict=False) if p.proved}
+    proved = [f for f, p in zip(forms, proofs, strict=False) if p.proved]
     labels: list[bool | None] = []
     verdicts: list[Verdict] = []
     for t in told:
-        if isinstance(t.row.piece, (Finite, Still)) or id(t.row.piece) in proved:
+        if isinstance(t.row.piece, (Finite, Still)) or t.row.piece in proved:
             labels.append(True)
         elif isinstance(t.row.piece, Nonlinear) and not t.reduced:
             labels.append(False if t.answer.curved else None)
@@ -286,13 +312,13 @@ def label_in_system(
     return together, weakest(*verdicts)
 
 
-def _strongest(told: Sequence[LabelledRow], proved: set[int]) -> Verdict:
+def _strongest(told: Sequence[LabelledRow], proved: Sequence[Pfaffian]) -> Verdict:
     """How sure the surest row is that it is not holonomic."""
     found: list[Verdict] = []
     for t in told:
         if isinstance(t.row.piece, Nonlinear) and t.answer.curved:
             found.append("proved")
-        elif t.label is not None and t.label.holonomic is False and id(t.row.piece) not in proved:
+        elif t.label is not None and t.label.holonomic is False and t.row.piece not in proved:
             found.append(t.label.verdict)
     return min(found, key=VERDICTS.index, default="proved")
 

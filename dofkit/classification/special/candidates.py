@@ -34,10 +34,11 @@ class Candidates:
         return not (self.ranks or self.bends or self.poles or self.values)
 
 
-def candidates(table: MinorTable, rank: int | None, curvature: int) -> Candidates:
+def candidates(table: MinorTable, rank: int | None, curvature: int, curved: bool) -> Candidates:
     """All that are found; ``rank`` of the rows in the coordinates' columns (None: they contradict each other).
 
     ``curvature``: the number of independent directions that [D, D] adds to D at a generic point, 0 where not known.
+    Where nothing is ``curved`` and there are no parameters, curvature has nothing to tell.
     """
     search = CandidateSearch(table)
     if rank is None:
@@ -47,9 +48,13 @@ def candidates(table: MinorTable, rank: int | None, curvature: int) -> Candidate
     reduction = EliminatedTable(table)
     size = rank - len(reduction.solved)
     search.attempt(lambda: search.minors(reduction, size))
-    search.attempt(lambda: search.curvature(reduction, size, curvature))
-    for polys in (*table.clocks, *(list(curl.values()) for curl in table.curls)):
+    tells = curved or table.reals.parameters
+    if tells:
+        search.attempt(lambda: search.curvature(reduction, size, curvature))
+    for polys in table.clocks:
         search.attempt(partial(search.values_of, polys))
+    if tells:
+        search.attempt(search.closing)
     search.inside()
     search.merge()
     return search.found
@@ -101,6 +106,11 @@ class CandidateSearch:
         if independent > 1 and comb(len(bent), independent) * comb(len(bent[0]), independent) <= MAX_MINORS:
             self.found.bends += self.places(self._minors_of(bent, independent))
 
+    def closing(self) -> None:
+        """For which parameters a form is closed."""
+        for curl in self.table.curls:
+            self.attempt(partial(self.values_of, list(curl.values())))
+
     def _minors_of(self, matrix: list[list[Poly]], size: int) -> list[Poly]:
         columns = range(len(matrix[0]))
         picked = [(r, c) for r in combinations(matrix, size) for c in combinations(columns, size)]
@@ -117,7 +127,7 @@ class CandidateSearch:
     def values_of(self, polys: Iterable[Poly]) -> None:
         """Conditions on the parameters under which polynomials vanish everywhere."""
         left = [p for p in polys if p != 0]
-        if not left:
+        if not left or not self.reals.parameters:
             return
         if any(len(p) == 1 and self.reals.never_zero_factor(p) for p in left):
             return

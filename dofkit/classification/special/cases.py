@@ -11,7 +11,7 @@ from dofkit.base.deadline import OutOfTimeError, expired, limited
 from dofkit.base.errors import DofkitError
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.isomorphic_blocks import alike
+from dofkit.classification.freedom.isomorphic_blocks import Likenesses
 from dofkit.classification.special.candidates import Candidates, candidates
 from dofkit.classification.special.common_zeros import Leaf, Reals
 from dofkit.classification.special.integrals import undefined_integrals
@@ -134,12 +134,12 @@ def special_cases(
 
 def _searched(outcome: Outcome, told: GenericAnswer) -> list[SearchedBlock]:
     """The blocks that are small, with their candidates; where one has none, those that are like it are left out."""
-    roles = {c.name: (c.owner, c.role) for c in told.system.coordinates}
+    likenesses = Likenesses(told.setting, {c.name: (c.owner, c.role) for c in told.system.coordinates})
     fruitless: set[Hashable] = set()
     found = []
     looked = [(b, a) for b, a in zip(outcome.blocks, outcome.answers, strict=True) if _is_searched(b, a, told)]
     for block, a in looked:
-        key = alike(block, told.setting, roles) if len(looked) > 1 else None
+        key = likenesses.of(block).key if len(looked) > 1 else None
         one = None if key in fruitless else _search(block, a, told)
         if one is not None:
             found.append(one)
@@ -175,7 +175,8 @@ def _search(block: Block, a: Answer, told: GenericAnswer) -> SearchedBlock | Non
     curvature = a.growth[1] - a.growth[0] if a.growth and len(a.growth) > 1 else 0
     try:
         table = table_of(block, a.hidden, told.setting, nonzero)
-        return SearchedBlock(block, a, table, candidates(table, rank, curvature))
+        curved = any(label.holonomic is False for label in a.labels.values())
+        return SearchedBlock(block, a, table, candidates(table, rank, curvature, curved))
     except _UNFINISHED:
         return None
 

@@ -59,6 +59,11 @@ class Reals:
             *(s for v, s in zip(ring.vars, shown, strict=True) if v.kind != "symbol"), frozenset[Expr]()
         )
 
+    @property
+    def parameters(self) -> bool:
+        """Is there a generator that does not move, so that a coefficient may vanish for some values?"""
+        return len(self.moving) < len(self.canon.ring.vars)
+
     def never_zero(self, poly: Poly) -> bool:
         """True where the polynomial is proved to vanish nowhere."""
         if poly.is_constant():

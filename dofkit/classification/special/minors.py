@@ -7,8 +7,9 @@ spanned by Cramer's vectors, so the curvature d(omega)(u, v) of every form on ev
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations
 from math import comb
 
@@ -35,9 +36,8 @@ MAX_TERMS, MAX_SHORT = 12, 60
 class MinorTable:
     """``relations`` are the finite relations; ``rows`` over ``symbols`` (coordinates, then time where it enters).
 
-    The first rows are the relations' differentials. Of every form ``curls`` has the coefficients of d(omega) by
-    pairs of columns, ``clocks`` what holds its time (the dt coefficient and time derivatives); ``below`` has every
-    row's denominator, as written.
+    The first rows are the relations' differentials. Of every form ``bent`` has d(omega), ``clocks`` what holds its time
+    (the dt coefficient and time derivatives); ``below`` has every row's denominator, as written.
     """
 
     canon: Canon
@@ -45,9 +45,15 @@ class MinorTable:
     symbols: tuple[Expr, ...]
     relations: list[Poly]
     rows: list[list[Poly]]
-    curls: list[dict[tuple[int, int], Poly]]
+    bent: Callable[[], list[dict[tuple[int, int], Quotient]]]
     clocks: list[list[Poly]]
     below: list[Poly]
+
+    @cached_property
+    def curls(self) -> list[dict[tuple[int, int], Poly]]:
+        """The coefficients of d(omega) by pairs of columns, of every form. Raises NoValueError."""
+        bent = self.bent()
+        return [dict(zip(curl, cleared(self.canon, list(curl.values()))[0], strict=True)) for curl in bent]
 
     @property
     def n(self) -> int:
@@ -72,15 +78,13 @@ def table_of(block: Block, hidden: Sequence[Expr], setting: Setting, nonzero: fr
     written = [[slopes.of(values[g], s) if s in g.symbols else slopes.zero for s in symbols] for g in finite]
     written += [[values[form[s]] if s in form else slopes.zero for s in symbols] for form in forms]
     clear = [cleared(canon, row) for row in written]
-    bent = [_curl(slopes, form, values, symbols) for form in forms]
-    turned = [dict(zip(curl, cleared(canon, list(curl.values()))[0], strict=True)) for curl in bent]
     return MinorTable(
         canon,
         Reals(canon, setting.positive, nonzero),
         symbols,
         [values[g][0] for g in finite],
         [tops for tops, _ in clear],
-        turned,
+        lambda: [_curl(slopes, form, values, symbols) for form in forms],
         [_clock(slopes, row) for row in written] if timed else [],
         [whole for _, whole in clear],
     )

@@ -101,7 +101,7 @@ def _by_field(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtRefere
         ball = ball_point(chart, known, point.rng) if "balls" in chart.engines else None
         local = LocalDimension(None, "undecided", "measured")
         return AtReference(n - rank_q, local, [], point.p, rank, rigid, ball)
-    together = timed or rank == n - rigid or "classes" not in chart.reductions
+    together = timed or (rank == n - rigid and not chart.within) or "classes" not in chart.reductions
     apart = None if together else _by_parts(chart, known, matrix, point.p, rank)
     if apart is not None:
         local, looked = apart
@@ -150,7 +150,7 @@ def _by_parts(
         return LocalDimension(dimension, "proved", INDEPENDENT, argument="independent relations"), FollowedClasses(rank)
     reduced = echelon(matrix, p, supports=True)
     parts = dependent_parts(chart, reduced)
-    if len(parts) == 1 and len(parts[0].rows) == len(matrix):
+    if len(parts) == 1 and len(parts[0].rows) == len(matrix) and not chart.within:
         return None
     found = []
     followed = more = 0
@@ -194,7 +194,7 @@ def _of_wider_part(
 ) -> tuple[Chart, LocalDimension | None, int]:
     """A class with all that is said of its bodies, where that is more and not all there is."""
     wide = widened(chart, part, found)
-    if not len(part.rows) < len(wide.rows) < len(chart.relations):
+    if not len(part.rows) < len(wide.rows) < len(chart.relations) + chart.within:
         return chart, None, 0
     own = chart_of(chart, wide.rows)
     return own, *_of_part(own, known, wide.rank)

@@ -17,8 +17,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import networkx as nx
-
+from dofkit.base.libraries import nx
 from dofkit.exact.matrices.sparse import Echelon
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr

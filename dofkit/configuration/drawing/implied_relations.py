@@ -15,9 +15,8 @@ import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-import numpy as np
-
 from dofkit.base.deadline import check
+from dofkit.base.libraries import np
 from dofkit.configuration.drawing.at_reference import ball_point
 from dofkit.configuration.drawing.dependent_classes import chart_of
 from dofkit.configuration.drawing.fewer_coordinates import smaller

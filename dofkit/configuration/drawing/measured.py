@@ -13,9 +13,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from dofkit.base.deadline import check
+from dofkit.base.libraries import np
 from dofkit.configuration.drawing.measured_branches import branch_dimension
 from dofkit.configuration.drawing.measured_flexes import StressForms
 from dofkit.configuration.drawing.measured_paths import LONGEST, ON, follow, runs_through, stride_of

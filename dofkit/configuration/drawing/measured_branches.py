@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
+from dofkit.base.libraries import np
 from dofkit.configuration.drawing.measured_flexes import StressForms
 from dofkit.configuration.drawing.measured_paths import HALF, ON, follow, stride_of
 from dofkit.configuration.drawing.measured_relations import SLACK, MeasuredDrawing, Place, clear_rank

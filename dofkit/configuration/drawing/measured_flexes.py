@@ -13,9 +13,9 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Any
 
-import numpy as np
 from flint import arb
 
+from dofkit.base.libraries import np
 from dofkit.configuration.drawing.measured_relations import SLACK, MeasuredDrawing
 from dofkit.configuration.local.quadratic_cone import (
     MAX_CUTS,

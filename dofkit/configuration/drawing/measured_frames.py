@@ -8,18 +8,21 @@ by P = p + R (c - s), with c the middle of the drawing: dp = dP - sum dR/d(angle
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cache
 from typing import Any, NamedTuple
 
-import numpy as np
-
+from dofkit.base.libraries import np
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.setting import TurnedBody
 
-#: The vectors e~ of the axes: e~ v is the cross product.
-CROSS = np.array(
-    [[[0, 0, 0], [0, 0, -1], [0, 1, 0]], [[0, 0, 1], [0, 0, 0], [-1, 0, 0]], [[0, -1, 0], [1, 0, 0], [0, 0, 0]]]
-)
+
+@cache
+def crosses() -> Any:
+    """The matrices e~ of the axes: e~ v is the cross product."""
+    return np.array(
+        [[[0, 0, 0], [0, 0, -1], [0, 1, 0]], [[0, 0, 1], [0, 0, 0], [-1, 0, 0]], [[0, -1, 0], [1, 0, 0], [0, 0, 0]]]
+    )
 
 
 class BodyFrame(NamedTuple):
@@ -83,10 +86,10 @@ def _turn(body: TurnedBody, angles: Any) -> tuple[Any, list[Any]]:
 def _by_gibbs(g: Any) -> tuple[Any, list[Any]]:
     """R = N / w with N = (1 - g.g) I + 2 g g^T + 2 g~ and w = 1 + g.g."""
     w, one = 1 + g @ g, np.eye(3)
-    n = (1 - g @ g) * one + 2 * np.outer(g, g) + 2 * np.einsum("k,kij->ij", g, CROSS)
+    n = (1 - g @ g) * one + 2 * np.outer(g, g) + 2 * np.einsum("k,kij->ij", g, crosses())
     slopes = []
     for k in range(3):
-        slope = -2 * g[k] * one + 2 * (np.outer(one[k], g) + np.outer(g, one[k])) + 2 * CROSS[k]
+        slope = -2 * g[k] * one + 2 * (np.outer(one[k], g) + np.outer(g, one[k])) + 2 * crosses()[k]
         slopes.append(slope / w - n * (2 * g[k] / w**2))
     return n / w, slopes
 
@@ -95,10 +98,10 @@ def _by_euler(angles: Any) -> tuple[Any, list[Any]]:
     """Rz(phi) Rx(theta) Rz(psi); a turn about an axis has the derivative e~ R."""
     parts = [_about(axis, a) for axis, a in zip((2, 0, 2), angles, strict=True)]
     a, b, c = parts
-    slopes = [CROSS[2] @ a @ b @ c, a @ CROSS[0] @ b @ c, a @ b @ CROSS[2] @ c]
+    slopes = [crosses()[2] @ a @ b @ c, a @ crosses()[0] @ b @ c, a @ b @ crosses()[2] @ c]
     return a @ b @ c, slopes
 
 
 def _about(axis: int, angle: float) -> Any:
-    e = CROSS[axis]
+    e = crosses()[axis]
     return np.eye(3) + np.sin(angle) * e + (1 - np.cos(angle)) * e @ e

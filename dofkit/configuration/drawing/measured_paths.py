@@ -10,8 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
+from dofkit.base.libraries import np
 from dofkit.configuration.drawing.measured_relations import GREY, SLACK, MeasuredDrawing, Place, clear_rank
 
 #: A motion is followed so far, as a fraction of the size, or farther where second-order effects of that size would

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
 from dofkit.base.deadline import check
+from dofkit.base.libraries import np
 from dofkit.configuration.drawing.measured_frames import BodyFrame, frames_of, of_points, shifts, to_points
 from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.points.balls import FloatPoint, jacobian

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
 from flint import arb
 
 from dofkit.base.deadline import check
+from dofkit.base.libraries import np
 from dofkit.configuration.local.manifold import Form, Manifold
 from dofkit.configuration.local.neighbourhood import FAULTS, SURE, Neighbourhood, damped, independent
 from dofkit.exact.points.balls import BallPoint, jacobian

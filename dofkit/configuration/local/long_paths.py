@@ -11,9 +11,8 @@ from collections.abc import Mapping, Sequence
 from heapq import heapify, heappop, heappush
 from typing import Any
 
-import numpy as np
-
 from dofkit.base.deadline import check
+from dofkit.base.libraries import np
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.exact.errors import NoValueError, PoleError
 from dofkit.exact.points.balls import FloatPoint

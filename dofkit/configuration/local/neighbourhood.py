@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-import numpy as np
 from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
+from dofkit.base.libraries import np
 from dofkit.configuration.local.critical_set import Split
 from dofkit.configuration.local.long_paths import holds_afar
 from dofkit.configuration.local.manifold import Manifold

@@ -12,10 +12,10 @@ from fractions import Fraction
 from itertools import combinations_with_replacement
 from typing import Any
 
-import numpy as np
 from flint import arb, nmod, nmod_mat
 
 from dofkit.base.deadline import check
+from dofkit.base.libraries import np
 from dofkit.exact.ring.instructions import Scalar
 
 Form = Sequence[Sequence[Scalar]]

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-import numpy as np
-
+from dofkit.base.libraries import np
 from dofkit.exact.boxes import intervals as iv
 from dofkit.exact.boxes.box_program import Box, BoxProgram
 from dofkit.exact.boxes.intervals import Interval

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-import numpy as np
 from flint import arb, arb_mat
 
+from dofkit.base.libraries import np
 from dofkit.exact.matrices.singular_values import independent_part
 
 #: Up to this many multiplications, rows are eliminated in their order; past it, those that floating point chose first.

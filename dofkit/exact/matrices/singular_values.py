@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-import numpy as np
-
 from dofkit.base.deadline import check
+from dofkit.base.libraries import np
 
 #: Relative size below which a singular value of a matrix with scaled rows is taken for 0, and above which it is not.
 NOISE, SIGNAL = 1e-9, 1e-6

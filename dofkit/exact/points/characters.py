@@ -33,13 +33,14 @@ LARGEST = 512
 class Character:
     """The values of one homomorphism at a point: each argument that was asked for with its value."""
 
-    def __init__(self, p: int, known: dict[int, Any] | None = None) -> None:
-        self.p = p
+    def __init__(self, p: int, known: dict[int, Any] | None = None, drawn: set[int] | None = None) -> None:
+        """``drawn``: arguments that were drawn at random, each by itself: they are related by chance only."""
+        self.p, self.drawn = p, set() if drawn is None else drawn
         self.values: dict[int, Any] = {} if known is None else known
 
-    def copy(self) -> Character:
+    def copy(self, drawn: set[int]) -> Character:
         """The same values so far."""
-        return Character(self.p, dict(self.values))
+        return Character(self.p, dict(self.values), drawn)
 
     def at(self, argument: Any, draw: Callable[[], Any]) -> Any:
         """The value at an argument: what relations give, else one that is drawn. Raises NoPointError for a root."""
@@ -108,6 +109,8 @@ class Character:
         return found
 
     def _related(self, u: int) -> Any | None:
+        if u in self.drawn and self.drawn.issuperset(self.values):
+            return None
         if self.p - u in self.values:
             return 1 / self.values[self.p - u]
         relation = self._reduced(u) if len(self.values) <= MOST_REDUCED else self._of_two(u)

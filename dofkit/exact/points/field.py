@@ -92,7 +92,8 @@ class FieldPoint:
         self.order = order
         self.given: dict[tuple[str, object], Scalar] = {}
         self._taken: dict[tuple[object, ...], Scalar] = {}
-        self._exponentials, self._turns = Character(p), Character(p)
+        self._drawn: set[int] = set()
+        self._exponentials, self._turns = Character(p, drawn=self._drawn), Character(p, drawn=self._drawn)
         self._agreed: set[tuple[str, object]] = set()
         self._logarithms = False
         self._zeta: Scalar = None
@@ -107,7 +108,8 @@ class FieldPoint:
         other = FieldPoint(self.p, self.rng, self.order)
         other.given = dict(self.given)
         other._taken, other._agreed, other._logarithms = dict(self._taken), set(self._agreed), self._logarithms
-        other._exponentials, other._turns = self._exponentials.copy(), self._turns.copy()
+        other._drawn = set(self._drawn)
+        other._exponentials, other._turns = self._exponentials.copy(other._drawn), self._turns.copy(other._drawn)
         other._zeta, other._imaginary = self._zeta, self._imaginary
         return other
 
@@ -173,7 +175,12 @@ class FieldPoint:
             return self.given[var.kind, var.key]
         if var.kind == "exp" and args:
             return self._exponentials.at(args[0], self.random)
-        return self._of_arguments(var, args, partial(self._draw_value, var, args)) if args else self.random()
+        if args:
+            return self._of_arguments(var, args, partial(self._draw_value, var, args))
+        drawn = self.random()
+        if var.kind == "symbol":
+            self._drawn.add(int(drawn))
+        return drawn
 
     def _draw_value(self, var: Var, args: Sequence[Scalar]) -> Scalar:
         if var.kind == "root":

@@ -11,10 +11,10 @@ import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
 from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
+from dofkit.base.libraries import np
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.certified import ORDERED, PivotedPart, ball_part
 from dofkit.exact.matrices.singular_values import independent_part
@@ -86,15 +86,14 @@ class RealSearch:
         self.upto = len(ring.code)
 
     def start(self, seed: int, given: Mapping[Expr, float]) -> dict[Expr, float]:
-        """Random dyadic values, so that what is not solved for is an exact number."""
+        """Random dyadic values, so that what is not solved for is an exact number.
+
+        Time and a parameter that has a name have the same value wherever they occur: so points of sets fit.
+        """
         rng = random.Random(f"dofkit start {seed}")
-        found = {}
-        for var in self.ring.vars:
-            if var.kind == "symbol":
-                low = 256 if var.key in self.positive or var.key.args[0] in ("time", "parameter") else -1024
-                value = rng.randrange(low, 1025) / 512 or 0.25
-                found[var.key] = given.get(var.key, value)
-        return found
+        symbols = [var.key for var in self.ring.vars if var.kind == "symbol"]
+        drawn = {s: _start_value(s, rng, seed, s in self.positive) for s in symbols}
+        return {s: given.get(s, value) for s, value in drawn.items()}
 
     @raising_no_value
     def search(
@@ -109,8 +108,8 @@ class RealSearch:
         tries = 0
         for attempt in range(starts):
             symbols = self.start(seed * STARTS + attempt, given or {})
-            found = self.descend(symbols, seed, steps)
-            refined = None if found is None else self.refine(symbols, found, seed)
+            found = self.descend(symbols, seed, steps) if self.nodes else None
+            refined = self.refine(symbols, found, seed) if found is not None or not self.nodes else None
             if refined is not None and refined.certified and refined.consistent:
                 return refined
             tries += refined is not None
@@ -171,8 +170,8 @@ class RealSearch:
         j = np.array(jacobian(self.ring, at, point, self.nodes, self.columns, 0.0), dtype=float)
         return f, j.reshape(len(self.nodes), len(self.columns))
 
-    def refine(self, symbols: Mapping[Expr, float], j: np.ndarray, seed: int) -> RealPoint | None:
-        """To high precision on independent rows, and the interval Newton test.
+    def refine(self, symbols: Mapping[Expr, float], j: np.ndarray | None, seed: int) -> RealPoint | None:
+        """To high precision on independent rows of the Jacobian (None: it has none), and the interval Newton test.
 
         Rows that floating point takes for dependent are tried as independent where the others do not imply them.
         """
@@ -181,8 +180,10 @@ class RealSearch:
         with ctx.workprec(max(ctx.prec, precision())):
             return self._precise(symbols, j, seed)
 
-    def _precise(self, symbols: Mapping[Expr, float], j: np.ndarray, seed: int) -> RealPoint | None:
-        _, _, rows, columns = independent_part(j)
+    def _precise(self, symbols: Mapping[Expr, float], j: np.ndarray | None, seed: int) -> RealPoint | None:
+        if j is None:
+            return self._refined(symbols, (), (), seed)
+        rows, columns = independent_part(j)[2:]
         found = self._refined(symbols, rows, columns, seed)
         if (found is not None and found.certified and found.consistent) or len(rows) == len(self.nodes):
             return found
@@ -258,6 +259,16 @@ class RealSearch:
         at = values(self.ring, point, self.upto)
         j = jacobian(self.ring, at, point, nodes, indices, arb(0))
         return arb_mat([[at[n]] for n in nodes]), arb_mat(j)
+
+
+def _start_value(symbol: Expr, rng: random.Random, seed: int, positive: bool) -> float:
+    kind, name = symbol.args
+    constant = kind in ("time", "parameter")
+    low = 256 if positive or constant else -1024
+    value = rng.randrange(low, 1025) / 512 or 0.25
+    if constant and name[0] != "_":
+        return random.Random(f"dofkit start {seed} {name}").randrange(low, 1025) / 512
+    return value
 
 
 @raising_no_value

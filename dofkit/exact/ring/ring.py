@@ -71,7 +71,7 @@ class Ring(Instructions):
         self.alias = alias or {}
         given = [e for e in expressions if e.functions]
         self._denominators = _angle_arguments(given, self.alias)
-        self._split = split_logs(given, positive)
+        self._split = split_logs((e for e in given if "log" in e.functions), positive)
         self._memo: dict[Expr, int] = {}
         self._building: dict[str, Callable[[Expr], int]] = {
             "num": lambda e: self.emit(NUM, e.args[0]),

@@ -38,7 +38,7 @@ def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH
     """(zero?, how sure); None only where one engine alone cannot tell.
 
     Zero in the canonical ring is a proof, and so is zero of every coefficient there (`proved_zero`); so is not zero
-    there where the generators are independent and points over GF(p) agree, or where a ball at some real point excludes
+    there or at a point over GF(p) where the generators are independent, or where a ball at some real point excludes
     0. What is 0 at random points over GF(p) is probably zero [SchwartzZippel]; what no ball tells from 0 is so
     numerically.
     """
@@ -50,9 +50,12 @@ def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH
         return _by_one_engine(ring, node, positive, engines)
     canon = Canon(ring)
     try:
+        independent = independent_generators(ring)
+        if independent and _zero_at_points(ring, node, 1) is False:
+            return False, "proved"
         if canon.is_zero(node):
             return True, "proved"
-        if independent_generators(ring) and _zero_at_points(ring, node) is not True:
+        if independent and _zero_at_points(ring, node) is not True:
             return False, "proved"
     except NoValueError:
         pass
@@ -111,8 +114,8 @@ def _excluded_at(ring: Ring, node: int, point: BallPoint) -> bool:
         return False
 
 
-def _zero_at_points(ring: Ring, node: int) -> bool | None:
-    """Zero at random points over GF(p)? None where too few were found."""
+def _zero_at_points(ring: Ring, node: int, points: int = 3) -> bool | None:
+    """Zero at so many random points over GF(p)? None where too few were found."""
     seen = 0
     for seed in range(60):
         try:
@@ -121,6 +124,6 @@ def _zero_at_points(ring: Ring, node: int) -> bool | None:
         except NoValueError:
             continue
         seen += 1
-        if seen == 3:
+        if seen == points:
             return True
     return None

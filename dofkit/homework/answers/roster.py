@@ -55,6 +55,8 @@ _UNIQUE = ("email", "number", "username", "canvas", "moodle", "other")
 #: Folders and files as Moodle calls them when all submissions are downloaded, and as Canvas does.
 _MOODLE = re.compile(r"(?P<who>.+?)(?P<number>_\d+)_assignsubmission_\w+")
 _CANVAS = re.compile(r"[^\W_]+_(?:LATE_)?(?P<who>\d+)_\d+_", re.IGNORECASE)
+#: Files as PrairieLearn calls them: ``UID_..._QUESTION_..._SUBMISSION_NAME``.
+_PRAIRIELEARN = re.compile(r"(?P<who>[^@\s/]+@[^@\s/_]+)_(?:.*_)?\d+_[^_]*")
 
 
 class RosterError(DofkitError):
@@ -66,7 +68,8 @@ class Participant:
     """A person in a course; what is not known is empty.
 
     ``student``: what results call them, no two alike. ``canvas``, ``moodle``: the number that the
-    platform itself gave them, Canvas's ``ID`` and Moodle's ``userid``; ``number``: that of the university.
+    platform itself gave them, Canvas's ``ID`` and Moodle's ``userid``; ``number``: that of the university. ``others``:
+    whatever else they go by.
     """
 
     student: str
@@ -79,19 +82,20 @@ class Participant:
     other: str = ""
     section: str = ""
     line: int = 0
+    others: tuple[str, ...] = ()
 
     def called(self) -> Iterator[str]:
         """Everything they go by."""
-        yield from filter(None, (self.name, *(getattr(self, name) for name in _UNIQUE)))
+        yield from filter(None, (self.name, *(getattr(self, name) for name in _UNIQUE), *self.others))
         last, comma, first = self.name.partition(",")
         if comma:
             yield f"{first} {last}"
 
     def goes_by(self, text: str) -> bool:
         """Is a text one of their names, or a part of their name of whole words?"""
-        words = set(_key(self.name.replace(",", " ")).split())
-        given = _key(text.replace(",", " ")).split()
-        return _key(text) in map(_key, self.called()) or (bool(given) and set(given) <= words)
+        given = set(_key(text.replace(",", " ")).split())
+        names = [set(_key(name.replace(",", " ")).split()) for name in (self.name, self.student, *self.others)]
+        return _key(text) in map(_key, self.called()) or (bool(given) and any(given <= words for words in names))
 
 
 @dataclass(frozen=True)
@@ -126,6 +130,8 @@ class Roster:
         if found := _CANVAS.match(claim):
             by_canvas = next((member for member in self.members if member.canvas == found["who"]), None)
             return by_canvas or self.find(claim)
+        if found := _PRAIRIELEARN.fullmatch(claim):
+            return self.find(found["who"]) or self.find(claim)
         return self.find(claim)
 
 
@@ -134,7 +140,11 @@ def own_name(claim: str) -> str:
 
     >>> own_name("Ada Lovelace_123_assignsubmission_file_"), own_name("sheet_1_2_ada")
     ('Ada Lovelace_123', 'sheet_1_2_ada')
+    >>> own_name("ada@uni.example_7_rods_4711_answers")
+    'ada@uni.example'
     """
+    if at_prairielearn := _PRAIRIELEARN.fullmatch(claim):
+        return at_prairielearn["who"]
     found = _MOODLE.match(claim)
     return claim if found is None else found["who"] + found["number"]
 
@@ -213,7 +223,7 @@ def _members(fields: Mapping[str, int], rows: Iterable[tuple[int, list[str]]], s
         one["name"] = one.get("name") or f"{first} {last}".strip()
         if _is_nobody(one):
             continue
-        found.append(Participant("", line=line, **one))
+        found.append(Participant("", line=line, others=(), **one))
     _told_apart(found, shown)
     shared = Counter(key for member in found for key in set(map(_key, member.called())))
     for member in found:

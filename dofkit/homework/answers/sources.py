@@ -7,17 +7,19 @@ from __future__ import annotations
 
 import hashlib
 import os
-import re
 import stat
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from io import BufferedReader, BytesIO, RawIOBase, TextIOWrapper
 from itertools import islice
+from pathlib import Path
 from typing import Any, BinaryIO
 
-from dofkit.homework.answers.roster import own_name
+from dofkit.homework.answers.gradescope import METADATA, submitters
+from dofkit.homework.answers.prairielearn import SubmittedRow, answers_of, is_submissions_header, submitted_rows
+from dofkit.homework.answers.roster import Participant, own_name
 from dofkit.homework.answers.submission import (
     MOST_BYTES,
     FilePlace,
@@ -33,11 +35,9 @@ from dofkit.homework.answers.tables import DELIMITERS, MOST_CHARACTERS, STUDENT,
 
 DOCUMENTS, LINES, TABLES = (".json", ".yaml", ".yml"), (".jsonl", ".ndjson"), (".csv", ".tsv")
 STDIN = "-"
+HAND_INS = (*DOCUMENTS, *LINES, *TABLES)
 #: What a file with answers is called that tells nothing of who hands it in.
 GENERIC = frozenset({"answers", "answer", "submission", "solution", "antworten", "abgabe", "homework", "sheet"})
-#: What Gradescope puts beside the folders of submissions that are downloaded, and what it says of each.
-METADATA = "submission_metadata.yml"
-_SUBMITTED = re.compile(r"^(?P<folder>submission_\d+):|^\s+(?:- )?:(?P<what>name|email): *(?P<said>.+)$", re.MULTILINE)
 #: Files that systems leave in folders.
 _LEFT = frozenset({"thumbs.db", "desktop.ini", "__macosx"})
 
@@ -47,7 +47,8 @@ class Handed:
     """What was handed in at a place: the text of a document, the mapping of a table's row, or why there is neither.
 
     ``name``: the student's name where it gives none. ``claims``: the names of the file and of the folders it was found
-    in, the innermost first: a roster knows whether they are somebody's.
+    in, the innermost first: a roster knows whether they are somebody's. ``users``: who handed it in, where a platform's
+    export says so.
     """
 
     name: str
@@ -55,6 +56,7 @@ class Handed:
     data: bytes | Mapping[str, object] | None = None
     error: str = ""
     claims: tuple[str, ...] = ()
+    users: tuple[Participant, ...] = ()
 
     def submissions(self, known: Columns) -> list[Submission]:
         """Read it; ``known``: the assignment's columns."""
@@ -67,7 +69,8 @@ class Handed:
     def digest(self) -> str:
         """What tells it from another, in 16 characters."""
         said = self.data if isinstance(self.data, bytes) else repr((self.data, self.error)).encode("utf-8", "replace")
-        named = f"{self.name}\0{self.place}\0".encode("utf-8", "replace")
+        users = "\0".join(user.student for user in self.users)
+        named = f"{self.name}\0{self.place}\0{users}\0".encode("utf-8", "replace")
         return hashlib.blake2b(named + said, digest_size=8).hexdigest()
 
     @property
@@ -109,37 +112,20 @@ def _claimed(one: Handed, source: str) -> Handed:
     gives.
     """
     path = one.place.file
-    if source == STDIN or not path:
+    if source == STDIN or not path or one.users:
         return one
     folder = os.path.isdir(source)
     within = os.path.relpath(path, clean(source)) if folder else os.path.join(*_last_two(path))
     *folders, _ = [part for part in within.split(os.sep) if part not in ("", os.curdir, os.pardir)]
     stem = _stem(path)
     claims = (stem, *reversed(folders)) if folder or stem.lower() in GENERIC else (stem,)
-    if folder and folders and (submitter := submitters(source).get(folders[0])):
-        return replace(one, claims=(*claims, submitter), name=submitter if one.name == stem else one.name)
+    if folder and folders and (users := submitters(source).get(folders[0])):
+        named = ", ".join(user.student for user in users)
+        return replace(one, claims=(*claims, named), users=users, name=named if one.name == stem else one.name)
     if one.name != stem or not isinstance(one.data, bytes | None):
         return replace(one, claims=claims)
     own = claims[1] if stem.lower() in GENERIC and len(claims) > 1 else stem
     return replace(one, claims=claims, name=own_name(own))
-
-
-@lru_cache(maxsize=4)
-def submitters(source: str) -> dict[str, str]:
-    """Of every folder that Gradescope's export has whose it is: the address, else the name; several by commas."""
-    try:
-        with open(os.path.join(source, METADATA), "rb") as file:
-            text = file.read(MOST_BYTES).decode("utf-8", "replace")
-    except OSError:
-        return {}
-    found: dict[str, dict[str, list[str]]] = {}
-    folder = ""
-    for said in _SUBMITTED.finditer(text):
-        folder = said["folder"] or folder
-        if said["what"] and folder:
-            found.setdefault(folder, {}).setdefault(said["what"], []).append(clean(said["said"]).strip("\"' \r"))
-    told = {folder: fields.get("email") or fields.get("name", []) for folder, fields in found.items()}
-    return {folder: ", ".join(filter(None, names)) for folder, names in told.items() if any(names)}
 
 
 def _last_two(path: str) -> tuple[str, str]:
@@ -189,7 +175,9 @@ def _stream(stream: BinaryIO, file: str, known: Columns) -> Iterator[Handed]:
     """The submissions of an open file: its suffix tells what it is, else its first line."""
     suffix, shown = os.path.splitext(file)[1].lower(), clean(file)
     first = stream.readline(MOST_BYTES + 1) if suffix not in DOCUMENTS else b""
-    if suffix in TABLES or (suffix not in (*DOCUMENTS, *LINES) and _is_header(first)):
+    if suffix not in LINES and is_submissions_header(first.decode("utf-8", "replace")):
+        yield from _of_prairielearn(_text(first, stream), shown, known)
+    elif suffix in TABLES or (suffix not in (*DOCUMENTS, *LINES) and _is_header(first)):
         yield from _table(_text(first, stream), shown, known)
     elif suffix in LINES or (suffix not in DOCUMENTS and _is_line(first)):
         yield from _lines(first, stream, shown)
@@ -259,13 +247,47 @@ def _table(lines: Iterator[str], file: str, known: Columns) -> Iterator[Handed]:
     try:
         for row in rows(lines, known):
             place = FilePlace(file, row.line)
-            student = row.student or _stem(file)
             if row.error is not None:
                 yield Handed(row.student, place, error=row.error)
             else:
-                yield Handed(student, place, {"student": student, "answers": row.answers})
+                named = {"student": row.student} if row.student else {}
+                yield Handed(row.student or _stem(file), place, {**named, "answers": row.answers})
     except (TableError, UnicodeError) as error:
         yield Handed(_stem(file), FilePlace(file, 1), error=str(error))
+
+
+def _of_prairielearn(lines: Iterator[str], file: str, known: Columns) -> Iterator[Handed]:
+    """The submissions of a table of PrairieLearn's, each its user's, whatever a file in it says."""
+    try:
+        for row in submitted_rows(lines, known, HAND_INS):
+            place = FilePlace(file, row.line)
+            users = (Participant(row.student, email="" if row.team else row.student),)
+            files = row.files(HAND_INS)
+            if row.error is not None or len(files) > 1:
+                why = row.error or f"there is more than one file: {', '.join(one.name for one in files)}"
+                yield Handed(row.student or _stem(file), place, error=why)
+            elif not files:
+                given = {"student": row.student, "answers": answers_of(row.given, known)}
+                yield Handed(row.student, place, given, users=users)
+            else:
+                inside = list(_stream(BytesIO(files[0].data), files[0].name, known))
+                only = inside[0] if len(inside) == 1 else Handed("", place, error="its file holds no one submission")
+                within = FilePlace(f"{place}, {files[0].name}")
+                yield replace(only, name=row.student, place=within, users=users)
+    except (TableError, UnicodeError) as error:
+        yield Handed(_stem(file), FilePlace(file, 1), error=str(error))
+
+
+def submitted_in(sources: Sequence[str], known: Columns) -> list[SubmittedRow]:
+    """The rows of all tables of PrairieLearn's submissions among files and folders."""
+    found: list[SubmittedRow] = []
+    for source in map(Path, sources):
+        for path in sorted(source.rglob("*.csv")) if source.is_dir() else [source]:
+            with suppress(OSError, TableError, UnicodeError), path.open("rb") as stream:
+                first = stream.readline(MOST_BYTES + 1)
+                if is_submissions_header(first.decode("utf-8", "replace")):
+                    found += submitted_rows(_text(first, stream), known, HAND_INS)
+    return found
 
 
 def _unreadable(path: str, why: str) -> Handed:

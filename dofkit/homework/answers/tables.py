@@ -62,11 +62,11 @@ def rows(lines: Iterable[str], known: Columns) -> Iterator[TableRow]:
     ``lines`` keep their ends; bytes that are no UTF-8 stand in them as lone surrogates. ``known``: the columns of the
     assignment, which tell where a name with several dots is to be cut.
     """
-    numbered = _Lines(lines)
+    numbered = NumberedLines(lines)
     header = _header(numbered, known)
     found = (
         _row(header, number, cells, error or header.fault)
-        for number, cells, error in _records(numbered, header.delimiter)
+        for number, cells, error in records(numbered, header.delimiter)
         if error is not None or any(cell.strip() for cell in cells)
     )
     yield from found if header.student >= 0 else _only(found)
@@ -81,7 +81,7 @@ def _only(found: Iterator[TableRow]) -> Iterator[TableRow]:
         yield first
 
 
-class _Lines:
+class NumberedLines:
     """Lines with their numbers, of which some can be given back."""
 
     def __init__(self, lines: Iterable[str]) -> None:
@@ -100,7 +100,7 @@ class _Lines:
         self.number -= len(lines)
 
 
-def _records(lines: _Lines, delimiter: str) -> Iterator[tuple[int, list[str], str | None]]:
+def records(lines: NumberedLines, delimiter: str) -> Iterator[tuple[int, list[str], str | None]]:
     """(line, cells, what is wrong) of every record; of a broken one only its first line is taken."""
     while (line := lines.take()) is not None:
         start = lines.number
@@ -137,7 +137,7 @@ def _too_long(text: str) -> str | None:
     return f"the row has {len(text)} characters" if len(text) > MOST_CHARACTERS else None
 
 
-def _header(lines: _Lines, known: Columns) -> Header:
+def _header(lines: NumberedLines, known: Columns) -> Header:
     line = lines.take()
     delimiter = ""
     if line is not None and line.strip().lower().startswith("sep=") and len(line.strip()) == 5:
@@ -148,7 +148,7 @@ def _header(lines: _Lines, known: Columns) -> Header:
         raise TableError("it is empty")
     lines.give_back([line])
     delimiter = delimiter or max(DELIMITERS, key=lambda d: (STUDENT in _names(line, d), line.count(d)))
-    _, cells, error = next(_records(lines, delimiter))
+    _, cells, error = next(records(lines, delimiter))
     names = [cell.strip() for cell in cells]
     while names and not names[-1]:
         names.pop()

@@ -27,7 +27,7 @@ def own_wheel(folder: Path) -> Path:
     files = dict(_files())
     files[f"{info}/METADATA"] = "".join(f"{line}\n" for line in _metadata()).encode()
     files[f"{info}/WHEEL"] = b"Wheel-Version: 1.0\nGenerator: dofkit\nRoot-Is-Purelib: true\nTag: py3-none-any\n"
-    files[f"{info}/entry_points.txt"] = b"[console_scripts]\ndofkit = dofkit.interface.cli:main\n"
+    files[f"{info}/entry_points.txt"] = b"[console_scripts]\ndofkit = dofkit.interface.entry:main\n"
     record = f"{info}/RECORD"
     files[record] = "".join([*(_recorded(path, data) for path, data in files.items()), f"{record},,\n"]).encode()
     wheel = folder / f"{name}-py3-none-any.whl"

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TextIO
+from typing import NamedTuple, TextIO
 
 from dofkit.base.errors import DofkitError
 from dofkit.homework.answers.roster import Roster
@@ -21,6 +21,13 @@ class FormatError(DofkitError):
     """Results that cannot be written in a format, such as two students where it holds one."""
 
 
+class Handback(NamedTuple):
+    """The files that were handed in, and who is in the course."""
+
+    sources: tuple[str, ...]
+    roster: Roster | None
+
+
 @dataclass(frozen=True)
 class Format:
     """``write(results, prepared, target)`` writes results, which come one by one in the order of the submissions.
@@ -28,7 +35,8 @@ class Format:
     ``write`` keeps no more than one result in memory where the format allows it, and raises FormatError for what the
     format cannot hold. ``needs_path``: it writes a folder, so that standard output will not do. ``folder``:
     does it write a folder at this path, not one file? ``write_known``: the same with a roster: a gradebook has
-    rows for those in it only, and pages tell of each class.
+    rows for those in it only, and pages tell of each class. ``write_back``: it fills in, at a path that ends in
+    ``.csv``, the tables of the platform that were handed in.
     """
 
     name: str
@@ -36,10 +44,20 @@ class Format:
     needs_path: bool = False
     folder: Callable[[Path], bool] = lambda path: path.is_dir() or path.suffix.lower() != ".json"
     write_known: Callable[[Iterator[Result], Prepared, Target, Roster], None] | None = None
+    write_back: Callable[[Iterator[Result], Prepared, Path, Handback], None] | None = None
 
-    def written(self, results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None) -> None:
-        """Write results, those of a gradebook by a roster where there is one."""
-        if roster is None or self.write_known is None:
+    def written(
+        self,
+        results: Iterator[Result],
+        prepared: Prepared,
+        target: Target,
+        roster: Roster | None,
+        sources: Sequence[str] = (),
+    ) -> None:
+        """Write results, those of a gradebook by a roster where there is one; ``sources``: what was handed in."""
+        if self.write_back is not None and isinstance(target, Path) and target.suffix.lower() == ".csv":
+            self.write_back(results, prepared, target, Handback(tuple(sources), roster))
+        elif roster is None or self.write_known is None:
             self.write(results, prepared, target)
         else:
             self.write_known(results, prepared, target, roster)

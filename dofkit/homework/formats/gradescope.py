@@ -4,7 +4,9 @@ All texts are in the format ``text``, which Gradescope shows as it is, so that n
 
 What an answer is worth is shown as the assignment's ``visibility`` says, by default after the due date where attempts
 are unlimited: else students would try until it is right. One test that is not visible hides the total, so that there
-either all are or none is. How an answer was read, or where it could not be, is shown at once in any case.
+either all are or none is. Gradescope shows ``after_due_date`` when the late due date has passed where there is one,
+and says nothing of assignments that have none at all: the autograder asks for ``after_published`` there, since nobody
+would ever see a point. How an answer was read, or where it could not be, is shown at once in any case.
 
 An answer that needs a review is a test without ``score`` and ``status``: Gradescope shows its output and neither
 points nor a colour. The ``score`` of the whole, which Gradescope asks for, is the sum of what is decided; ``output``

@@ -3,7 +3,8 @@
 ``gradable: false`` costs a student no attempt and gives no points: that is said where an answer cannot be read, as
 PrairieLearn's own elements do, and where an answer needs a review, since a share can neither leave it open nor may it
 count it as nothing or as everything. ``format_errors`` then says which answers these are, and nothing is told of the
-others: what costs no attempt would else tell, again and again, which of them are right.
+others: what costs no attempt would else tell, again and again, which of them are right. The points that a person gave
+are taken back by a table of scores, in `dofkit.homework.formats.prairielearn_scores`.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from typing import Any
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, Target
 from dofkit.homework.formats.documents import text, write_documents
+from dofkit.homework.formats.prairielearn_scores import write_scores
 from dofkit.homework.formats.wording import line, plain, remark, shortened, standing, title
 from dofkit.homework.result import Item, Result
 
@@ -83,4 +85,7 @@ def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None
     write_documents(results, target, document)
 
 
-PRAIRIELEARN = Format("prairielearn", write)
+PRAIRIELEARN = Format(
+    "prairielearn", write, folder=lambda path: path.is_dir() or path.suffix.lower() not in (".json", ".csv"),
+    write_back=write_scores,
+)  # fmt: skip

@@ -44,6 +44,11 @@ class FilledTable:
     rows: Mapping[str, ReviewRow] = field(default_factory=dict)
     delimiter: str | None = None
 
+    @property
+    def decisions(self) -> dict[str, Decision]:
+        """What a person decided, by the answer's identity."""
+        return {identity: row.decision for identity, row in self.rows.items() if row.decision is not None}
+
 
 def read_table(path: Path, asked: Asked) -> FilledTable:
     """The rows of a table. Raises ReviewError with every fault at once, and OSError."""

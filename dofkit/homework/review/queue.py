@@ -15,13 +15,17 @@ MOST_NAMED = 20
 
 @dataclass
 class QueuedAnswer:
-    """A different answer: an ``item`` that it got, and how many gave it, of whom the first ones are named."""
+    """A different answer: an ``item`` that it got, and how many gave it, of whom the first ones are named.
+
+    ``variant``: of the problem, where students have different ones, and what it says as far as that is known.
+    """
 
     id: str
     item: Item
     count: int = 0
     students: list[str] = field(default_factory=list)
     links: list[str] = field(default_factory=list)
+    variant: str = ""
 
     @property
     def open(self) -> bool:
@@ -48,7 +52,7 @@ class Queue:
         for item in result.items:
             if item.score is None or item.decided_by is not None:
                 identity = answer_id(item.problem, item.question, item.answer or "", item.variant or "")
-                queued = self.answers.setdefault(identity, QueuedAnswer(identity, item))
+                queued = self.answers.setdefault(identity, QueuedAnswer(identity, item, variant=item.variant or ""))
                 queued.add(result.student, link)
 
     def open_answers(self) -> list[QueuedAnswer]:
@@ -83,7 +87,7 @@ def cells_of(queued: QueuedAnswer) -> dict[str, str]:
         "id": queued.id,
         "problem": item.problem,
         "question": item.question,
-        "variant": item.variant or "",
+        "variant": queued.variant,
         "text": item.answer or "",
         "why": place + item.feedback,
         "readings": " | ".join(read_as for read_as, _ in ways),

@@ -6,10 +6,10 @@ import threading
 import time
 from collections.abc import Sequence
 from types import TracebackType
-from typing import NamedTuple
 
-from dofkit.base.workers import MEMORY, Job, JobOutcome, Pool
-from dofkit.base.workers.crews import StoppedError
+from dofkit.base.workers import MEMORY, Job, JobOutcome
+from dofkit.base.workers.batches import Worked
+from dofkit.base.workers.stoppable_pool import StoppablePool
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.grading import Spot
 from dofkit.homework.runs.batch import GradingTask, Orders, ResultLine, batch_results
@@ -23,13 +23,6 @@ _ENDED = {
 }
 
 
-class Graded(NamedTuple):
-    """The lines of a batch, a list for everything handed in, and how many seconds it took."""
-
-    lines: list[list[ResultLine]]
-    seconds: float
-
-
 class Keeper:
     """Grades batches, from any thread, each in one of so many killable workers.
 
@@ -38,16 +31,15 @@ class Keeper:
 
     def __init__(self, orders: Orders, workers: int, memory: int = MEMORY) -> None:
         self.orders = orders
-        self._pool = Pool(workers, memory, modules=("dofkit.homework.runs.batch",))
+        self._pool = StoppablePool(workers, memory, modules=("dofkit.homework.runs.batch",))
         self._condemned: dict[Spot, str] = {}
         self._lock = threading.Lock()
-        self._stopped = False
 
     def fork(self) -> None:
         """Start the workers as copies of this process, where that is safe."""
         self._pool.fork()
 
-    def grade(self, handed: Sequence[Handed]) -> Graded:
+    def grade(self, handed: Sequence[Handed]) -> Worked[list[ResultLine]]:
         """The lines of everything handed in, in order, and the seconds it took. Raises StoppedError."""
         start = time.monotonic()
         outcome = self._run(tuple(handed), careful=False)
@@ -55,7 +47,7 @@ class Keeper:
             lines = [[ResultLine(*line) for line in lines] for lines in outcome.value["lines"]]
         else:
             lines = [self._lines_of(one) for one in handed]
-        return Graded(lines, time.monotonic() - start)
+        return Worked(lines, time.monotonic() - start)
 
     def _lines_of(self, one: Handed) -> list[ResultLine]:
         """One at a time, and telling of every answer before it is judged: so one that breaks the worker is found."""
@@ -75,19 +67,11 @@ class Keeper:
     def _run(self, handed: tuple[Handed, ...], careful: bool) -> JobOutcome:
         with self._lock:
             condemned = dict(self._condemned)
-        if self._stopped:
-            raise StoppedError("grading was stopped")
         task = GradingTask(self.orders, handed, condemned, careful)
-        outcome = self._pool.run(Job(batch_results, task, self.orders.wall))
-        if self._stopped:
-            raise StoppedError("grading was stopped")
-        if outcome.ended == "absent":
-            raise StoppedError(outcome.reason)
-        return outcome
+        return self._pool.run(Job(batch_results, task, self.orders.wall))
 
     def close(self) -> None:
         """End all workers, whatever they do."""
-        self._stopped = True
         self._pool.close()
 
     def __enter__(self) -> Keeper:

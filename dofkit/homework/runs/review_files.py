@@ -14,6 +14,7 @@ from dofkit.homework.result import Result
 from dofkit.homework.review.filled_table import FilledTable, read_table
 from dofkit.homework.review.queue import Queue
 from dofkit.homework.review.rows import ReviewRow
+from dofkit.homework.runs.reviewed_variants import tell_variants
 
 TABLE, PAGE = "review.csv", "review.html"
 
@@ -56,14 +57,14 @@ class RunReview:
 
     def applied(self, prepared: Prepared) -> Prepared:
         """The assignment with what was decided."""
-        made = {identity: row.decision for identity, row in self.rows.items() if row.decision is not None}
-        return replace(prepared, decisions=made)
+        return replace(prepared, decisions=FilledTable(self.rows).decisions)
 
     def write(self, results: Path, prepared: Prepared) -> None:
         """Write the queue of these results, in our own format; say on standard error where it is. Raises OSError."""
         if self.paths is None:
             return
         queue = queue_of(results, prepared)
+        tell_variants(queue, prepared)
         rows = list(queue.rows(self.rows))
         if not rows and self.paths.shared and not self.paths.table.exists():
             return
@@ -75,6 +76,13 @@ class RunReview:
             different = "1 answer waits" if waiting == 1 else f"{waiting} different answers wait"
             again = f"fill in points, then grade again with --reviewed {self.paths.table}"
             print(f"{different} for a person in {self.paths.table}: {again}", file=sys.stderr)
+
+    def write_page(self, results: Path, prepared: Prepared) -> None:
+        """Write the page alone, of results whose table stands elsewhere. Raises OSError."""
+        if self.paths is not None:
+            queue = queue_of(results, prepared)
+            tell_variants(queue, prepared)
+            write_page(queue, queue.rows(self.rows), prepared, self.paths.page, str(self.paths.table))
 
 
 def queue_of(results: Path, prepared: Prepared) -> Queue:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, closing, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
+from dofkit.base.line_journal import ledger
+from dofkit.base.workers.batches import in_order
 from dofkit.base.workers.pool import cores
 from dofkit.homework.answers.roster import Roster, load_roster
 from dofkit.homework.answers.sources import Handed, hand_ins
@@ -19,14 +21,15 @@ from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
 from dofkit.homework.formats.apart import apart_path
 from dofkit.homework.result import Result
-from dofkit.homework.runs.appeals import JudgedAnswer, judged_answers, write_certificates
+from dofkit.homework.runs.appeals import Appeals
 from dofkit.homework.runs.batch import Orders, ResultLine
 from dofkit.homework.runs.crew import GradingCrew, cluster_crew, local_crew
-from dofkit.homework.runs.in_order import HandedIn, in_order, without_repeats
-from dofkit.homework.runs.journal import Journal, fingerprint, ledger
+from dofkit.homework.runs.journal import Journal, fingerprint
 from dofkit.homework.runs.keeper import Keeper
+from dofkit.homework.runs.repeats import HandedIn, without_repeats
 from dofkit.homework.runs.review_files import ReviewPaths, RunReview
-from dofkit.homework.runs.rostered import rostered
+from dofkit.homework.runs.rostered import named_by, rostered
+from dofkit.homework.sheet_owners import people_of, with_names
 
 NATIVE = "native"
 #: What results in our own format are called in a folder.
@@ -97,17 +100,21 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     """
     form = options.format
     for path in options.written:
-        if path.resolve() in [Path(given).resolve() for given in (assignment, *sources)]:
+        if path.resolve() in [Path(given).resolve() for given in (assignment, *sources, options.roster or "")]:
             raise FormatError(f"--out would overwrite {path}, which is read")
     prepared = load_assignment(assignment)
     roster = None if options.roster is None else load_roster(options.roster)
     review = RunReview.read(prepared, options.reviewed, options.review)
-    prepared = review.applied(prepared)
+    prepared = review.applied(with_names(prepared, roster))
+    people = people_of(prepared, roster)
     orders = Orders.of(prepared, options.check_only)
     others: list[str | Path] = [assignment, *options.written, *filter(None, (options.reviewed, options.roster))]
     stream = hand_ins(sources, prepared.columns(), others)
+    if people is not None:
+        stream = (named_by(people, one) for one in stream)
     with _crew(orders, options) as crew, closing(HandedIn()) as seen:
-        one = _Run(form, prepared, orders, crew, seen, roster, options.certificates is not None)
+        appeals = None if options.certificates is None or options.check_only else Appeals(prepared)
+        one = _Run(form, prepared, orders, crew, seen, roster, people, sources, appeals)
         if options.out is None or options.native is None:
             one.to_stdout(stream)
         else:
@@ -115,7 +122,7 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     if one.doubted:
         print(f"a person has to say whose they are: {one.doubted} of the submissions have a 'doubt'", file=sys.stderr)
     if options.certificates is not None:
-        write_certificates(prepared, options.certificates, one.answers)
+        (appeals or Appeals(prepared)).write(options.certificates)
     return one.failed == 0
 
 
@@ -136,7 +143,8 @@ def _crew(orders: Orders, options: GradingOptions) -> Iterator[GradingCrew]:
 class _Run:
     """One run; ``failed`` counts the submissions that could not be graded, ``doubted`` those that may be another's.
 
-    ``answers`` are kept for appeals.
+    ``people``: by whom submissions are told apart, the roster or those who have sheets of their own; ``sources``: what
+    was handed in. ``appeals``: what may be asked about answers later.
     """
 
     form: Format
@@ -145,16 +153,19 @@ class _Run:
     crew: GradingCrew
     seen: HandedIn
     roster: Roster | None = None
-    appeals: bool = False
+    people: Roster | None = None
+    sources: Sequence[str] = ()
+    appeals: Appeals | None = None
     failed: int = 0
     doubted: int = 0
-    answers: list[JudgedAnswer] = field(default_factory=list)
 
     def to_stdout(self, stream: Iterator[Handed]) -> None:
         """Print results as they come."""
         lines = self._kept(line.text for _, found in self._with_lines(stream, sys.stdout.isatty()) for line in found)
         if self.form.name != NATIVE:
-            self.form.written(map(Result.model_validate_json, lines), self.prepared, sys.stdout, self.roster)
+            self.form.written(
+                map(Result.model_validate_json, lines), self.prepared, sys.stdout, self.roster, self.sources
+            )
             return
         utf8 = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
         for text in lines:
@@ -170,29 +181,27 @@ class _Run:
             self.failed += journal.failed
             for one, lines in self._with_lines(left, False):
                 journal.write(one, lines)
-        self._keep(_results(path) if self.appeals and not self.orders.check_only else ())
+        for result in () if self.appeals is None else _results(path):
+            self.appeals.add(result)
         if self.form.name != NATIVE:
-            self.form.written(_results(path), self.prepared, out, self.roster)
+            self.form.written(_results(path), self.prepared, out, self.roster, self.sources)
         review.write(path, self.prepared)
         if self.form.name != NATIVE:
             path.unlink()
         journal.finish()
 
-    def _keep(self, results: Iterable[Result]) -> None:
-        """Keep answers that may be appealed."""
-        self.answers += judged_answers(self.prepared, results)
-
     def _kept(self, lines: Iterator[str]) -> Iterator[str]:
         """Lines, of which answers are kept."""
         for text in lines:
-            self._keep([Result.model_validate_json(text)] if self.appeals and not self.orders.check_only else ())
+            if self.appeals is not None:
+                self.appeals.add(Result.model_validate_json(text))
             yield text
 
     def _with_lines(self, stream: Iterator[Handed], quiet: bool) -> Iterator[tuple[Handed, list[ResultLine]]]:
         """Everything with its results, counted, and shown on a terminal how far it is."""
         with _bar(quiet) as bar:
             task = bar.add_task("graded", total=None)
-            graded = rostered(self.roster, in_order(self.crew, stream))
+            graded = rostered(self.people, in_order(self.crew, stream))
             for one, lines in without_repeats(self.orders, graded, self.seen):
                 self.failed += sum(line.failed for line in lines)
                 self.doubted += sum(line.doubted for line in lines)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations_with_replacement
@@ -14,8 +14,9 @@ from flint import nmod_mat
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.modular import rank_of
-from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import field_frame, kernel
+from dofkit.exact.points.random_curve import RandomCurve
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
@@ -29,6 +30,8 @@ MAX_DEGREE, MAX_PRODUCTS = 3, 170
 MAX_FUNCTIONS = 12
 #: Fresh points at which an integral is checked where the minors are not written out.
 CHECKS = 4
+#: Equations more than unknowns; curves that are tried, and where their seeds begin.
+SPARE, CURVES, CURVE_SEED = 6, 4, 30_000
 
 Monomial = tuple[int, ...]
 
@@ -63,19 +66,38 @@ class IntegralSearch:
 
     def candidates(self, monomials: Sequence[Monomial]) -> Iterator[Expr]:
         """Combinations that are constant along D, the simplest first."""
-        equations: list[list[int]] = []
-        while len(equations) < len(monomials) + 6:
-            sample = self._sample(len(equations))
-            if sample is None:
-                return
-            equations += sample.slopes(monomials)
-        first = self.points[0]
-        null, nullity = nmod_mat(equations, first.p).nullspace()
+        first = self.sample()
+        equations = None if first is None else self._along_curve(monomials, first) or self._at_points(monomials)
+        if first is None or equations is None:
+            return
+        null, nullity = equations.nullspace()
         turned = nmod_mat([[int(null[r, c]) for r in range(len(monomials))] for c in range(nullity)] or [[0]], first.p)
         for weights in _simplest_first(turned, nullity, len(monomials), first.p):
             coefficients = [_rational(w, first.p) for w in weights]
             if all(c is not None for c in coefficients):
                 yield self._written(monomials, [c for c in coefficients if c is not None])
+
+    def _at_points(self, monomials: Sequence[Monomial]) -> nmod_mat | None:
+        """The slopes of the products at points, each a column; None where there are not enough points."""
+        equations: list[list[int]] = []
+        while len(equations) < len(monomials) + SPARE:
+            sample = self._sample(len(equations))
+            if sample is None:
+                return None
+            equations += sample.slopes(monomials)
+        return nmod_mat(equations, self.points[0].p)
+
+    def _along_curve(self, monomials: Sequence[Monomial], first: FormSample) -> nmod_mat | None:
+        """The same as series along one random curve; None where finite relations hold, on which no curve is drawn."""
+        if self.solver is not None:
+            return None
+        order = -(-(len(monomials) + SPARE) // len(first.basis))
+        for attempt in range(CURVES):
+            base = field_point([self.ring], CURVE_SEED + 3 * (self.seed + attempt))
+            sample = _sample_at(self.forms, RandomCurve(base, order)) if base.p == first.p else None
+            if sample is not None and len(sample.basis) == len(first.basis):
+                return sample.series_of_slopes(monomials, order)
+        return None
 
     def sample(self) -> FormSample | None:
         """A point."""
@@ -143,33 +165,55 @@ class IntegralSearch:
 
 @dataclass(frozen=True)
 class FormSample:
-    """A point with the functions' values and gradients there, and a basis of D."""
+    """A point, or a curve, with the functions' values and gradients there, by column, and a basis of D."""
 
-    point: FieldPoint
+    point: FieldPoint | RandomCurve
     p: int
     one: Any
     at: list[Any]
-    gradients: dict[int, list[Any]]
+    gradients: dict[int, dict[int, Any]]
     basis: list[list[Any]]
     matrix: list[list[Any]]
 
     def slopes(self, monomials: Sequence[Monomial]) -> list[list[int]]:
         """d/ds of every product along every basis vector of D."""
-        return [[int(s) for s in self._slopes(monomials, v)] for v in self.basis]
+        return [[int(rate) for rate in rates] for rates in self._slopes(monomials)]
 
-    def _slopes(self, monomials: Sequence[Monomial], v: Sequence[Any]) -> list[Any]:
-        rates = {i: sum((a * b for a, b in zip(g, v, strict=True)), self.one * 0) for i, g in self.gradients.items()}
-        found = []
-        for m in monomials:
-            total = self.one * 0
-            for place, i in enumerate(m):
-                part = rates[i]
-                for other, j in enumerate(m):
-                    if other != place:
-                        part = part * self.at[j]
-                total = total + part
-            found.append(total)
+    def series_of_slopes(self, monomials: Sequence[Monomial], order: int) -> nmod_mat:
+        """The same along a curve: of every coefficient of the series a row, of every product a column."""
+        columns: list[list[int]] = [[] for _ in monomials]
+        for rates in self._slopes(monomials):
+            for column, rate in zip(columns, rates, strict=True):
+                found = [int(c) for c in rate.poly.coeffs()]
+                column += found + [0] * (order - len(found))
+        return nmod_mat(columns, self.p).transpose()
+
+    def _slopes(self, monomials: Sequence[Monomial]) -> Iterator[list[Any]]:
+        """Of each basis vector the rates of all products: (f g)' = f' g + f g'."""
+        zero, known = self.one * 0, dict[Monomial, Any]()
+        for v in self.basis:
+            own = {i: sum((a * v[c] for c, a in g.items()), zero) for i, g in self.gradients.items()}
+            rates: dict[Monomial, Any] = {}
+            for m in monomials:
+                self._rate(m, own, rates, known)
+            yield [rates[m] for m in monomials]
+
+    def _rate(self, m: Monomial, own: Mapping[int, Any], rates: dict[Monomial, Any], known: dict[Monomial, Any]) -> Any:
+        """The rate of one product; those of its first factors are kept in ``rates``."""
+        found = rates.get(m)
+        if found is None:
+            first, last = m[:-1], m[-1]
+            found = own[last]
+            if first:
+                found = self._rate(first, own, rates, known) * self.at[last] + self._product(first, known) * found
+            rates[m] = found
         return found
+
+    def _product(self, m: Monomial, known: dict[Monomial, Any]) -> Any:
+        """The value of a product."""
+        if m not in known:
+            known[m] = self.at[m[0]] if len(m) == 1 else self._product(m[:-1], known) * self.at[m[-1]]
+        return known[m]
 
     def across(self, row: int) -> list[Any] | None:
         """A velocity that only ``row`` forbids; None where the row depends on the others."""
@@ -201,24 +245,26 @@ def _moves(e: Expr) -> bool:
     return any(s.args[0] in ("coordinate", "time") for s in e.symbols)
 
 
-def _sample_at(forms: Codistribution, point: FieldPoint | None) -> FormSample | None:
+def _sample_at(forms: Codistribution, point: FieldPoint | RandomCurve | None) -> FormSample | None:
     if point is None:
         return None
     ring, columns = forms.chart.ring, forms.chart.columns
+    p = point.base.p if isinstance(point, RandomCurve) else point.p
     try:
         at = values(ring, point)
         one = point.number(Fraction(1))
         matrix = forms.rows.matrix(at, one * 0)
-        frame = field_frame(matrix, len(columns), point.p)
+        heads = [[v.coefficient(0) for v in row] for row in matrix] if isinstance(point, RandomCurve) else matrix
+        frame = field_frame(heads, len(columns), p)
         basis = kernel(matrix, frame, one * 0) if frame.free else []
         gradients = {}
         for v in ring.vars:
             g = gradient(ring, at, point, [(ring.var_node[v.index], one)])
-            gradients[v.index] = [g.get(c, one * 0) if c >= 0 else one * 0 for c in columns]
+            gradients[v.index] = {place: g[c] for place, c in enumerate(columns) if c in g}
         at_vars = [at[ring.var_node[v.index]] for v in ring.vars]
     except NoValueError:
         return None
-    return FormSample(point, point.p, one, at_vars, gradients, basis, matrix)
+    return FormSample(point, p, one, at_vars, gradients, basis, matrix)
 
 
 def _simplest_first(null: nmod_mat, nullity: int, columns: int, p: int) -> Iterator[list[int]]:

@@ -6,9 +6,8 @@ from collections.abc import Iterable, Sequence
 from itertools import chain
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from dofkit.base.errors import DofkitError
+from dofkit.base.libraries import np
 
 #: Any hashable name.
 Joint = Any

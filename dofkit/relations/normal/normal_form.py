@@ -19,6 +19,15 @@ from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
+from dofkit.relations.normal.half_lines import (
+    ONE_SIDE_NOTE,
+    PIECES_NOTE,
+    UNDONE_NOTE,
+    SidedLines,
+    meet_at_rest,
+    rewritten,
+    settled,
+)
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE, Conjunction
 from dofkit.relations.normal.quadratics import split_power, split_quadratic
@@ -91,7 +100,6 @@ ROOTS_NOTE = (
     "velocities, but they were not written down, because there are infinitely many or no formula gives them"
 )
 SIGNS_NOTE = "what stands in abs() may have either sign"
-INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
 QUADRATIC_NOTE = "over the reals the relation between velocities splits into linear ones"
 
 Piece = Finite | Pfaffian | Nonlinear | Inequality | DomainCondition
@@ -254,38 +262,61 @@ def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
 
 
 def _by_signs_of_rates(e: Expr, folds: Sequence[Expr], positive: frozenset[Expr]) -> Normal:
-    """The only choice of signs of what stands in abs() and holds velocities that does not contradict itself.
+    """Every choice of signs of what stands in abs() and holds velocities, with the conditions that say them.
 
-    Or all of them, where they are whole sets together. Where there are several otherwise, a motion may pass from one
-    to the other: the relation stays as it is.
+    Or all of them, where they are whole sets together. Where one holds on a whole region, is not linear, or goes on
+    into another in motion, the relation stays as it is.
     """
-    branches: list[tuple[Piece, ...]] = []
-    notes: list[str] = [SIGNS_NOTE]
     choices = list(by_signs(e, folds, positive))
     whole = whole_zero_sets(choices, positive)
     if whole is not None:
         normals = [normalise(g, positive, True) for g in whole]
         return Normal(tuple(b for n in normals for b in n.branches), (SIGNS_NOTE, *([PRODUCT_NOTE] * (len(whole) > 1))))
+    kept = [c for c in choices if not no_solution([c[0]], positive, [d.expr for d in c[1]])]
+    found = None if any(is_zero(signed, positive) for signed, _ in kept) else _sided(e, kept, positive)
+    return Normal(((Nonlinear(e),),), (SIGNS_NOTE,)) if found is None else _with_note(found, SIGNS_NOTE)
+
+
+def _with_note(normal: Normal, note: str) -> Normal:
+    return replace(normal, notes=tuple(dict.fromkeys((note, *normal.notes))))
+
+
+def _sided(
+    e: Expr, choices: Sequence[tuple[Expr, tuple[DomainCondition, ...]]], positive: frozenset[Expr]
+) -> Normal | None:
+    """The pieces of ``e = 0`` under the conditions of its choices.
+
+    None where one of several is not linear, or goes on into another in motion.
+    """
+    lines: list[SidedLines] = []
+    notes: list[str] = []
     for signed, conditions in choices:
-        if no_solution([signed], positive, [c.expr for c in conditions]):
-            continue
-        if is_zero(signed, positive) or branches:
-            return Normal(((Nonlinear(e),),), (SIGNS_NOTE,))
         normal = normalise(signed, positive, True)
         notes += normal.notes
-        branches += [(*branch, *_still(conditions, branch)) for branch in normal.branches]
-    return Normal(tuple(branches), tuple(dict.fromkeys(notes)))
+        for branch in normal.branches:
+            relations = [relation_of(p) for p in branch if isinstance(p, (Finite, Pfaffian))]
+            own = [p for p in branch if isinstance(p, DomainCondition)]
+            if len(relations) + len(own) < len(branch):
+                whole = tuple((*b, *conditions) for b in normal.branches)
+                return Normal(whole, normal.notes) if len(choices) == 1 else None
+            lines.append(SidedLines(tuple(relations), (*conditions, *own)))
+    told = settled(lines, positive)
+    if len(told) > 1 and not meet_at_rest(told, velocities_of(e)):
+        return None
+    notes += [ONE_SIDE_NOTE] * any(velocities_of(c.expr) for one in told for c in one.conditions)
+    return Normal(tuple(_pieces_of(one) for one in told), (*notes, *([PIECES_NOTE] * (len(told) > 1))))
 
 
-def _still(conditions: Sequence[DomainCondition], branch: Sequence[Piece]) -> list[DomainCondition]:
-    """What the signs ask of positions, once velocities that the forms of the branch give are put in."""
-    found = [c.expr for c in conditions]
-    for form in (p for p in branch if isinstance(p, Pfaffian)):
-        name = next((n for n, a in form.coefficients.items() if a.op == "num"), next(iter(form.coefficients), None))
-        if name is not None:
-            others = ex.add(*(a * ex.velocity(n) for n, a in form.coefficients.items() if n != name), form.dt)
-            found = [substitute(c, {ex.velocity(name): -others / form.coefficients[name]}) for c in found]
-    return [DomainCondition(c, ">=") for c in found if not velocities_of(c) and _moving(c)]
+def relation_of(piece: Finite | Pfaffian) -> Expr:
+    """What is 0 where a finite relation, or a form on velocities, holds."""
+    if isinstance(piece, Finite):
+        return piece.expr
+    return ex.add(*(a * ex.velocity(name) for name, a in piece.coefficients.items()), piece.dt)
+
+
+def _pieces_of(lines: SidedLines) -> tuple[Piece, ...]:
+    forms = [linear_form(r) if velocities_of(r) else Finite(r) for r in lines.relations]
+    return (*(f for f in forms if f is not None), *lines.conditions)
 
 
 def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Piece, ...]], str]:
@@ -295,27 +326,15 @@ def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Pie
     form = linear_form(e)
     if form is not None:
         return [(form,)], ""
-    split = split_quadratic(e, velocities_of(e), positive) or split_power(e, positive)
+    split = split_quadratic(e, velocities_of(e), positive)
+    split = split_power(e, positive) if split is None else split
     if split is not None:
-        return [tuple(f for g in branch if (f := linear_form(g)) is not None) for branch in split], QUADRATIC_NOTE
+        return [_pieces_of(one) for one in split], QUADRATIC_NOTE
     found = velocity_branches(e, positive)
-    if found is None:
-        return [(Nonlinear(e),)], ROOTS_NOTE if in_one_rate(e, positive) else ""
-    forms = [(linear_form(relation), conditions) for relation, conditions in found]
-    return [(form, *conditions) for form, conditions in forms if form is not None], RATE_NOTE
-
-
-def without_instants(normal: Normal) -> Normal:
-    """A product's branch that only fixes the time (t = 0 of ``t (x - y) = 0``) is no branch of motion: left out."""
-    kept = tuple(b for b in normal.branches if not any(_instant(p) for p in b))
-    if not kept or len(kept) == len(normal.branches):
-        return normal
-    return Normal(kept, (*(n for n in normal.notes if n != PRODUCT_NOTE), INSTANT_NOTE))
-
-
-def _instant(piece: Piece) -> bool:
-    return (
-        isinstance(piece, Finite)
-        and bool(piece.expr.symbols)
-        and all(s.args[0] in ("time", "parameter") for s in piece.expr.symbols)
-    )
+    if found is not None:
+        return [_pieces_of(SidedLines((relation,), conditions)) for relation, conditions in found], RATE_NOTE
+    other = rewritten(e, positive)
+    sided = None if other is None else _sided(e, other, positive)
+    if sided is not None:
+        return list(sided.branches), "; ".join((UNDONE_NOTE, *sided.notes))
+    return [(Nonlinear(e),)], ROOTS_NOTE if in_one_rate(e, positive) else ""

@@ -280,7 +280,7 @@ def _undone(node: Expr, value: Expr, unknown: Expr, depth: int) -> list[Root] | 
         return None
     if node.op == "pow":
         return _undone_power(node, value, unknown, depth)
-    inverse = _inverse(node.args[0], value)
+    inverse = inverse_of(node.args[0], value)
     return None if inverse is None else _all_inside(inverse, node.args[1], unknown, depth)
 
 
@@ -317,7 +317,7 @@ def _log(value: Expr) -> Expr:
     return ex.fn("log", value) if inside is None else inside
 
 
-def _inverse(name: str, value: Expr) -> list[Root] | None:
+def inverse_of(name: str, value: Expr) -> list[Root] | None:
     """u with name(u) = value, for functions with finitely many such u."""
     square = value * value
     if name == "exp":

@@ -5,18 +5,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import reduce
 from importlib import import_module
 from operator import or_
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import Field, GetCoreSchemaHandler, GetPydanticSchema
+from pydantic import (
+    Field,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+    GetPydanticSchema,
+    TypeAdapter,
+    ValidationError,
+)
+from pydantic_core import core_schema
 
 from dofkit.scene.constraints.base import ConstraintBase
+from dofkit.scene.fields import retold
 
-__all__ = ["TYPES", "AnyConstraint", "ConstraintBase"]
+__all__ = ["TYPES", "AnyConstraint", "ConstraintBase", "OneConstraint"]
 
 #: The order of the contract's table; what is not in it comes after, by name.
 _ORDER = (
@@ -51,3 +60,36 @@ def _by_type(source: Any, handler: GetCoreSchemaHandler) -> Any:
 
 
 AnyConstraint = Annotated[ConstraintBase, GetPydanticSchema(_by_type)]
+
+
+class _OneOfAll:
+    """A constraint, validated by the one class that its ``type`` names, and dumped as what it is.
+
+    The other classes are not made ready, as they are for `AnyConstraint`, whose JSON Schema this has.
+    """
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
+        del source, handler
+        as_it_is = core_schema.simple_ser_schema("any")
+        return core_schema.no_info_plain_validator_function(cls._validated, serialization=as_it_is)
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        del schema
+        return handler(TypeAdapter(AnyConstraint).core_schema)
+
+    @staticmethod
+    def _validated(value: Any) -> ConstraintBase:
+        """What is a constraint or a mapping; paths of faults begin with the type, as those of a union do."""
+        kind = value["type"] if isinstance(value, Mapping) else value.kind()
+        try:
+            return TYPES[kind].model_validate(value)
+        except ValidationError as error:
+            raise retold(error, kind, (), lambda loc: (kind, *loc)) from None
+
+
+if TYPE_CHECKING:
+    OneConstraint = ConstraintBase
+else:
+    OneConstraint = _OneOfAll

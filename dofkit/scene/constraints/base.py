@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any, ClassVar, get_args
 
@@ -57,7 +57,7 @@ class ConstraintBase(WrittenModel):
         """One line that would work in a scene of that dimension, or in another where it works in none of this."""
         return cls.examples.get(dimension) or cls.examples[max(cls.examples)]
 
-    def relations(self, world: World) -> Iterator[Relation]:
+    def relations(self, world: World) -> Iterable[Relation]:
         """Its scalar relations; faults go to the world."""
         raise NotImplementedError
 

@@ -7,9 +7,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field
 
-from dofkit.base.errors import NoValueError, TextError
+from dofkit.base.errors import NoValueError
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.differentials import in_velocities, linear_in_accelerations
 from dofkit.expressions.tree import MINUS_ONE, ONE, Expr, coordinate, mul, power
 from dofkit.scene.constraints.base import ConstraintBase
 from dofkit.scene.fields import Text
@@ -41,13 +40,7 @@ class Equation(ConstraintBase):
     variation: ClassVar[TypeVariation] = TypeVariation(texts=("text",))
 
     def relations(self, world: World) -> Iterator[Relation]:
-        for e, sense in world.relations(self.text, "text"):
-            try:
-                linear_in_accelerations(e, sense)
-                in_velocities(e)
-            except TextError as error:
-                world.fault(error.message, "text", hint=error.hint)
-                return
+        for e, sense in world.equations(self.text, "text"):
             yield Relation(e, sense)
 
     def texts(self) -> Iterator[str]:

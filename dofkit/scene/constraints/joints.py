@@ -8,18 +8,21 @@ two ways to keep the lines parallel this leaves out the one with the axis turned
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import ClassVar, NamedTuple
 
 from pydantic import Field
 
 from dofkit.exact.matrices import rows
 from dofkit.expressions.tree import HALF, MINUS_ONE, ONE, ZERO, Expr, fn, mul
+from dofkit.expressions.unwritten import Unwritten
 from dofkit.expressions.vectors import Vec, cross, difference, dot, is_zero, length, minus, scaled, unit
 from dofkit.scene.constraints.base import ConstraintBase, component_relations
 from dofkit.scene.constraints.places import along
 from dofkit.scene.fields import Text, Vector
 from dofkit.scene.frames import Frame, between, relative
+from dofkit.scene.joint_geometry import JointGeometry, longest_of
 from dofkit.scene.ledger import LAW
 from dofkit.scene.parts import show_vector
 from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation
@@ -27,6 +30,8 @@ from dofkit.scene.world import Direction, World
 from dofkit.system import Kinematics, Relation, VelocityRow
 
 _UP = {2: "[1, 0]", 3: "[0, 0, 1]"}
+#: Independent motions of a body of space.
+MOTIONS = 6
 
 
 class Measure(NamedTuple):
@@ -60,15 +65,41 @@ class Joint(ConstraintBase):
             world.fault(f"'{self.between[0]}' cannot be joined to itself", "between", 1, hint="name another body")
         return None if len(world.faults) > before else (first, second)
 
-    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
-        """The relations between the two frames."""
+    def geometry(self, world: World) -> JointGeometry:
+        """What it asks of the world; faults go there."""
+        del world
+        return JointGeometry()
+
+    def equations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+        """The relations between the two frames, the drive's apart."""
         raise NotImplementedError
 
-    def relations(self, world: World) -> Iterator[Relation]:
+    def laws(self, world: World, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+        """The drive's relation, if it is driven."""
+        del world, first, second, drawn
+        yield from ()
+
+    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
+        """The coordinates that its equations in space mention, where no part of these stands alone; else None."""
+        del first, second, drawn
+        return None
+
+    def joined(self, world: World, first: Frame, second: Frame) -> Sequence[Relation]:
+        """The relations between the two frames; written out later where the drawing alone tells what they mention."""
+        drawn = self.geometry(world)
+        laws = tuple(self.laws(world, first, second, drawn))
+        equations = partial(self.equations, first, second, drawn)
+        longest = None if laws else longest_of(first, second, drawn)
+        mentioned = None if longest is None else self.mentioned(first, second, drawn)
+        if longest is None or mentioned is None:
+            return (*equations(), *laws)
+        return Unwritten(MOTIONS - len(self.facts.freedoms), mentioned, longest, equations)
+
+    def relations(self, world: World) -> Iterable[Relation]:
         ends = self.ends(world)
         if any(getattr(self, key, None) is not None for key in ("at", "axis", "axes")):
             world.drawn.update(self.between)
-        yield from self.joined(world, *(ends or (world.ground, world.ground)))
+        return self.joined(world, *(ends or (world.ground, world.ground)))
 
     def texts(self) -> Iterator[str]:
         drive = getattr(self, "drive", None)
@@ -123,10 +154,13 @@ class Driven(Axial):
         told = f"it is driven by {rate} t"
         yield Replacement("supports", {**written, "drive": f"{rate}*t"}, {rate: "positive"}, told)
 
-    def driven(self, world: World) -> Iterator[Expr]:
-        """The law of the drive, if there is one."""
+    def laws(self, world: World, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
         if self.drive is not None:
-            yield world.expression(self.drive, "drive", allow=LAW)
+            yield self.law(first, second, drawn, world.expression(self.drive, "drive", allow=LAW))
+
+    def law(self, first: Frame, second: Frame, drawn: JointGeometry, driven: Expr) -> Relation:
+        """The relation that says what is ``driven``."""
+        raise NotImplementedError
 
 
 def turn_rate(at: Kinematics) -> VelocityRow:

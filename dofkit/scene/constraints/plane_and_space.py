@@ -8,6 +8,7 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from dofkit.exact.matrices.rows import across
+from dofkit.expressions.tree import Expr
 from dofkit.expressions.vectors import difference
 from dofkit.scene.constraints.joints import (
     ANGLE,
@@ -26,6 +27,7 @@ from dofkit.scene.constraints.joints import (
     turn_rate,
 )
 from dofkit.scene.frames import Frame
+from dofkit.scene.joint_geometry import JointGeometry, mentioned_by_moving, mentioned_together
 from dofkit.scene.symbols import RING, Stroke, Symbol, axle, box, cylinder, prism, rail
 from dofkit.scene.world import World
 from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
@@ -56,19 +58,27 @@ class Revolute(Driven):
     measures: ClassVar[Mapping[str, Measure]] = {"angle": ANGLE}
     symbol: ClassVar[Symbol] = Symbol(plane=(RING,), space=(axle(1.5), *cylinder(0.5, 0.7)))
 
-    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
-        yield from together(first, second, world.place(self.at, "at"))
-        if world.dimension == 2:
-            if self.axis is not None:
-                hint = "leave it out: in the plane every hinge turns about the normal of the plane"
-                world.fault("a revolute joint has no `axis` in dimension 2", "axis", hint=hint)
-            for law in self.driven(world):
-                yield Relation(difference(difference(second.angle, first.angle), law), part="drive")
-            return
-        axis = self.directed(world)
-        yield from aligned(first, second, axis)
-        for law in self.driven(world):
-            yield angle_law(first, second, axis, law)
+    def geometry(self, world: World) -> JointGeometry:
+        place = world.place(self.at, "at")
+        if world.dimension == 3:
+            return JointGeometry(place, (self.directed(world),))
+        if self.axis is not None:
+            hint = "leave it out: in the plane every hinge turns about the normal of the plane"
+            world.fault("a revolute joint has no `axis` in dimension 2", "axis", hint=hint)
+        return JointGeometry(place)
+
+    def equations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+        yield from together(first, second, drawn.at)
+        if drawn.axes:
+            yield from aligned(first, second, drawn.axis)
+
+    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
+        return mentioned_together(first, second, drawn.at, True)
+
+    def law(self, first: Frame, second: Frame, drawn: JointGeometry, driven: Expr) -> Relation:
+        if drawn.axes:
+            return angle_law(first, second, drawn.axis, driven)
+        return Relation(difference(difference(second.angle, first.angle), driven), part="drive")
 
 
 def _prismatic_rows(at: Kinematics) -> Iterator[VelocityRow]:
@@ -106,15 +116,22 @@ class Prismatic(Driven):
         rails=3.2,
     )
 
-    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
+    def geometry(self, world: World) -> JointGeometry:
         if self.at is not None:
             world.place(self.at, "at")
-        axis = self.directed(world)
+        return JointGeometry(None, (self.directed(world),))
+
+    def equations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
         yield from parallel(first, second)
-        for u in axis.across:
+        for u in drawn.axis.across:
             yield Relation(shift(first, second, u)[0], part="across", vector=u)
-        for law in self.driven(world):
-            yield displacement_law(shift(first, second, axis.vector), axis, law)
+
+    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
+        del drawn
+        return mentioned_by_moving(first, second)
+
+    def law(self, first: Frame, second: Frame, drawn: JointGeometry, driven: Expr) -> Relation:
+        return displacement_law(shift(first, second, drawn.axis.vector), drawn.axis, driven)
 
 
 def _weld_rows(at: Kinematics) -> Iterator[VelocityRow]:
@@ -142,7 +159,15 @@ class Weld(Joint):
         ),
     )
 
-    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
-        world.welds.append((first.name, second.name))
+    def geometry(self, world: World) -> JointGeometry:
+        world.welds.append(self.between)
+        return JointGeometry()
+
+    def equations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+        del drawn
         yield from parallel(first, second)
         yield from apart(first, second)
+
+    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
+        del drawn
+        return None if first.start == second.start else mentioned_by_moving(first, second)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import ClassVar, Literal
 
 from pydantic import Field
@@ -104,7 +104,7 @@ class Gear(Joint):
     symbol: ClassVar[Symbol] = Symbol(run="teeth")
     variation: ClassVar[TypeVariation] = TypeVariation(numbers=("ratio",))
 
-    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
+    def joined(self, world: World, first: Frame, second: Frame) -> Sequence[Relation]:
         ratio = world.mentioned.number = world.fixed(self.ratio, "ratio")
         if ratio.is_zero:
             world.fault("a gear ratio cannot be 0", "ratio")
@@ -114,7 +114,7 @@ class Gear(Joint):
                 world.fault(f"'{self.carrier}' cannot carry its own wheel", "carrier", hint="name a third body")
             arm = world.frame(self.carrier, "carrier").angle
             one, other = difference(one, arm), difference(other, arm)
-        yield Relation(difference(other, mul(ratio, one)))
+        return (Relation(difference(other, mul(ratio, one))),)
 
     @property
     def in_words(self) -> str:

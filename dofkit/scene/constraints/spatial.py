@@ -9,7 +9,7 @@ from pydantic import Field
 
 from dofkit.exact.matrices import rows
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.tree import PI, add, fn, mul
+from dofkit.expressions.tree import PI, ZERO, Expr, add, fn, mul
 from dofkit.expressions.vectors import Vec, cross, difference, dot, length, plus, scaled
 from dofkit.scene.constraints.joints import (
     ANGLE,
@@ -30,6 +30,7 @@ from dofkit.scene.constraints.joints import (
 )
 from dofkit.scene.fields import Value, Vector, as_written
 from dofkit.scene.frames import Frame, relative
+from dofkit.scene.joint_geometry import JointGeometry, mentioned_by_moving, mentioned_together
 from dofkit.scene.parts import show_vector
 from dofkit.scene.symbols import RING, Stroke, Symbol, arc, axle, cylinder, helix, plate, prism
 from dofkit.scene.variation import TypeVariation
@@ -66,11 +67,19 @@ class Cylindrical(Driven):
     measures: ClassVar[Mapping[str, Measure]] = {"angle": ANGLE, "displacement": SLIDE}
     symbol: ClassVar[Symbol] = Symbol(space=(*cylinder(0.3, 2.4, 1), *cylinder(0.6, 1.0)))
 
-    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
-        place, axis = world.place(self.at, "at"), self.directed(world)
-        yield from coaxial(first, second, place, axis)
-        for law in self.driven(world):
-            yield displacement_law(slide(first, second, place, axis.vector), axis, law)
+    def geometry(self, world: World) -> JointGeometry:
+        place = world.place(self.at, "at")
+        return JointGeometry(place, (self.directed(world),))
+
+    def equations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+        yield from coaxial(first, second, drawn.at, drawn.axis)
+
+    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
+        del drawn
+        return mentioned_by_moving(first, second)
+
+    def law(self, first: Frame, second: Frame, drawn: JointGeometry, driven: Expr) -> Relation:
+        return displacement_law(slide(first, second, drawn.at, drawn.axis.vector), drawn.axis, driven)
 
 
 def _screw_rows(at: Kinematics) -> Iterator[VelocityRow]:
@@ -99,15 +108,20 @@ class Screw(Driven):
     measures: ClassVar[Mapping[str, Measure]] = {"angle": ANGLE, "displacement": SLIDE}
     symbol: ClassVar[Symbol] = Symbol(space=(helix(0.4, 2.4, 6, 1), axle(2.4, 1), *prism(0.65, 0.6)))
 
-    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
+    def geometry(self, world: World) -> JointGeometry:
         place, axis = world.place(self.at, "at"), self.directed(world)
         pitch = world.mentioned.number = world.fixed(self.pitch, "pitch")
-        yield from coaxial(first, second, place, axis)
-        moved, under = slide(first, second, place, axis.vector)
-        advance = mul(pitch, angle_of(first, second, axis)) / (2 * PI)
+        return JointGeometry(place, (axis,), pitch)
+
+    def equations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+        axis = drawn.axis
+        yield from coaxial(first, second, drawn.at, axis)
+        moved, under = slide(first, second, drawn.at, axis.vector)
+        advance = mul(drawn.number or ZERO, angle_of(first, second, axis)) / (2 * PI)
         yield Relation(difference(moved, mul(length(axis.vector), under, advance)), part="thread")
-        for law in self.driven(world):
-            yield angle_law(first, second, axis, law)
+
+    def law(self, first: Frame, second: Frame, drawn: JointGeometry, driven: Expr) -> Relation:
+        return angle_law(first, second, drawn.axis, driven)
 
     @property
     def in_words(self) -> str:
@@ -143,9 +157,13 @@ class Universal(LocatedJoint):
         )
     )
 
-    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
-        yield from together(first, second, world.place(self.at, "at"))
-        a, b = self._pair(world)
+    def geometry(self, world: World) -> JointGeometry:
+        place = world.place(self.at, "at")
+        return JointGeometry(place, self._pair(world))
+
+    def equations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+        yield from together(first, second, drawn.at)
+        a, b = (axis.vector for axis in drawn.axes)
         turned = relative(first, second)
         if turned is None:
             e = dot(first.carry(a), second.carry(b))
@@ -154,13 +172,16 @@ class Universal(LocatedJoint):
             e = add(mul(dot(vector, a), dot(vector, b)), mul(scalar, dot(vector, cross(b, a))))
         yield Relation(e, part="axes")
 
-    def _pair(self, world: World) -> tuple[Vec, Vec]:
+    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
+        return mentioned_together(first, second, drawn.at, True)
+
+    def _pair(self, world: World) -> tuple[Direction, Direction]:
         if self.axes is None:
             if self.at is not None:
                 hint = "add `axes: [[1, 0, 0], [0, 1, 0]]`, or leave both out for a joint in general position"
                 world.fault("this universal joint has a place (`at`) but no `axes`", hint=hint)
             one = world.direction(None)
-            return one.vector, plus(one.across[0], scaled(world.fresh(), one.across[1]))
+            return one, Direction(plus(one.across[0], scaled(world.fresh(), one.across[1])), ())
         one, other = (world.direction(axis, "axes", i) for i, axis in enumerate(self.axes))
         cosine = dot(one.vector, other.vector)
         if world.differs(cosine):
@@ -168,7 +189,7 @@ class Universal(LocatedJoint):
             if not (size is not None and within(size, world.tolerance, 1.0)):
                 shown = f"{show_vector(self.axes[0])} and {show_vector(self.axes[1])}"
                 world.fault(f"the axes {shown} are not perpendicular", "axes", hint="their dot product must be 0")
-        return one.vector, other.vector
+        return one, other
 
     @property
     def in_words(self) -> str:
@@ -200,10 +221,16 @@ class Spherical(LocatedJoint):
         )
     )
 
-    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
+    def geometry(self, world: World) -> JointGeometry:
         if self.axis is not None:
             world.direction(self.axis, "axis")
-        yield from together(first, second, world.place(self.at, "at"))
+        return JointGeometry(world.place(self.at, "at"))
+
+    def equations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+        yield from together(first, second, drawn.at)
+
+    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
+        return mentioned_together(first, second, drawn.at, False)
 
 
 def _planar_rows(at: Kinematics) -> Iterator[VelocityRow]:
@@ -224,9 +251,16 @@ class Planar(Axial):
     )
     symbol: ClassVar[Symbol] = Symbol(space=(plate(-0.15, 2.2), plate(0.15, 1.2, 1)))
 
-    def joined(self, world: World, first: Frame, second: Frame) -> Iterator[Relation]:
+    def geometry(self, world: World) -> JointGeometry:
         if self.at is not None:
             world.place(self.at, "at")
-        axis = self.directed(world)
+        return JointGeometry(None, (self.directed(world),))
+
+    def equations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
+        axis = drawn.axis
         yield from aligned(first, second, axis)
         yield Relation(shift(first, second, axis.vector)[0], part="distance", vector=axis.vector)
+
+    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
+        del drawn
+        return mentioned_by_moving(first, second)

@@ -80,8 +80,9 @@ def percent(score: float | None, most: float) -> float:
 
 def student_page(result: Result, prepared: Prepared) -> StudentPage:
     """The page of one submission: its answers by problem, those to nothing that was asked at the end."""
-    with suppress(NobodysSheetError):
-        prepared = own(prepared, result.student)
+    if any(getattr(question, "coordinate", None) for _, question in prepared.questions()):
+        with suppress(NobodysSheetError):  # each student's may have another name
+            prepared = own(prepared, result.student)
     found = {(item.problem, item.question): item for item in result.items}
     sections = []
     for problem in prepared.assignment.problems:

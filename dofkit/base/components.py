@@ -1,0 +1,30 @@
+"""Connected components of things that share names."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable
+
+
+def components(names_of: Iterable[Iterable[Hashable]]) -> list[list[int]]:
+    """The numbers of the things that are joined by names in common, each group in order, by their first numbers.
+
+    >>> components([("x", "y"), ("z",), ("y", "u"), ()])
+    [[0, 2], [1], [3]]
+    """
+    leader: list[int] = []
+    owner: dict[Hashable, int] = {}
+
+    def led(i: int) -> int:
+        while leader[i] != i:
+            leader[i] = i = leader[leader[i]]
+        return i
+
+    for i, names in enumerate(names_of):
+        leader.append(i)
+        for name in names:
+            a, b = sorted((led(owner.setdefault(name, i)), led(i)))
+            leader[b] = a
+    groups: dict[int, list[int]] = {}
+    for i in range(len(leader)):
+        groups.setdefault(led(i), []).append(i)
+    return list(groups.values())

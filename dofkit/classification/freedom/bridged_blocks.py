@@ -1,0 +1,103 @@
+"""A block that joints which close no loop hold together: its parts are answered apart (`dofkit.mobility.bridges`)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from dofkit.base.verdicts import VERDICTS, weakest
+from dofkit.configuration.witness import of_reference
+from dofkit.expressions import tree as ex
+from dofkit.relations.answer import Answer, AnsweredPart, FollowedClasses, Size
+from dofkit.relations.blocks import Block, Row, coordinates_of, split, uses_time
+from dofkit.relations.joint_equations import JointEquation
+from dofkit.relations.setting import Setting
+
+#: A block of so few coordinates, all of whose equations are written out, is answered as soon as a whole.
+FEW = 12
+METHOD = "rank over GF(p) at the given configuration"
+
+
+def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer | None:
+    """The answer of a block by its parts, each of which ``solve`` answers; None where it has to be looked at whole.
+
+    So it has where a part does not hold at the drawing, or something else is asked of it than finite relations; and
+    where it does not move, which may be seen at once.
+    """
+    joints = [row for row in block.rows if row.constraint in setting.bridges]
+    if not joints or not _is_eligible(block, joints, setting):
+        return None
+    rows = [row for row in block.rows if row.constraint not in setting.bridges]
+    cores, loose = split(block.coordinates, rows)
+    within = replace(setting, within=True)
+    parts = [AnsweredPart(core, solve(core, within)) for core in cores]
+    if any(p.answer.consistent is not True or p.answer.about != "reference" for p in parts):
+        return None
+    found = _together(block, setting, parts, len(loose) - len(joints))
+    return replace(found, looked=_looked(block, parts)) if found.instantaneous else None
+
+
+def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
+    """Is all of a block finite and drawn, and does time not enter?"""
+    if setting.reference is None or "field" not in setting.engines or block.conditions:
+        return False
+    if block.forms or block.nonlinear:
+        return False
+    written = not any(isinstance(row.piece, JointEquation) for row in joints)
+    if written and (len(block.coordinates) <= FEW or _moves_as_one(joints, setting)):
+        return False
+    others = tuple(row for row in block.rows if row.constraint not in setting.bridges)
+    return not uses_time(Block(block.coordinates, others))
+
+
+def _moves_as_one(joints: Sequence[Row], setting: Setting) -> bool:
+    """Do all joints but one to the ground weld?"""
+    free = {row.constraint: row for row in joints if row.constraint not in setting.welds}
+    if len(free) != 1:
+        return not free
+    mentioned = coordinates_of(next(iter(free.values())).piece)
+    return len({c.owner for c in setting.roles if c.name in mentioned}) == 1
+
+
+def _together(block: Block, setting: Setting, parts: Sequence[AnsweredPart], free: int) -> Answer:
+    """The answer of the whole from those of its parts, beside which there are so many ``free`` coordinates."""
+    reference = setting.reference or {}
+    symbols = [ex.coordinate(name) for name in block.coordinates]
+    answers = [p.answer for p in parts]
+    dependent = [a for a in answers if a.argument != "independent relations"] or answers
+    weak = max(dependent, key=lambda a: VERDICTS.index(a.verdict), default=None)
+    found = Answer(
+        dof=_total([a.dof for a in answers], free),
+        velocity_dof=_total([a.velocity_dof for a in answers], free),
+        verdict=weakest(*(a.verdict for a in answers)),
+        about="reference",
+        argument="independent relations" if weak is None else weak.argument,
+        reasons=list(dict.fromkeys(reason for a in answers for reason in a.reasons)),
+        degenerate=any(a.degenerate for a in answers),
+        instantaneous=_total([a.instantaneous for a in answers], free),
+        first_order_sure=all(a.first_order_sure for a in answers),
+        exists=all(a.exists for a in answers) and all(reference[s].op == "num" for s in symbols),
+        doubt=next((a.doubt for a in answers if a.doubt), None),
+        method="; ".join(dict.fromkeys(a.method for a in answers)) or METHOD,
+        witness=of_reference(symbols, reference),
+        size=Size(*map(sum, zip(Size(), *(a.size for a in answers), strict=True))),
+        parts=tuple(parts),
+    )
+    if answers:
+        found.bits, found.gap = min(a.bits for a in answers), min(a.gap for a in answers)
+    found.derived = None if found.dof is None else (len(block.coordinates) - found.dof,)
+    return found
+
+
+def _total(numbers: Sequence[int | None], free: int) -> int | None:
+    known = [n for n in numbers if n is not None]
+    return free + sum(known) if len(known) == len(numbers) else None
+
+
+def _looked(block: Block, parts: Sequence[AnsweredPart]) -> FollowedClasses:
+    """What was looked at; all equations but those of the parts were left out, where classes were looked at apart."""
+    told = [p.answer.looked for p in parts]
+    whole = FollowedClasses(*map(sum, zip(FollowedClasses(), *told, strict=True)))
+    if any(not (k.left_out or k.rigid or k.followed) for k in told):
+        return whole._replace(left_out=0, rigid=0, followed=0)
+    return whole._replace(left_out=whole.left_out + len(block.rows) - sum(len(p.block.rows) for p in parts))

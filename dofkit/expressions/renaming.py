@@ -1,0 +1,185 @@
+"""Expressions that are the same up to names: what is left without these, and the same in other names.
+
+Names are those of coordinates (their velocities, accelerations and differentials have them too) and of geometry that
+was left out, whose parameters begin with ``_``. All other names are kept: parameters and functions are shared.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from dofkit.expressions.tree import Expr, children, nodes
+
+#: The kinds of symbols that are called by a coordinate.
+MOVING = frozenset({"coordinate", "velocity", "acceleration", "differential"})
+
+
+class ExpressionShape(NamedTuple):
+    """An expression without its names.
+
+    ``skeleton``: the expression with its names replaced by numbers, in the order in which they first occur; ``names``:
+    these, in that order; ``kept``: the names of symbols that are no such names, sorted.
+
+    >>> from dofkit.expressions.tree import coordinate, velocity
+    >>> shape_of(coordinate("y") * velocity("x")).names
+    ('y', 'x')
+    >>> shape_of(coordinate("y") * velocity("x")).skeleton == shape_of(coordinate("a") * velocity("b")).skeleton
+    True
+    """
+
+    skeleton: Expr
+    names: tuple[str, ...]
+    kept: tuple[str, ...]
+
+    @property
+    def order(self) -> tuple[int | str, ...]:
+        """The numbers sorted by their names, among the names that are kept.
+
+        Of expressions with one skeleton and one order, whatever looks at names only to sort them makes the same.
+        """
+        return order_of(self.names, self.kept)
+
+
+def order_of(names: Sequence[str], kept: Sequence[str] = ()) -> tuple[int | str, ...]:
+    """The numbers of some names, sorted by these, among others that are kept."""
+    places: dict[str, int | str] = {name: name for name in kept}
+    places.update((name, k) for k, name in enumerate(names))
+    return tuple(places[name] for name in sorted(places))
+
+
+def is_name(symbol: Expr) -> bool:
+    """Is a symbol called by a name that may be another: of a coordinate, or of geometry that was left out?"""
+    kind, name = symbol.args
+    return kind in MOVING or (kind == "parameter" and name[0] == "_")
+
+
+def shape_of(e: Expr) -> ExpressionShape:
+    """An expression without its names; worked out once."""
+    found: ExpressionShape | None = e.shape
+    if found is None:
+        places: dict[str, str] = {}
+        for symbol in _symbols_in_order(e):
+            if is_name(symbol):
+                name = symbol.args[1]
+                stem = name[:2] if name[0] == "_" else ""
+                places.setdefault(name, f"{stem}{len(places)}")
+        kept = sorted({s.args[1] for s in e.symbols if not is_name(s)})
+        found = e.shape = ExpressionShape(renamed(e, places), tuple(places), tuple(kept))
+    return found
+
+
+def _symbols_in_order(e: Expr) -> list[Expr]:
+    """The symbols, each where it first occurs."""
+    found: dict[Expr, None] = {}
+    stack, seen = [e], set[int]()
+    while stack:
+        node = stack.pop()
+        if node.op == "sym":
+            found.setdefault(node)
+        elif id(node) not in seen:
+            seen.add(id(node))
+            stack.extend(reversed(children(node)))
+    return list(found)
+
+
+def renamed(e: Expr, names: Mapping[str, str]) -> Expr:
+    """An expression in other names, which have to be as many: nothing is folded again.
+
+    >>> from dofkit.expressions.tree import coordinate
+    >>> renamed(coordinate("x") + 1, {"x": "y"}) == coordinate("y") + 1
+    True
+    """
+    return Renaming(names).of(e)
+
+
+class Renaming:
+    """Expressions rewritten in other names, one for one."""
+
+    def __init__(self, names: Mapping[str, str]) -> None:
+        self.names = names
+        self._symbols: dict[Expr, Expr] = {}
+        self._known: dict[int, tuple[Expr, Expr]] = {}
+
+    def of(self, e: Expr) -> Expr:
+        """An expression in the other names; its shape is known where it was."""
+        op, args = e.op, e.args
+        if op == "sym":
+            return self._symbol(e)
+        if op == "num" or op == "const":
+            return e
+        known = self._known.get(id(e))
+        if known is not None:
+            return known[1]
+        parts: tuple[Any, ...]
+        if op == "fn":
+            parts = (args[0], *map(self.of, args[1:]))
+        elif op == "call":
+            parts = (args[0], args[1], tuple(map(self.of, args[2])))
+        else:
+            parts = tuple(map(self.of, args))
+        made = Expr(op, parts)
+        if e.shape is not None:
+            made.shape = e.shape._replace(names=tuple(self.names.get(n, n) for n in e.shape.names))
+        self._known[id(e)] = e, made
+        return made
+
+    def _symbol(self, symbol: Expr) -> Expr:
+        found = self._symbols.get(symbol)
+        if found is None:
+            kind, name = symbol.args
+            other = self.names.get(name)
+            found = self._symbols[symbol] = symbol if other is None else Expr("sym", (kind, other))
+        return found
+
+
+class _Step(NamedTuple):
+    """One node: its ``op``, what stands before its children, and where these are found; of one with a shape, that."""
+
+    op: str
+    before: tuple[Any, ...]
+    parts: tuple[int, ...]
+    shape: ExpressionShape | None
+
+
+class Template:
+    """An expression, to be written in other names many times over.
+
+    >>> from dofkit.expressions.tree import coordinate
+    >>> product = Template(coordinate("x") * coordinate("y"))
+    >>> product.names, product.of(("u", "v")) == coordinate("u") * coordinate("v")
+    (('x', 'y'), True)
+    """
+
+    def __init__(self, e: Expr) -> None:
+        self.names = shape_of(e).names
+        self._number = {name: k for k, name in enumerate(self.names)}
+        symbols = [s for s in _symbols_in_order(e) if is_name(s)]
+        self._symbols = [(s.args[0], self._number[s.args[1]]) for s in symbols]
+        self._others = e.symbols - frozenset(symbols)
+        own = frozenset(symbols)
+        self._kept = [node for node in nodes(e) if own.isdisjoint(node.symbols)]
+        places = {node: k for k, node in enumerate((*symbols, *self._kept))}
+        self._steps: list[_Step] = []
+        for node in nodes(e):
+            if node not in places:
+                places[node] = len(places)
+                parts = tuple([places[part] for part in children(node)])
+                before = node.args[:2] if node.op == "call" else node.args[:1] if node.op == "fn" else ()
+                self._steps.append(_Step(node.op, before, parts, node.shape))
+        self._root = places[e]
+
+    def of(self, names: Sequence[str]) -> Expr:
+        """The expression in other names, all different, in the order of its own; its shape is known."""
+        symbols = [Expr("sym", (kind, names[k])) for kind, k in self._symbols]
+        found = [*symbols, *self._kept]
+        for op, before, parts, shape in self._steps:
+            below = tuple([found[k] for k in parts])
+            made = Expr(op, (*before, below) if op == "call" else before + below)
+            if shape is not None:
+                own = tuple([names[self._number[n]] for n in shape.names])
+                made.shape = ExpressionShape(shape.skeleton, own, shape.kept)
+            found.append(made)
+        if self._steps:
+            found[-1].remember(self._others.union(symbols))
+        return found[self._root]

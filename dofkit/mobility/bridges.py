@@ -1,0 +1,55 @@
+"""Joints that close no loop: bridges of the graph of who is joined to whom.
+
+Let a joint with f freedoms be the only thing between bodies S, the ground not among them, and all else. What is said
+of S by itself does not change when all of S is moved as one body. So every configuration of the whole is one of the
+rest, one of S up to motions of the whole, and any value q of the joint: M = M_rest x (M_S / SE(d)) x J, with J the
+joint's own manifold of dimension f, and the map from there is a diffeomorphism. So the joint's d(d+1)/2 - f equations
+are independent of all others, everywhere, whatever M_rest and M_S are; and so on for every bridge, one after another.
+
+A text knows places, so that what it names is held by the ground; so is what any other constraint names that is not
+known to stay the same when all its members are moved together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping
+
+import networkx as nx
+
+from dofkit.system import GROUND, Connection, Constraint, System
+
+#: A node of the graph: a body, a particle, the ground, a coordinate that is nobody's, or a constraint by its number.
+Node = Hashable
+
+
+def bridges(system: System) -> frozenset[int]:
+    """The numbers of the joints that close no loop, of those of a drawing in fractions; none without a drawing."""
+    if system.reference is None or system.dimension == 1:
+        return frozenset()
+    joints = {c.constraint: c.members for c in system.connections if _is_drawn(c, system)}
+    if not joints:
+        return frozenset()
+    owners: dict[str, Node] = {q.name: q.owner or ("coordinate", q.name) for q in system.coordinates}
+    connected = {c.constraint: c for c in system.connections}
+    graph: nx.Graph[Node] = nx.Graph()
+    for i, constraint in enumerate(system.constraints):
+        graph.add_edges_from((i, node) for node in joints.get(i) or _held(constraint, connected.get(i), owners))
+    graph.remove_edges_from(list(nx.bridges(graph)))
+    return frozenset(i for i in joints if not graph.adj[i])
+
+
+def _is_drawn(c: Connection, system: System) -> bool:
+    """Is a joint of two bodies, whose motion nothing prescribes, drawn in fractions, as its bodies are?"""
+    if not (c.facts.freedoms or c.facts.welded) or len(c.members) != 2 or c.driven or c.number is not None:
+        return False
+    given = (*c.places, *c.directions, *(system.starts.get(member, ()) for member in c.members))
+    return all(vector is not None and all(part.op == "num" for part in vector) for vector in given)
+
+
+def _held(constraint: Constraint, c: Connection | None, owners: Mapping[str, Node]) -> set[Node]:
+    """What a constraint that is no such joint holds together: the ground too, unless all may move as one."""
+    members: set[Node] = set() if c is None else {*c.members}
+    named = {owners[name] for name in constraint.mentioned if name in owners}
+    facts = constraint.facts
+    moves = facts.bars or facts.merged or facts.welded or bool(facts.freedoms) or (c is not None and bool(c.rates))
+    return members | named | (set() if moves and named <= members else {GROUND})

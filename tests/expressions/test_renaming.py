@@ -1,0 +1,125 @@
+"""Expressions and texts that are the same up to names: what may be told of one by the other, and what may not."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from dofkit.base.errors import TextError
+from dofkit.expressions.renaming import Renaming, order_of, renamed, shape_of
+from dofkit.expressions.text import Names, parse_relations
+from dofkit.expressions.text.patterns import pattern_of
+from dofkit.expressions.tree import Expr, coordinate, fn, parameter, velocity
+
+NAMES = Names(
+    coordinates=frozenset({"x", "y", "z", "u", "v", "w", "d", "e5", "x1", "theta", "phi", "x0"}),
+    parameters={"R": parameter("R"), "a": parameter("a")},
+    functions={"h": 1},
+    allow_accelerations=True,
+)
+
+
+def read(text: str) -> list[Expr]:
+    """Both sides of every relation of a text."""
+    return [side for c in parse_relations(text, NAMES) for side in (c.left, c.right)]
+
+
+def test_a_shape_has_the_names_in_the_order_in_which_they_occur() -> None:
+    x, y = coordinate("x"), coordinate("y")
+    shape = shape_of(velocity("y") + parameter("R") * fn("cos", x) + y)
+    assert (shape.names, shape.kept) == (("y", "x"), ("R",))
+    assert shape.order == ("R", 1, 0)
+
+
+def test_a_coordinate_that_occurs_twice_is_no_two_coordinates() -> None:
+    twice = shape_of(fn("sin", coordinate("x")) + coordinate("x")).skeleton
+    once = shape_of(fn("sin", coordinate("x")) + coordinate("y")).skeleton
+    assert twice != once
+
+
+def test_geometry_left_out_is_a_name_and_a_parameter_is_none() -> None:
+    x = coordinate("x")
+    assert shape_of(x * parameter("_L3")).skeleton == shape_of(x * parameter("_L17")).skeleton
+    assert shape_of(x * parameter("_L3")).skeleton != shape_of(x * parameter("_a3")).skeleton
+    assert shape_of(x * parameter("R")).skeleton != shape_of(x * parameter("a")).skeleton
+
+
+def test_the_order_tells_where_names_that_are_kept_stand() -> None:
+    assert order_of(("b", "c"), ("a",)) != order_of(("b", "c"), ("bb",))
+
+
+def test_renaming_keeps_shapes() -> None:
+    e = coordinate("x") * fn("sin", velocity("y") + 1)
+    shape_of(e)
+    made = renamed(e, {"x": "u", "y": "v"})
+    assert made == coordinate("u") * fn("sin", velocity("v") + 1)
+    assert made.shape.names == ("u", "v")
+
+
+#: Texts that are the same up to names.
+ALIKE = [
+    ("dx = R cos(theta) dphi", "du = R cos(w) dz"),
+    ("x^2 + y^2 <= R^2 + 2 x y", "y^2 + x^2 <= R^2 + 2 y x"),
+    ("0 <= x <= |y|", "0 <= x1 <= |theta|"),
+    ("xdot y' - sqrt(u) = 2z sin v", "zdot w' - sqrt(v) = 2u sin x"),
+    ("dx/dt = 3.5 y t", "du/dt = 3.5 v t"),
+    ("x(t) + y = pi", "u(t) + v = pi"),
+    ("xddot + y = 0", "phiddot + theta = 0"),
+]
+#: Texts that are not, or that have to be read by themselves.
+UNLIKE = [
+    ("2x = y", "2e5 = y"),
+    ("0x1 = y", "0z = y"),
+    ("d^2x/dt^2 = 0", "u^2x/dt^2 = 0"),
+    ("x + x = 1", "x + y = 1"),
+    ("dx = y", "x = y"),
+    ("xdot = y", "dx = y"),
+    ("x = R", "x = a"),
+    ("sin x y = 0", "sin x*y = 0"),
+    ("h(x) = y", "h(u) = v"),
+    ("\\theta = x", "\\phi = x"),
+    ("x(y) = 1", "x (y) = 1"),
+]
+
+
+@pytest.mark.parametrize(("text", "other"), ALIKE)
+def test_a_text_with_the_pattern_of_another_is_it_in_other_names(text: str, other: str) -> None:
+    own, twin = pattern_of(text, NAMES.lookup), pattern_of(other, NAMES.lookup)
+    assert own is not None
+    assert twin is not None
+    assert own.key == twin.key
+    renaming = Renaming(dict(zip(own.names, twin.names, strict=True)))
+    assert [renaming.of(e) for e in read(text)] == read(other)
+
+
+@pytest.mark.parametrize(("text", "other"), UNLIKE)
+def test_texts_that_mean_another_thing_have_another_pattern(text: str, other: str) -> None:
+    own, twin = pattern_of(text, NAMES.lookup), pattern_of(other, NAMES.lookup)
+    assert own is None or twin is None or own.key != twin.key
+
+
+def test_no_text_is_read_otherwise_by_its_pattern() -> None:
+    """Random texts: where two have one pattern, both are read, and alike, or neither is."""
+    rng = random.Random(17)
+    words = [*sorted(NAMES.coordinates), "dx", "dy", "ydot", "x1dot", "R", "t", "dt", "sin", "2", "0", "3.", " ", " "]
+    signs = [*"+-*/^()=|'", "^2", "^2/dt^2"]
+    seen: dict[object, tuple[tuple[str, ...], list[Expr] | None]] = {}
+    met = 0
+    for _ in range(6000):
+        text = "".join(rng.choice(words if rng.random() < 0.6 else signs) for _ in range(rng.randint(2, 6)))
+        pattern = pattern_of(text, NAMES.lookup)
+        if pattern is None:
+            continue
+        try:
+            found = read(text)
+        except TextError:
+            found = None
+        names, known = seen.setdefault(pattern.key, (pattern.names, found))
+        met += known is not found
+        if known is None or found is None:
+            assert known is found, text
+        else:
+            renaming = Renaming(dict(zip(names, pattern.names, strict=True)))
+            assert [renaming.of(e) for e in known] == found, text
+    assert met > 100
