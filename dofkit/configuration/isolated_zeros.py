@@ -7,9 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from fractions import Fraction
 
-from dofkit.base.deadline import check
 from dofkit.configuration.components import RelationPart, explicit_relations, parts_of
 from dofkit.configuration.generic_points import field_jacobian
 from dofkit.configuration.variety import Variety
@@ -17,18 +15,13 @@ from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.zero.identity import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.enclosures import differs_from_zero, interval_of
+from dofkit.expressions.enclosures import differs_from_zero
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
+from dofkit.relations.normal.exact_zeros import analytic_everywhere, candidates
 
-#: Functions that are analytic on the whole line.
-ENTIRE = frozenset({"exp", "sin", "cos", "sinh", "cosh", "tanh", "atan"})
 MAX_RELATIONS = 40
-#: Where zeros are looked for: up to this size, at so many places to a unit; steps to halve an interval.
-REACH, PLACES, HALVINGS = 10, 8, 40
-#: Zeros that are tried have at most this denominator, or are such a multiple of pi.
-MAX_DENOMINATOR = 24
 
 
 def isolated(chart: Chart, found: Variety) -> Variety | None:
@@ -41,7 +34,7 @@ def isolated(chart: Chart, found: Variety) -> Variety | None:
     """
     if "balls" not in chart.engines or chart.time is not None or len(chart.relations) > MAX_RELATIONS:
         return None
-    if not all(map(_analytic_everywhere, chart.relations)):
+    if not all(map(analytic_everywhere, chart.relations)):
         return None
     given, left = explicit_relations(chart.relations)
     symbols = [s for s in chart.symbols if s != ex.TIME]
@@ -61,20 +54,6 @@ def isolated(chart: Chart, found: Variety) -> Variety | None:
     return replace(sure, witness=_witness(symbols, given, zeros))
 
 
-def _analytic_everywhere(e: Expr) -> bool:
-    """Is it made of sums, products, whole powers and functions that are analytic on the whole line?"""
-    if e.op in ("num", "sym", "const"):
-        return e.op != "sym" or e.args[0] == "coordinate"
-    if e.op == "pow":
-        exponent = e.args[1]
-        return exponent.op == "num" and exponent.args[0] >= 0 and exponent.args[0].denominator == 1 and _all(e.args[:1])
-    return (e.op in ("add", "mul") or (e.op == "fn" and e.args[0] in ENTIRE)) and _all(ex.children(e))
-
-
-def _all(parts: Sequence[Expr]) -> bool:
-    return all(map(_analytic_everywhere, parts))
-
-
 def _of_one_coordinate(part: RelationPart) -> bool:
     """Do the relations hold one coordinate only, and is one of them somewhere not 0?"""
     if len(part.unknowns) != 1:
@@ -85,47 +64,9 @@ def _of_one_coordinate(part: RelationPart) -> bool:
 def _common_zeros(part: RelationPart) -> Iterator[Expr]:
     """Exact values of the coordinate at which all of the relations vanish."""
     (s,) = part.unknowns
-    for value in _candidates(part.relations, s):
+    for value in candidates(part.relations, s):
         if all(is_proved_zero(substitute(g, {s: value}), frozenset()) for g in part.relations):
             yield value
-
-
-def _candidates(relations: Sequence[Expr], s: Expr) -> Iterator[Expr]:
-    """Short numbers, and multiples of pi, near which all of the relations are small."""
-    grid = [Fraction(k, PLACES) for k in range(-REACH * PLACES, REACH * PLACES + 1)]
-    sizes = [_size(relations, s, x) for x in grid]
-    seen = set[Expr]()
-    for k in sorted(range(1, len(grid) - 1), key=lambda k: (abs(grid[k]), grid[k] < 0)):
-        check()
-        if sizes[k] > min(sizes[k - 1], sizes[k + 1]):
-            continue
-        least = _least(relations, s, grid[k - 1], grid[k + 1])
-        turns = least / Fraction(314159265358979, 10**14)
-        for value in (_short(least), _short(turns) * ex.PI):
-            if value not in seen:
-                seen.add(value)
-                yield value
-
-
-def _short(x: Fraction) -> Expr:
-    return ex.num(x.limit_denominator(MAX_DENOMINATOR))
-
-
-def _size(relations: Sequence[Expr], s: Expr, x: Fraction) -> float:
-    found = [interval_of(g, {s: x}) for g in relations]
-    return sum(float("inf") if ball is None else abs(float(ball.mid())) for ball in found)
-
-
-def _least(relations: Sequence[Expr], s: Expr, low: Fraction, high: Fraction) -> Fraction:
-    """Where the relations are smallest between two places, by thirds."""
-    for _ in range(HALVINGS):
-        third = (high - low) / 3
-        first, second = (x.limit_denominator(10**12) for x in (low + third, high - third))
-        if _size(relations, s, first) <= _size(relations, s, second):
-            high = second
-        else:
-            low = first
-    return (low + high) / 2
 
 
 def _witness(symbols: Sequence[Expr], given: Sequence[Expr], zeros: dict[Expr, Expr]) -> dict[Expr, str] | None:

@@ -161,11 +161,20 @@ def _type_at(value: Mapping[str, Any], index: object) -> str | None:
     return kind if isinstance(kind, str) and kind in TYPES else None
 
 
+def _declared(value: Mapping[str, Any]) -> list[str]:
+    """The names of particles and bodies of a document, as far as they can be read."""
+    lists = [entries for key in ("bodies", "particles") if isinstance(entries := value.get(key), (list, tuple))]
+    named = [one.get("name") if isinstance(one, Mapping) else one for entries in lists for one in entries]
+    return [name for name in named if isinstance(name, str)]
+
+
 def _between(value: Mapping[str, Any], where: tuple[str | int, ...]) -> str:
-    """Two ends, the first as it was written."""
+    """Two ends, the first as it was meant."""
     entry = _entry_at(value, where[1])
     given = entry.get("between") if isinstance(entry, Mapping) else None
     first = given[0] if isinstance(given, (list, tuple)) and given and isinstance(given[0], str) else None
+    declared = _declared(value)
+    first = first if first is None or first == "ground" else nearest(first, declared) if declared else first
     kind = _type_at(value, where[1])
     ends = re.search(r"between: \[(\w+), (\w+)\]", "" if kind is None else TYPES[kind].example(2))
     one, other = ends.groups() if ends else ("A", "B")

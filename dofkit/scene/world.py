@@ -15,6 +15,7 @@ from itertools import chain
 from typing import NamedTuple
 
 from dofkit.base.errors import Fault, TextError
+from dofkit.base.spelling import nearest
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate, differs_from_zero
 from dofkit.expressions.text import UnknownNameError
@@ -228,11 +229,16 @@ class World(Texts):
             self.mentioned.members.append(name)
             self.mentioned.points.append(DrawnPoint(name, found.reference, particle=True))
             return found
+        place = ", ".join(["0"] * self.dimension)
+        late = len(self.faults) >= self._hints
+        body = None if late or nearest(name, self.particles) else nearest(name, self.frames)
         if name in self.frames or name == GROUND:
-            place = ", ".join(["0"] * self.dimension)
             hint = f"name one of its points: `{{on: {name}, at: [{place}]}}`"
             hint = f"write a fixed point: `[{place}]`" if name == GROUND else hint
             self.fault(f"'{name}' is a body where a point is needed", *where, hint=hint)
+        elif body is not None:
+            hint = f"did you mean the body '{body}'? name one of its points: `{{on: {body}, at: [{place}]}}`"
+            self.fault(f"there is no particle '{name}'", *where, hint=hint)
         else:
             self.unknown("particle", name, self.particles, *where)
         return Placed((ZERO,) * self.dimension, ONE, None, None, f"({name})")

@@ -314,3 +314,14 @@ def test_the_catalog_is_found_by_name() -> None:
     assert load("disc-rolling-on-plane").name == "disc-rolling-on-plane"
     with pytest.raises(SceneError, match="did you mean 'disc-rolling-on-plane'"):
         dofkit.catalog_text("disc-rolling-on-plan")
+
+
+def test_a_misspelt_body_where_a_point_is_needed_is_named() -> None:
+    """The body that was meant, and a point of it; no example repeats the misspelling."""
+    scene = {"dimension": 2, "bodies": ["crank", "rod"]}
+    with pytest.raises(dofkit.SceneError) as found:
+        dofkit.load({**scene, "constraints": [{"type": "link", "between": ["crnk", [0, 0]]}]})
+    assert "did you mean the body 'crank'? name one of its points: `{on: crank, at: [0, 0]}`" in str(found.value)
+    with pytest.raises(dofkit.SceneError) as found:
+        dofkit.load({**scene, "constraints": [{"type": "weld", "between": ["crnk", "rod"]}]})
+    assert "did you mean 'crank'? for example `between: [crank, rod]`" in str(found.value)

@@ -19,6 +19,7 @@ from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
+from dofkit.relations.normal.exact_zeros import SOLE_NOTE, sole_zero
 from dofkit.relations.normal.half_lines import (
     ONE_SIDE_NOTE,
     PIECES_NOTE,
@@ -196,6 +197,10 @@ def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     folded = with_absolute_values(e, positive)
     if holds_on_a_region(folded, positive):
         return _by_signs(folded, positive)
+    value = sole_zero(folded)
+    if value is not None:
+        (s,) = e.symbols
+        return Normal(((Finite(s - value),),), (SOLE_NOTE,))
     branches, notes = zero_set(e, positive, _moving(e))
     if branches == ((e,),):
         return _squared(e, positive)
