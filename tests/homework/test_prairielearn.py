@@ -117,6 +117,7 @@ def test_files_are_read_from_the_table(name: str, text: str, tmp_path: Path) -> 
     assert str(submission.answers["p"]["f"]) == "1"
 
 
+@pytest.mark.sweep
 def test_files_of_the_archive_name_their_students(sheet: Path) -> None:
     folder = sheet.parent / "Homework1"
     folder.mkdir()
@@ -184,6 +185,7 @@ def test_points_of_a_person_come_back(sheet: Path) -> None:
     }  # fmt: skip
 
 
+@pytest.mark.sweep
 def test_of_two_questions_the_first_is_graded_and_gets_its_points(sheet: Path) -> None:
     table = manual(sheet.parent / "t.csv", ("ada@x", "12", given("2"), ""))
     with table.open("a") as stream:
@@ -193,6 +195,7 @@ def test_of_two_questions_the_first_is_graded_and_gets_its_points(sheet: Path) -
     assert [line.split(",")[:4] for line in out.read_text().splitlines()][1] == ["ada@x", "circle", "12", "75.0000"]
 
 
+@pytest.mark.sweep
 def test_teams_and_rosters(sheet: Path) -> None:
     """A team is called by its name; what a roster calls somebody else is the same person to PrairieLearn."""
     folder = sheet.parent
@@ -207,6 +210,7 @@ def test_teams_and_rosters(sheet: Path) -> None:
     assert (told["student"], told["doubt"]) == ("ada@x", None)
 
 
+@pytest.mark.sweep
 def test_points_go_back_by_prairielearns_own_table_only(sheet: Path) -> None:
     (sheet.parent / "class.csv").write_text("student,p.f\nada,1\n")
     out = sheet.parent / "scores.csv"

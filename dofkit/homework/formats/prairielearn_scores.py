@@ -37,8 +37,8 @@ def write_scores(results: Iterator[Result], prepared: Prepared, target: Path, ha
             "of submissions for manual grading or of final submissions"
         )
     known: dict[str, SubmittedRow] = {}
-    for row in rows:
-        known.setdefault(_name(row, handback.roster), row)  # of several only the first was graded
+    for each in rows:
+        known.setdefault(_name(each, handback.roster), each)  # of several only the first was graded
     teams = any(row.team for row in rows)
     with beside(target) as (table, apart):
         table.writerow(["group_name" if teams else "uid", "qid", "submission_id", "score_perc", "feedback"])
