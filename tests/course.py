@@ -262,7 +262,7 @@ def run_sheet(folder: Path, name: str, students: Sequence[str]) -> dict[str, int
 def through_prairielearn(
     folder: Path, varied: Path, answers: Path, review: Path, results: Mapping[str, dict[str, Any]]
 ) -> None:
-    """The same answers in PrairieLearn's own table: who has an answer that a person decided gets points back."""
+    """The same answers in PrairieLearn's own table, which has no points yet: everyone gets those that are final."""
     table, scores = folder / "prairielearn.csv", folder / "scores.csv"
     with table.open("w", newline="") as stream:
         rows = csv.writer(stream)
@@ -275,9 +275,7 @@ def through_prairielearn(
            "--out", scores)  # fmt: skip
     back = list(csv.DictReader(io.StringIO(scores.read_text(encoding="utf-8"), newline="")))
     wanted = sorted(
-        round(100 * one["score"] / one["max_score"], 4)
-        for one in results.values()
-        if not one["needs_review"] and any(item["decided_by"] is not None for item in one["items"])
+        round(100 * one["score"] / one["max_score"], 4) for one in results.values() if not one["needs_review"]
     )
     assert sorted(float(row["score_perc"]) for row in back) == wanted
 

@@ -170,15 +170,14 @@ def test_when_points_are_shown(line: str, expected: str, sheet: Path, tmp_path: 
 
 
 @pytest.mark.parametrize(
-    ("dates", "expected"),
+    ("line", "dates", "expected"),
     [
-        ({"due_date": "2026-11-30T23:00:00-07:00", "late_due_date": None}, "after_due_date"),
-        ({"due_date": None, "late_due_date": None}, "after_published"),
-        ({"due_date": None, "late_due_date": "2026-12-02T23:00:00-07:00"}, "after_due_date"),
-        ({}, "after_due_date"),
+        ("", {"due_date": "2026-11-30T23:00:00-07:00", "late_due_date": None}, "after_due_date"),
+        ("", {"due_date": None, "late_due_date": None}, "after_published"),
+        ("visibility: after_due_date\n", {"due_date": None}, "after_published"),
+        ("", {"due_date": None, "late_due_date": "2026-12-02T23:00:00-07:00"}, "after_due_date"),
     ],
 )
-@pytest.mark.parametrize("line", ["", "visibility: after_due_date\n"])
 def test_without_a_due_date_points_are_shown_when_they_are_published(
     line: str, dates: dict[str, Any], expected: str, sheet: Path, tmp_path: Path
 ) -> None:

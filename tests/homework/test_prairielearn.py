@@ -117,6 +117,7 @@ def test_files_are_read_from_the_table(name: str, text: str, tmp_path: Path) -> 
     assert str(submission.answers["p"]["f"]) == "1"
 
 
+@pytest.mark.sweep
 def test_files_of_the_archive_name_their_students(sheet: Path) -> None:
     folder = sheet.parent / "Homework1"
     folder.mkdir()
@@ -148,12 +149,14 @@ def test_what_cannot_be_read_is_told(rows: Any, why: str, sheet: Path) -> None:
 
 
 def test_points_of_a_person_come_back(sheet: Path) -> None:
-    """Decided: 1 of 3 for the equation, so 2 of 4; a row for whom a person decided, and who gains by it."""
+    """Decided: 1 of 3 for the equation, so 2 of 4. A row for who gains by that, and for who had no points there."""
     folder = sheet.parent
     table = manual(
         folder / "cs_hw1_submissions_for_manual_grading.csv",
         ("ada@x", "12", given(eq=MUMBLED), ""), ("bob@x", "13", given(), 100), ("cy@x", "14", given("3", MUMBLED), 25),
         ("eve@x", "15", given(eq="x^2 + y^2 = ((1"), ""), ("zoe@x", "16", given(eq=MUMBLED), 75),
+        ("di@x", "17", given("2"), 0), ("fay@x", "18", given("2", "x = 1"), 0),
+        ("gus@x", "19", given("2", "x = 1"), ""), ("hal@x", "20", given("2"), 30),
     )  # fmt: skip
     results(sheet, table, "--out", folder / "out")
     review = folder / "out" / "review.csv"
@@ -168,15 +171,31 @@ def test_points_of_a_person_come_back(sheet: Path) -> None:
     scores = folder / "scores.csv"
     results(sheet, table, "--reviewed", review, "--format", "prairielearn", "--out", scores)
     written_rows = list(csv.DictReader(io.StringIO(scores.read_text(), newline="")))
-    assert [tuple(row.values())[:4] for row in written_rows] == [("ada@x", "circle", "12", "50.0000")]
+    assert [tuple(row.values())[:4] for row in written_rows] == [
+        ("ada@x", "circle", "12", "50.0000"), ("di@x", "circle", "17", "75.0000"), ("gus@x", "circle", "19", "0.0000"),
+    ]  # fmt: skip
     assert written_rows[0]["feedback"].splitlines() == [
         "* **p.f**: 1 of 1.", "* **p.eq**: 1 of 3. Say \\*that\\* only.",
     ]  # fmt: skip
     with (folder / "scores.apart.csv").open(newline="") as stream:
         apart = {row["student"]: row["why"] for row in csv.DictReader(stream)}
-    assert apart == {"cy@x": "PrairieLearn has 25 % already", "zoe@x": "PrairieLearn has 75 % already"}
+    assert apart == {
+        "cy@x": "PrairieLearn has 25 % already", "zoe@x": "PrairieLearn has 75 % already",
+        "eve@x": "it is not final: 3 points are open",
+    }  # fmt: skip
 
 
+@pytest.mark.sweep
+def test_of_two_questions_the_first_is_graded_and_gets_its_points(sheet: Path) -> None:
+    table = manual(sheet.parent / "t.csv", ("ada@x", "12", given("2"), ""))
+    with table.open("a") as stream:
+        stream.write('ada@x,7,1,,other,,,,,99,{},{},"{""p.f"": ""1""}",,,,\n')
+    out = sheet.parent / "scores.csv"
+    results(sheet, table, "--format", "prairielearn", "--out", out, status=2)
+    assert [line.split(",")[:4] for line in out.read_text().splitlines()][1] == ["ada@x", "circle", "12", "75.0000"]
+
+
+@pytest.mark.sweep
 def test_teams_and_rosters(sheet: Path) -> None:
     """A team is called by its name; what a roster calls somebody else is the same person to PrairieLearn."""
     folder = sheet.parent
@@ -191,6 +210,7 @@ def test_teams_and_rosters(sheet: Path) -> None:
     assert (told["student"], told["doubt"]) == ("ada@x", None)
 
 
+@pytest.mark.sweep
 def test_points_go_back_by_prairielearns_own_table_only(sheet: Path) -> None:
     (sheet.parent / "class.csv").write_text("student,p.f\nada,1\n")
     out = sheet.parent / "scores.csv"

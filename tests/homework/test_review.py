@@ -532,6 +532,7 @@ def exported(course: Course, *more: str) -> tuple[int, str, str]:
     return called(course.capsys, "export", "grades", str(course.sheet), *more)
 
 
+@pytest.mark.sweep
 def test_results_are_written_for_another_platform_without_grading_again(course: Course) -> None:
     course.grade()
     course.grade("--reviewed", str(course.fill({UNREAD: "3"}, remark="So be it.")))

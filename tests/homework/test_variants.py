@@ -510,6 +510,7 @@ def test_nobodys_sheet_changes_with_the_roster(tmp_path: Path, capsys: pytest.Ca
     assert own(again, "Di King").marks == own(first, "Di").marks
 
 
+@pytest.mark.sweep
 def test_a_folder_keeps_the_sheets_it_has(tmp_path: Path) -> None:
     roster = "Name,Email,ID\nAda,a@x,1\nBob,b@x,2\n"
     made = varied_class(tmp_path, roster)
@@ -523,6 +524,7 @@ def test_a_folder_keeps_the_sheets_it_has(tmp_path: Path) -> None:
     varied_class(tmp_path, "Name,Email\nAda,b@x\n", "--seed", "8", status=2)
 
 
+@pytest.mark.sweep
 def test_sheets_are_found_by_a_later_roster_and_by_what_platforms_call_files(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

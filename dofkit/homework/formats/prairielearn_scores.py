@@ -1,11 +1,11 @@
 """The table by which PrairieLearn takes back points that a person gave: "Upload question scores" of an assessment.
 
-It has a row for each submission of which a person decided an answer, by ``uid`` (or ``group_name``), ``qid`` and
-``submission_id`` of the table of submissions that was graded, with ``score_perc``, from 0 to 100, and ``feedback`` in
-Markdown. (So ``score-upload.ts`` of its source reads it: it looks the submission up by its number, checks the others,
-and sets the points of the whole question.) There is no row for what a person did not touch, so that no points of
-PrairieLearn's own grading are written over; none for what is still open; and none that would take points away. Those
-with an answer of a person's and no row are listed apart, with why.
+It has a row for each submission of which a person decided an answer, and for each that has no points there, by
+``uid`` (or ``group_name``), ``qid`` and ``submission_id`` of the table of submissions that was graded, with
+``score_perc``, from 0 to 100, and ``feedback`` in Markdown. (So ``score-upload.ts`` of its source reads it: it looks
+the submission up by its number, checks the others, and sets the points of the whole question.) There is no row for what
+PrairieLearn has graded and no person has touched; none for what is still open; and none that would take points away.
+Those of whom points may be missed are listed apart, with why.
 """
 
 from __future__ import annotations
@@ -36,20 +36,31 @@ def write_scores(results: Iterator[Result], prepared: Prepared, target: Path, ha
             f"{target} takes points back to PrairieLearn by its own table: grade the CSV that its page Downloads has, "
             "of submissions for manual grading or of final submissions"
         )
-    known = {_name(row, handback.roster): row for row in rows}
+    known: dict[str, SubmittedRow] = {}
+    for each in rows:
+        known.setdefault(_name(each, handback.roster), each)  # of several only the first was graded
     teams = any(row.team for row in rows)
     with beside(target) as (table, apart):
         table.writerow(["group_name" if teams else "uid", "qid", "submission_id", "score_perc", "feedback"])
         for result in results:
-            if not any(item.decided_by is not None for item in result.items):
-                continue
             row = known.get(result.student)
+            if not _is_asked(result, row):
+                continue
             why = "there is no submission of theirs in the table" if row is None else _withheld(result, row)
             if row is None or why is not None:
                 apart.add(result, str(why))
                 continue
             cells = (row.student, row.question, row.submission, f"{_percent(result):.4f}", _feedback(result))
-            table.writerow([cells[0], cells[1], *map(cell, cells[2:])])
+            table.writerow([*map(cell, cells)])
+
+
+def _is_asked(result: Result, row: SubmittedRow | None) -> bool:
+    """May points be missed there: those of a person, or all of them?"""
+    if any(item.decided_by is not None for item in result.items):
+        return True
+    if row is None or row.percent:
+        return False
+    return row.percent is None or unfit(result) is not None or _percent(result) >= _LEAST
 
 
 def _name(row: SubmittedRow, roster: Roster | None) -> str:
