@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
+from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import partial
 from itertools import product as cartesian
 from math import prod
 
@@ -23,7 +23,7 @@ from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.relations.blocks import Block, Row, blocks_of, split, with_boundaries
 from dofkit.relations.integration_constants import names_in, with_rows
 from dofkit.relations.joint_equations import JointEquation
-from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Pfaffian, Piece, Still
+from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Pfaffian, Still
 from dofkit.relations.normal.one_sided import holds_somewhere
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -60,14 +60,6 @@ class Outcome:
         if self.impossible or any(a.consistent is False for a in self.answers):
             return False
         return None if self.unsettled or any(a.consistent is None for a in self.answers) else True
-
-    @cached_property
-    def pieces(self) -> Mapping[int, list[Piece]]:
-        """What each constraint says on the branches in use, by its number; of a copy what its original says."""
-        found = defaultdict[int, list[Piece]](list)
-        for row in self.rows:
-            found[row.constraint].append(row.piece)
-        return {**found, **{copy: found[i] for copy, i in self.copies.items()}}
 
     @property
     def parts(self) -> list[AnsweredPart]:
