@@ -125,6 +125,52 @@ def scene(links: Links, d: int) -> dofkit.Scene:
     return dofkit.load({"dimension": d, "particles": names, "constraints": written})
 
 
+def linked(links: Links) -> dict[str, Any]:
+    """A scene of links in the plane as it is written."""
+    names = [f"P{v}" for v in range(1 + max(map(max, links)))]
+    written = [{"type": "link", "between": [names[a], names[b]]} for a, b in links]
+    return {"dimension": 2, "particles": names, "constraints": written}
+
+
+def truss(links: int) -> Links:
+    """One strip of triangles, each on the one before."""
+    return [(v, v + k) for v in range(links // 2) for k in (1, 2)]
+
+
+def apart_triangles(links: int) -> Links:
+    """Triangles that share nothing."""
+    return [(3 * k + a, 3 * k + b) for k in range(links // 3) for a, b in ((0, 1), (1, 2), (0, 2))]
+
+
+def discs(number: int) -> dict[str, Any]:
+    """Equal discs, each rolling by itself: two texts each."""
+    places = [name for k in range(number) for name in (f"x{k}", f"y{k}", f"theta{k}", f"phi{k}")]
+    rolls = [f"d{q}{k} = R {f}(theta{k}) dphi{k}" for k in range(number) for q, f in (("x", "cos"), ("y", "sin"))]
+    return {"parameters": {"R": "positive"}, "coordinates": places, "constraints": rolls}
+
+
+def whole(what: str, written: dict[str, Any], dof: int, wanted: str, rounds: int = 1) -> None:
+    """From the mapping to the whole report, checked; the least of some rounds, in processor time."""
+    taken = []
+    for _ in range(rounds):
+        gc.collect()
+        start = time.process_time()
+        report = dofkit.classify(dofkit.load(written))
+        taken.append(time.process_time() - start)
+        if report.dof != dof or report.verdict != "proved":
+            raise SystemExit(f"{what}: dof {report.dof} ({report.verdict}), not {dof}")
+    line(what, min(taken), wanted)
+
+
+def scenes() -> None:
+    """Scenes of many constraints: equal blocks, and one block."""
+    dofkit.classify(dofkit.load(discs(2)))
+    whole("1 000 equal discs in one scene", discs(1000), 4000, "0.3 s", 3)
+    whole("10^4 equal discs in one scene", discs(10_000), 40_000, "3 s")
+    whole("10^5 constraints: triangles of links apart", linked(apart_triangles(99_999)), 99_999, "10 s")
+    whole("10^5 constraints: one truss of links", linked(truss(100_000)), 4, "10 s")
+
+
 def plain() -> AbstractContextManager[object]:
     """Nothing compiled."""
     return patch.multiple(compiled, WORTH_COMPILING=10**9, WORTH_CALLING=10**9)
@@ -210,6 +256,7 @@ def main(rounds: int = 3) -> None:
     solid = rigid(1000, 3, 100)
     svd = seconds(partial(by_svd, solid, 3), 1)
     line("space, 1000 joints + 10 %, against numpy's SVD", seconds(redundant(solid, 3), rounds), "3 x", svd)
+    scenes()
     for n, d in ((2000, 2), (1000, 3)):
         given = scene(rigid(n, d, n // 10), d)
         line(f"a scene of {n} joints in {d} dimensions", seconds(partial(dofkit.classify, given), 1), "seconds")

@@ -38,7 +38,7 @@ import dofkit
 from dofkit.benchmark.command import machine
 
 #: Seconds that a row may take by the clock, what it needs included; and that a rival is waited for.
-PATIENCE, RIVAL_PATIENCE = 100.0, 40.0
+PATIENCE, RIVAL_PATIENCE = 60.0, 30.0
 #: So many functions enter every form; a longer text than theirs is not read.
 ALL_USED = 4
 #: Scenes that are classified by workers, and those that the goal is about.

@@ -8,6 +8,8 @@ from contextlib import contextmanager
 
 #: Objects more than were freed before new ones are looked through; rounds before those that stayed are, and all.
 MANY, SOME, FEW = 200_000, 20, 20
+#: Fewer new objects than this are not worth asking whether somebody froze others: that counts these one by one.
+WORTH_IT = 50_000
 
 
 @contextmanager
@@ -41,7 +43,7 @@ def undisturbed() -> Iterator[None]:
 
 
 def _grown_old() -> None:
-    """What there is counts as old, without being looked through; what somebody has frozen stays so."""
-    if not gc.get_freeze_count():
+    """Many new objects count as old, without being looked through; what somebody has frozen stays so."""
+    if gc.get_count()[0] > WORTH_IT and not gc.get_freeze_count():
         gc.freeze()
         gc.unfreeze()

@@ -1,6 +1,6 @@
 """Every type of constraint: the equations it stands for, and the points, bodies and directions that it mentions."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import combinations, pairwise
@@ -8,8 +8,22 @@ from typing import Any
 
 from dofkit.checker.geometry import CheckedFrame, MaterialPoint, Vector, apart, cross, dot, length, less, scaled, square
 from dofkit.checker.grammar import KnownNames, Sided, parse, parse_relations
-from dofkit.checker.trees import ONE, TWO, ZERO, Effort, Tree, add, call, difference, power, refuse, symbol, times
-from dofkit.checker.values import evaluated, excludes_zero, in_velocities, substituted, symbols_in
+from dofkit.checker.trees import (
+    ONE,
+    TWO,
+    ZERO,
+    Effort,
+    Tree,
+    add,
+    call,
+    difference,
+    number,
+    power,
+    refuse,
+    symbol,
+    times,
+)
+from dofkit.checker.values import evaluated, in_velocities, not_zero, substituted
 
 Entry = Mapping[str, Any]
 
@@ -20,7 +34,8 @@ class Surroundings:
 
     ``names``: what texts may mention; ``signs``: of the parameters that stay symbols. ``generic`` grows by a symbol for
     each length or component that was left out, ``counts`` by name; ``drawn`` by the bodies that the drawing
-    places, ``welded`` by pairs. ``index``: the place of the constraint that is read, from 1.
+    places. ``joints``: the constraints by name; ``unread``: those of a type that is not known;
+    ``index``: the place of the constraint that is read, from 1.
     """
 
     dimension: int
@@ -31,13 +46,14 @@ class Surroundings:
     generic: list[str] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=dict)
     drawn: set[str] = field(default_factory=set)
-    welded: list[tuple[str, str]] = field(default_factory=list)
+    joints: dict[str, Entry] = field(default_factory=dict)
+    unread: list[str] = field(default_factory=list)
     index: int = 0
 
     def expression(self, value: object, *allowed: str) -> Tree:
         """A number or text that mentions parameters, and what is ``allowed`` besides."""
         found = parse(value, self.names)
-        refuse(not symbols_in(found) <= {*self.signs, *allowed}, f"`{value}` mentions what cannot stand there")
+        refuse(not found.symbols <= {*self.signs, *allowed}, f"`{value}` mentions what cannot stand there")
         return found
 
     def moving(self, value: object) -> Tree:
@@ -74,19 +90,18 @@ class Surroundings:
         every = range(self.dimension)
         n = self.vector(values) if values is not None else (ONE, *(self.fresh("axis") for _ in every[1:]))
         sure = [i for i in every if nowhere_zero(n[i], self.signs, Effort())]
-        refuse(not sure and (self.dimension == 3 or not any(map(symbols_in, n))), "a direction may be 0")
+        refuse(not sure and (self.dimension == 3 or not any(part.symbols for part in n)), "a direction may be 0")
         k = min(sure, key=lambda i: n[i].head != "number", default=0)
         rows = [{i: n[k], k: difference(ZERO, n[i])} for i in every if i != k]
         return n, tuple(tuple(row.get(j, ZERO) for j in every) for row in rows)
 
-    def on_places(self, texts: Any) -> list[Sided]:
-        """Relations in which x, y, z are the coordinates of a point; no velocity occurs."""
+    def between(self, texts: Any, letters: Iterable[str]) -> list[Sided]:
+        """Relations between letters, coordinates and time; no velocity occurs."""
         refuse(not isinstance(texts, list), "a curve is a list of texts")
-        letters = set("xyz"[: self.dimension])
         own = KnownNames(self.names.coordinates.union(letters), self.names.values, self.names.functions)
         found = [relation for text in texts for relation in parse_relations(text, own)]
         allowed = own.coordinates.union(self.signs, "t")
-        refuse(any(not symbols_in(one.tree) <= allowed for one in found), "a surface mentions places, parameters and t")
+        refuse(any(not one.tree.symbols <= allowed for one in found), "a text mentions places, parameters and t")
         return found
 
 
@@ -98,14 +113,14 @@ def known_fields(entry: Entry, fields: str) -> None:
 
 def nowhere_zero(tree: Tree, signs: Mapping[str, str], effort: Effort, positive: bool = False) -> bool:
     """Whether a tree is a product of powers of numbers and parameters that are not 0, or are positive."""
-    if not symbols_in(tree):
+    if not tree.symbols:
         ball = evaluated(tree, {}, effort)
-        return bool(ball > 0) if positive else excludes_zero(ball)
+        return bool(ball > 0) if positive else not_zero(ball)
     if tree.head == "product":
         return all(nowhere_zero(part, signs, effort, positive) for part in tree.below)
     if tree.head == "power":
-        return nowhere_zero(tree.below[0], signs, effort, positive) and not symbols_in(tree.below[1])
-    sign = signs.get(str(tree.value)) if tree.head == "symbol" else ""
+        return nowhere_zero(tree.below[0], signs, effort, positive) and not tree.below[1].symbols
+    sign = signs.get(str(tree.value)) if tree.head == "symbol" else "positive" if tree.head == "exp" else ""
     return sign == "positive" or (sign == "nonzero" and not positive)
 
 
@@ -118,7 +133,7 @@ def equation(world: Surroundings, entry: Entry) -> Iterator[Sided]:
 def on(world: Surroundings, entry: Entry) -> Iterator[Sided]:
     """Every text at every member, whose coordinates x, y, z stand for."""
     refuse(("surface" in entry) == ("curve" in entry), "either a surface or a curve is needed")
-    relations = world.on_places(entry["curve"] if "curve" in entry else [entry["surface"]])
+    relations = world.between(entry["curve"] if "curve" in entry else [entry["surface"]], "xyz"[: world.dimension])
     for member in entry["members"]:
         values = dict(zip("xyz", world.point(member).place, strict=False))
         yield from (found._replace(tree=substituted(found.tree, values)) for found in relations)
@@ -127,7 +142,7 @@ def on(world: Surroundings, entry: Entry) -> Iterator[Sided]:
 def cam(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     """The profile's equation at the point in the body's own coordinates."""
     point, frame = world.point(entry["point"]), world.frames[entry["body"]]
-    (profile,) = world.on_places([entry["curve"]])
+    (profile,) = world.between([entry["curve"]], "xy")
     refuse(profile.sign != "=", "a profile is one equation in x and y")
     yield substituted(profile.tree, dict(zip("xy", frame.own(point.place), strict=True)))
 
@@ -220,20 +235,15 @@ def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
     is); the point on the ``line``, or in the ``plane`` across the axis; the ``cross`` of two axes; the ``thread``.
     """
     first, second = (world.frames[name] for name in entry["between"])
-    if not entry.keys().isdisjoint(("at", "axis", "axes")):
+    if keeps == "turn point" or not entry.keys().isdisjoint(("at", "axis", "axes")):
         world.drawn.update(entry["between"])
-    if keeps == "turn point":
-        world.welded.append((first.name, second.name))
     # what does not turn moves as its origin does
     place = second.start if "turn" in keeps or "plane" in keeps else world.place(entry.get("at"))
     asks = "line" in keeps or ("axis" in keeps and world.dimension == 3)
     refuse(asks and "at" in entry and "axis" not in entry, "a joint with a place has an axis")
     n, across = world.direction(entry.get("axis")) if asks else ((), ())
     moved = second.point(place)
-
-    def shifted(by: Tree) -> Tree:
-        return difference(first.offset(moved, place, n), times(first.under, moved.under, length(n), by))
-
+    slid, turn = partial(displaced, first, moved, place, n), partial(turn_about, first, second, n, across)
     equations: dict[str, Callable[[], Iterable[Tree]]] = {
         "turn": lambda: parallel(first, second),
         "point": lambda: apart(first.point(place), moved)[0],
@@ -241,14 +251,14 @@ def joint(world: Surroundings, entry: Entry, keeps: str) -> Iterator[Tree]:
         "line": lambda: (first.offset(moved, place, u) for u in across),
         "plane": lambda: [first.offset(moved, place, n)],
         "cross": lambda: [dot(first.carry(a), second.carry(b)) for a, b in [map(world.vector, entry["axes"])]],
-        "thread": lambda: [shifted(times(world.expression(entry["pitch"]), turns(first, second, n, across[0])))],
+        "thread": lambda: [difference(slid(), times(world.expression(entry["pitch"]), TURN, turn()))],
     }
     for kept in keeps.split():
         yield from equations[kept]()
     if "drive" in entry:
         law = world.expression(entry["drive"], "t")
         if keeps in ("turn line", "axis line"):
-            yield shifted(law)
+            yield difference(slid(), law)
         elif not across:
             yield difference(difference(second.angle, first.angle), law)
         else:
@@ -262,9 +272,38 @@ def turned(first: CheckedFrame, second: CheckedFrame, n: Vector, u: Vector) -> t
     return dot(first.carry(cross(n, u)), now), times(length(n), dot(first.carry(u), now))
 
 
-def turns(first: CheckedFrame, second: CheckedFrame, n: Vector, u: Vector) -> Tree:
-    """How often the second body has turned about n."""
-    return times(call("atan2", *turned(first, second, n, u)), parse("1/(2*pi)", KnownNames()))
+def displaced(frame: CheckedFrame, point: MaterialPoint, place: Vector, n: Vector) -> Tree:
+    """How far a point has moved from a place of a body, along n."""
+    return times(frame.offset(point, place, n), power(times(frame.under, point.under, length(n)), number(-1)))
+
+
+def coupling(world: Surroundings, entry: Entry) -> Iterator[Sided]:
+    """A relation between angles and displacements of joints, which count from the drawing."""
+    names = entry["joints"] if isinstance(entry["joints"], Mapping) else {name: name for name in entry["joints"]}
+    values = {letter: measured(world, name) for letter, name in names.items()}
+    for found in world.between([entry["text"]], names):
+        yield found._replace(tree=substituted(found.tree, values))
+
+
+def measured(world: Surroundings, written: str) -> Tree:
+    """The angle or displacement of a joint; of one that has both, ``JOINT.angle`` or ``JOINT.displacement``."""
+    name, what = (written, "") if written in world.joints else written.rsplit(".", 1)
+    entry = world.joints[name]
+    only = MEASURES[entry["type"]]
+    refuse((what or only) not in ("angle", "displacement") or only not in ("", what or only), f"`{written}` is unclear")
+    first, second = (world.frames[end] for end in entry["between"])
+    if world.dimension == 2 and only == "angle":
+        return difference(second.angle, first.angle)
+    n, across = world.direction([*entry["axis"]])
+    if (what or only) == "angle":
+        return turn_about(first, second, n, across)
+    place = second.start if only else world.vector(entry["at"])
+    return displaced(first, second.point(place), place, n)
+
+
+def turn_about(first: CheckedFrame, second: CheckedFrame, n: Vector, across: Sequence[Vector]) -> Tree:
+    """The angle of the second body against the first about n."""
+    return call("atan2", *turned(first, second, n, across[0]))
 
 
 def parallel(first: CheckedFrame, second: CheckedFrame) -> Iterable[Tree]:
@@ -278,6 +317,9 @@ def parallel(first: CheckedFrame, second: CheckedFrame) -> Iterable[Tree]:
     return [times(half, difference(dot(a[i], b[j]), dot(a[j], b[i]))) for i, j in ((0, 1), (1, 2), (2, 0))]
 
 
+#: What a coupling tells of a joint; "" where it has to say which. How many turns a radian is.
+MEASURES = {"revolute": "angle", "prismatic": "displacement", "cylindrical": "", "screw": ""}
+TURN = parse("1/(2*pi)", KnownNames())
 #: What each joint keeps, the fields it has beside ``between``, and the dimensions in which it is defined.
 JOINTS = {
     "revolute": ("point axis", "at axis drive", "23"), "prismatic": ("turn line", "at axis drive", "23"),
@@ -292,5 +334,6 @@ TYPES: dict[str, tuple[Callable[[Surroundings, Entry], Iterator[Tree | Sided]], 
     "roll": (roll, "body radius", "23"), "string": (string, "along length", "123"),
     "slot": (slot, "point body at axis", "23"), "coincident": (coincident, "between", "123"),
     "gear": (gear, "between ratio carrier", "2"), "cam": (cam, "point body curve", "2"),
+    "coupling": (coupling, "joints text", "23"),
     **{name: (partial(joint, keeps=keeps), f"between {own}", where) for name, (keeps, own, where) in JOINTS.items()},
 }  # fmt: skip

@@ -7,20 +7,9 @@ from typing import Any
 
 from flint import fmpq_mat
 
-from dofkit.checker.evidence import CheckedEvidence, CheckedMinor
-from dofkit.checker.fields import Told, admissible, independent, involutive, isolated, of_word, span
+from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, admissible, independent, of_word, span
 from dofkit.checker.trees import refuse
-from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, symbols_in
-
-
-def _finite_minor(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
-    minor = evidence.minor(given["minor"])
-    refuse(any(evidence.relation(row).kind != "finite" for row in minor.rows), "a row of velocities reduces no dof")
-    return minor
-
-
-#: What shows how many freedoms there are at most: as many as coordinates less rows, or one less.
-MOST = {"minor": _finite_minor, "frobenius": involutive, "isolated": isolated}
+from dofkit.checker.values import CheckedPoint, derivative, not_zero
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -188,8 +177,8 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
         ways = [(i, one) for i, one in enumerate(evidence.consequences) if one.target == name and one.defined]
         ways = [(i, one) for i, one in ways if {*one.sources} <= {*minor.rows} and evidence.applies(i, minor.point)]
         used = [(*one.defined, *one.nonzero) for _, one in ways]
-        plain = any(not any(map(symbols_in, trees)) for trees in used)
-        single = len(others) == 1 and any(all(excludes_zero(minor.point.value(t)) for t in trees) for trees in used)
+        plain = any(not any(tree.symbols for tree in trees) for trees in used)
+        single = len(others) == 1 and any(all(not_zero(minor.point.value(t)) for t in trees) for trees in used)
         refuse(not plain and not single, f"`{name}` does not depend on the rows by numbers")
 
 
@@ -217,7 +206,7 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: To
     refuse(not whole, "the columns of the minor are not all the other coordinates")
     other = evidence.minor(claim.get("beside", claim["minor"]))
     refuse(other.point is not minor.point or set(other.rows) != set(minor.rows), "another minor is of other rows")
-    held = (symbols_in(evidence.relation(name).left) for name in evidence.finite)
+    held = (evidence.relation(name).left.symbols for name in evidence.finite)
     still = {q for names in held for q in names if names <= {q}}
     turned = [angles for angles in evidence.problem.turns if angles[1] not in other.columns or {*angles} <= still]
     if turned:
@@ -308,16 +297,16 @@ def _free(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint
     for i, (name, q) in enumerate(order):
         one, slope = evidence.relation(name), evidence.slope(name, q)
         dot = "dot" if one.kind == "velocity" else ""
-        plain = symbols_in(slope) <= evidence.chosen and evidence.has_value_everywhere(slope)
+        plain = slope.symbols <= evidence.chosen and evidence.has_value_everywhere(slope)
         sure = evidence.ring.rational(slope) or evidence.is_nowhere_zero(slope)
-        gives = sure or (plain and point and excludes_zero(point.value(slope)))
+        gives = sure or (plain and point and not_zero(point.value(slope)))
         refuse(not gives or q + dot == "tdot", f"`{name}` does not give `{q}` everywhere")
-        refuse(not symbols_in(one.left).isdisjoint(q + dot for q in later[i + 1 :]), f"`{name}` holds what comes later")
+        refuse(not one.left.symbols.isdisjoint(q + dot for q in later[i + 1 :]), f"`{name}` holds what comes later")
         if not dot:
             found[q] = _coordinates(evidence, name, found) - {q}
     return found
 
 
 def _coordinates(evidence: CheckedEvidence, name: str, given: dict[str, frozenset[str]]) -> frozenset[str]:
-    held = symbols_in(evidence.relation(name).left) & set(evidence.problem.coordinates)
+    held = evidence.relation(name).left.symbols & set(evidence.problem.coordinates)
     return frozenset().union(*(given.get(q, frozenset((q,))) for q in held))

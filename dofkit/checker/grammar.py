@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from dofkit.checker.trees import FUNCTIONS, ONE, ZERO, Tree, add, call, negative, number, power, refuse, symbol, times
-from dofkit.checker.values import derivative, symbols_in
+from dofkit.checker.values import derivative
 
 #: The last: how often a declared function is differentiated.
 MOST_CHARACTERS, LONGEST_NAME, DEEPEST, LARGEST_EXPONENT, MOST_ORDERS = 20_000, 64, 60, 64, 6
@@ -260,7 +260,7 @@ class _Reader:
         found, *steps = self.arguments()
         refuse(not 0 < len(steps) <= MOST_ORDERS, "a derivative needs what to differentiate, and by what")
         for step in steps:
-            doubtful = step == _TIME and not symbols_in(found) <= {"t", *self.names.values}
+            doubtful = step == _TIME and not found.symbols <= {"t", *self.names.values}
             refuse(doubtful or step.head != "symbol", "a derivative is by a symbol, and not by time on the way")
             found = derivative(found, str(step.value))
         return found

@@ -5,10 +5,9 @@ from itertools import combinations
 from typing import Any
 
 from dofkit.checker.dimension_rules import names_told, same_place
-from dofkit.checker.evidence import CheckedEvidence
-from dofkit.checker.fields import Told, admissible, involutive, of_word
+from dofkit.checker.evidence import CheckedEvidence, Told, admissible, involutive, of_word
 from dofkit.checker.trees import ONE, ZERO, Tree, add, difference, refuse, times
-from dofkit.checker.values import CheckedPoint, derivative, excludes_zero, homogeneous_degree, substituted, symbols_in
+from dofkit.checker.values import CheckedPoint, derivative, homogeneous_degree, not_zero, substituted
 
 Form = dict[str, Tree]
 EQUATIONS, EVERY = ("finite", "velocity"), ("finite", "velocity", "inequality")
@@ -22,17 +21,10 @@ def own(evidence: CheckedEvidence, claim: Told, kinds: tuple[str, ...] = EQUATIO
     return found
 
 
-def finite(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """A relation between coordinates and time is holonomic."""
-    return bool(own(evidence, claim, ("finite",)))
-
-
-def inequality(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
-    """An inequality is not holonomic; where there is nothing else, it has no independent equation."""
-    counted = claim["field"] == "independent"
-    fits = evidence.owned(claim["owner"], ("inequality",)) and not (counted and evidence.owned(claim["owner"]))
-    refuse(not fits, "no inequality, or equations as well")
-    return 0 if counted else False
+def by_kind(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
+    """Relations between coordinates and time are holonomic; inequalities are not, and no independent equations."""
+    own(evidence, claim, (claim["rule"],))
+    return 0 if claim["field"] == "independent" else claim["rule"] == "finite"
 
 
 def _setting(evidence: CheckedEvidence, claim: Told) -> tuple[str, ...]:
@@ -72,7 +64,7 @@ def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     refuse(slow, "the direction does not have time go by 1")
     values = {q + "dot": point.value(vector.get(q, ZERO)) for q in evidence.variables}
     value = point.value_with(evidence.relation(name).left, values)
-    refuse(not excludes_zero(value), "the form may be 0 in that direction")
+    refuse(not not_zero(value), "the form may be 0 in that direction")
     return False
 
 
@@ -80,7 +72,7 @@ def form_of(evidence: CheckedEvidence, name: str) -> Form:
     """The coefficients of a relation that is linear in velocities."""
     one = evidence.relation(name)
     refuse(one.kind != "velocity" or not evidence.is_linear(name), f"`{name}` is no form")
-    return {v: evidence.slope(name, v) for v in evidence.variables if v + "dot" in symbols_in(one.left)}
+    return {v: evidence.slope(name, v) for v in evidence.variables if v + "dot" in one.left.symbols}
 
 
 def _forms(evidence: CheckedEvidence, claim: Told, single: bool = False) -> dict[str, Form]:
@@ -103,13 +95,13 @@ def _is_closed(evidence: CheckedEvidence, claim: Told, forms: Collection[Form], 
     named = claim.get("pair" if size == 2 else "triple")
     if named is None:
         for form in forms:
-            held = frozenset(form).union(*map(symbols_in, form.values()))
+            held = frozenset(form).union(*(part.symbols for part in form.values()))
             for names in combinations([name for name in evidence.variables if name in held], size):
                 evidence.identity(_part(form, *names), ZERO, f"the part for {', '.join(names)}")
         return True
     (form,) = forms
     refuse(len(named) != size or not set(named) <= set(evidence.variables), "a form has parts for coordinates and t")
-    refuse(not excludes_zero(evidence.point(claim["at"]).value(_part(form, *named))), "it may be 0 at the point")
+    refuse(not not_zero(evidence.point(claim["at"]).value(_part(form, *named))), "it may be 0 at the point")
     return False
 
 
@@ -161,7 +153,7 @@ def turns(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
             evidence.on_set(point, names)
         held = one.kind == "finite" or evidence.holds(name, point)
         refuse(catastatic or not held, "it is no form that could be catastatic, or not shown to be 0 there")
-    refuse(not excludes_zero(point.value(turned)), "time may not enter at the point")
+    refuse(not not_zero(point.value(turned)), "time may not enter at the point")
     return False
 
 
@@ -169,7 +161,7 @@ def factor(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
     """An integrating factor makes the form closed, and is not 0."""
     point, tree = evidence.point(claim["at"]), evidence.text(claim["value"])
     (form,) = _forms(evidence, claim, single=True).values()
-    refuse(evidence.met_by(tree) or not excludes_zero(point.value(tree)), "the factor may be 0")
+    refuse(evidence.met_by(tree) or not not_zero(point.value(tree)), "the factor may be 0")
     _is_closed(evidence, {}, [{name: times(tree, part) for name, part in form.items()}], 2)
     return claim["value"]
 
@@ -181,7 +173,7 @@ def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
     finite relations and a relation of the constraint shows that they do not do alone.
     """
     point, function = evidence.point(claim["at"]), evidence.text(told_integral(evidence, claim["value"]))
-    moves = any(excludes_zero(point.value(derivative(function, v))) for v in evidence.variables)
+    moves = any(not_zero(point.value(derivative(function, v))) for v in evidence.variables)
     refuse(evidence.met_by(function) or not moves, "the integral may be constant near the point")
     evidence.identity(evidence.relation(claim["step"]).left, function, "the integral of the step")
     others, whole = [*claim.get("integrals", [])], own(evidence, claim)
@@ -216,7 +208,7 @@ def integrable_part(evidence: CheckedEvidence, claim: Told, verified: Told) -> T
 def told_integral(evidence: CheckedEvidence, text: Any) -> str:
     """The function of an integral that is told with a constant of a name of its own."""
     function, _, constant = str(text).rpartition("=")
-    taken = {*evidence.variables, *evidence.velocities, *evidence.chosen, *evidence.problem.functions}
+    taken = {*evidence.variables, *evidence.velocities, *evidence.chosen, *evidence.problem.world.names.functions}
     refuse(not constant.strip().isidentifier() or constant.strip() in taken, "an integral ends with `= C`")
     return function.strip()
 
@@ -253,7 +245,7 @@ def moves(evidence: CheckedEvidence, given: Told, wanted: Sequence[str]) -> Chec
     balls = {rate: point.value(tree) for rate, tree in rest.items()}
     for name in wanted:
         left = evidence.relation(name).left
-        if name not in still or "t" in symbols_in(left):
+        if name not in still or "t" in left.symbols:
             for tree in (left, *(derivative(left, v) for v in evidence.met_by(left))):
                 point.value_with(tree, balls)
             put_in = substituted(left, {**({} if evidence.is_open(left) else exact), **rest})

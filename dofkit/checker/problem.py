@@ -23,7 +23,6 @@ from dofkit.checker.constraints import TYPES, Entry, Surroundings, known_fields
 from dofkit.checker.geometry import MaterialPoint, body_frame, ground
 from dofkit.checker.grammar import BUILT_IN, DECIMAL, KnownNames, Sided, spelled_out
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, refuse, symbol
-from dofkit.checker.values import symbols_in
 
 MOST_CHARACTERS, LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 2_000_000, 400, 40, 8_000
 #: What is as good as left out; no name is one of these.
@@ -118,19 +117,18 @@ class CheckedRelation(NamedTuple):
 
 
 class CheckedProblem(NamedTuple):
-    """What a scene says. ``parameters``: those that stay symbols; ``reference`` holds at t = 0, empty where none is.
+    """What a scene says. ``reference`` holds at t = 0, empty where none is.
 
     ``turns``: the Euler angles of bodies; where the sine of the second is 0 they are no chart of the poses around.
+    ``world``: the ``scene`` as it was read.
     """
 
-    dimension: int
     coordinates: tuple[str, ...]
-    parameters: Mapping[str, str]
-    functions: Mapping[str, tuple[str, ...]]
     relations: tuple[CheckedRelation, ...]
-    generic: tuple[str, ...]
     reference: Mapping[str, Tree]
     turns: tuple[tuple[str, ...], ...]
+    scene: Entry
+    world: Surroundings
 
 
 def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset()) -> CheckedProblem:
@@ -146,10 +144,9 @@ def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset
     names = [*coordinates, *world.names.values, *world.names.functions, *world.generic]
     for told in (names, [one.name for one in relations]):
         refuse(len({*told}) < len(told), "a name is that of a generic symbol, or relations have one name")
-    named = coordinates, world.signs, world.names.functions
-    turning = (list(one.reference) for one in world.frames.values() if world.dimension == 3 and one.cayley is None)
-    turns = tuple(tuple(names[3:]) for names in turning)
-    return CheckedProblem(world.dimension, *named, relations, tuple(world.generic), reference, turns)
+    turning = (one for one in world.frames.values() if world.dimension == 3 and one.cayley is None)
+    turns = tuple(tuple(one.reference)[3:] for one in turning)
+    return CheckedProblem(coordinates, relations, reference, turns, scene, world)
 
 
 def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, tuple[str, ...], dict[str, Tree]]:
@@ -202,19 +199,24 @@ def _owners(scene: Entry, key: str, roles: Sequence[str]) -> dict[str, list[str]
 
 def _relations(world: Surroundings, scene: Entry, coordinates: Sequence[str]) -> Iterator[CheckedRelation]:
     """The relations of every constraint, in order."""
-    rates, left, owners = {*(f"{q}dot" for q in coordinates), "tdot"}, MOST_RELATIONS, set[str]()
-    for world.index, entry in enumerate(scene.get("constraints", []), 1):
+    rates, left = {*(f"{q}dot" for q in coordinates), "tdot"}, MOST_RELATIONS
+    entries = enumerate(scene.get("constraints", []), 1)
+    named = {str(entry.get("name", f"c{place}")): entry for place, entry in entries}
+    refuse(len(named) < len(scene.get("constraints", [])), "two constraints have one name")
+    world.joints |= named
+    for world.index, (owner, entry) in enumerate(named.items(), 1):
         called = entry.get("type", "equation")
+        if called not in TYPES:
+            world.unread.append(owner)
+            continue
         read, fields, dimensions = TYPES[called]
         known_fields(entry, f"type name {fields}")
         refuse(str(world.dimension) not in dimensions, f"no {called} is defined in dimension {world.dimension}")
-        owner = str(entry.get("name", f"c{world.index}"))
         found = [one if isinstance(one, Sided) else Sided(one) for one in islice(read(world, entry), left + 1)]
         left -= len(found)
-        refuse(left < 0 or owner in owners, f"'{owner}' names two constraints, or there are too many relations")
-        owners.add(owner)
+        refuse(left < 0, "there are too many relations")
         for place, one in enumerate(found, 1):
-            moving = not symbols_in(one.tree).isdisjoint(rates)
+            moving = not one.tree.symbols.isdisjoint(rates)
             kind = "inequality" if one.sign != "=" else "velocity" if moving else "finite"
             name = owner if len(found) == 1 else f"{owner}.{place}"
             yield CheckedRelation(name, owner, kind, one.tree, one.strict)
@@ -228,14 +230,12 @@ def _reference(
     Where no relation holds any, it has to give all. What none holds may stand anywhere.
     """
     drawn = world.drawn | {"ground"}
-    for _ in world.welded:
-        drawn |= {name for pair in world.welded for name in pair if not drawn.isdisjoint(pair)}
     found = dict(given)
     for point in world.particles.values():
         found |= {str(q.value): part for q, part in zip(point.over, point.start or (), strict=False)}
     for frame in world.frames.values():
         found |= frame.reference
-    symbols = frozenset[str]().union(*(symbols_in(one.left) for one in relations))
+    symbols = frozenset[str]().union(*(one.left.symbols for one in relations))
     held = {q for q in coordinates if not symbols.isdisjoint((q, f"{q}dot"))} or {*coordinates}
     placed = all(name in drawn or held.isdisjoint(frame.reference) for name, frame in world.frames.items())
     return {q: found.get(q, ZERO) for q in coordinates} if placed and found.keys() >= held else {}

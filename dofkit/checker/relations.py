@@ -16,7 +16,7 @@ from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.problem import CheckedProblem, CheckedRelation
 from dofkit.checker.ring import CheckedRing
 from dofkit.checker.trees import TWO, CheckError, Effort, Tree, add, negative, number, power, refuse, symbol, times
-from dofkit.checker.values import CheckedPoint, along, evaluated, excludes_zero, put_in, symbols_in
+from dofkit.checker.values import CheckedPoint, along, evaluated, not_zero, put_in
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)
@@ -30,12 +30,11 @@ class CheckedTexts:
 
     def __init__(self, problem: CheckedProblem, effort: Effort) -> None:
         self.problem, self.effort = problem, effort
-        count = 2 * len(problem.coordinates) + len(problem.parameters) + len(problem.generic)
+        count = 2 * len(problem.coordinates) + len(problem.world.signs) + len(problem.world.generic)
         self.ring = CheckedRing(effort, min(count, MOST_SYMBOLS))
-        self.seen: dict[Any, Any] = {}
-        self.variables: tuple[str, ...] = (*problem.coordinates, "t")
+        self.seen, self.variables = dict[Any, Any](), (*problem.coordinates, "t")
         self.velocities = frozenset(name + "dot" for name in self.variables)
-        self.chosen = frozenset((*problem.parameters, *problem.generic))
+        self.chosen = frozenset((*problem.world.signs, *problem.world.generic))
 
     def once(self, key: Any, look: Callable[[], Looked]) -> Looked:
         """What was looked at under a key before, or is now."""
@@ -46,15 +45,17 @@ class CheckedTexts:
     def text(self, text: Any, extra: Iterable[str] = ()) -> Tree:
         """The tree of a text; ``extra`` are further names it may mention."""
         refuse(not isinstance(text, str) or len(text) > LONGEST_TEXT, "an expression is a text of moderate length")
-        return self.once(("text", text, *extra), lambda: self._read(text, tuple(extra)))
 
-    def _read(self, text: str, extra: tuple[str, ...]) -> Tree:
-        self.effort.spend(10 * len(text) + 1)
-        values = {name: symbol(name) for name in (*sorted(self.chosen), "tdot", *extra)}
-        names = KnownNames(frozenset(self.problem.coordinates), values, self.problem.functions)
-        tree = parse(text, names)
-        refuse("dt" in symbols_in(tree), "an expression holds velocities, and no differentials")
-        return tree
+        def read() -> Tree:
+            self.effort.spend(10 * len(text) + 1)
+            values = {name: symbol(name) for name in (*sorted(self.chosen), "tdot", *extra)}
+            tree = parse(
+                text, KnownNames(frozenset(self.problem.coordinates), values, self.problem.world.names.functions)
+            )
+            refuse("dt" in tree.symbols, "an expression holds velocities, and no differentials")
+            return tree
+
+        return self.once(("text", text, *extra), read)
 
     def identity(self, left: Tree, right: Tree, what: str) -> None:
         """`CheckError` unless two trees are the same in the ring."""
@@ -67,8 +68,11 @@ class CheckedTexts:
     def squares(self, terms: Any) -> Tree:
         """A sum of squares, which have a value everywhere, with positive coefficients."""
         pairs = [(self.text(c), self.text(a)) for c, a in terms]
-        fit = all(self.is_nowhere_zero(c, True) and self.has_value_everywhere(a) for c, a in pairs)
-        refuse(not fit, "a coefficient of a square is not positive, or a square has no value everywhere")
+        for c, a in pairs:
+            refuse(
+                not self.is_nowhere_zero(c, True) or not self.has_value_everywhere(a),
+                "no square, or times what is <= 0",
+            )
         return add(*(times(c, power(a, TWO)) for c, a in pairs))
 
     def is_open(self, tree: Tree) -> bool:
@@ -76,22 +80,22 @@ class CheckedTexts:
 
         A claim is about almost all of them: what holds for the chosen ones has to hold for those near them.
         """
-        return not self.chosen.isdisjoint(symbols_in(tree)) or tree.applied
+        return not self.chosen.isdisjoint(tree.symbols) or tree.applied
 
     def met_by(self, tree: Tree) -> list[str]:
         """The velocities that occur."""
-        return sorted(self.velocities & symbols_in(tree))
+        return sorted(self.velocities & tree.symbols)
 
     def is_nowhere_zero(self, tree: Tree, positive: bool = False) -> bool:
         """Whether a tree is a product of powers of numbers and parameters that are not 0, or are positive."""
-        return nowhere_zero(tree, self.problem.parameters, self.effort, positive)
+        return nowhere_zero(tree, self.problem.world.signs, self.effort, positive)
 
     def has_value_everywhere(self, tree: Tree, poles: bool = False) -> bool:
         """Whether a tree is smooth (analytic, but for declared functions) at all real values of its symbols.
 
         With ``poles``: whether it is a quotient of such trees.
         """
-        if not symbols_in(tree):
+        if not tree.symbols:
             return evaluated(tree, {}, self.effort) is not None
         exponent = tree.below[1].value if tree.head == "power" else None
         plain = isinstance(exponent, Fraction) and exponent.denominator == 1 and (poles or exponent > 0)
@@ -134,23 +138,23 @@ class CheckedRelations(CheckedTexts):
 
     def _take_steps(self) -> None:
         makers = {"rate": self._rate, "implied": self._implied, "integral": self._implied}
-        makers["assumed"] = lambda step: ({step["id"]: self.text(step["function"])}, [])
+        makers["assumed"] = lambda step: (self.text(step["function"]), None)
         for step in self.parts["relations"]:
             name, by = step["id"], step.get("by")
             try:
                 of = self.relation(step["of"]) if "of" in step else None
                 wrong = of and (of.kind == "inequality" or (of.leaf and by != "rate"))
                 refuse(wrong, "a step is made from an equation, and of an integral there is a rate and no more")
-                relations, consequences = makers[step["by"]](step)
-                refuse(not self.known.keys().isdisjoint((name, *relations)), "a name of this step is taken")
-                for new, left in relations.items():
+                refuse(name in self.known, "a name of this step is taken")
+                left, consequence = makers[step["by"]](step)
+                if left is not None:
                     kind = "velocity" if self.met_by(left) else "finite"
-                    self.known[new] = CheckedRelation(new, "", kind, left, leaf=by == "integral")
-                self.consequences += consequences
+                    self.known[name] = CheckedRelation(name, "", kind, left, leaf=by == "integral")
+                self.consequences += [consequence] if consequence else []
             except FAULTS as error:
                 self.faults[name] = f"step `{name[:60]}`: {told(error)}"
 
-    def _implied(self, step: dict[str, Any]) -> tuple[dict[str, Tree], list[Consequence]]:
+    def _implied(self, step: dict[str, Any]) -> tuple[Tree | None, Consequence | None]:
         """h g^k + squares = sum c_i r_i: g is 0 where all r_i are and h is not; what has the rate g keeps its value.
 
         ``g`` is a relation, or a new function. With squares h is positive, and k even (real Nullstellensatz). Where
@@ -173,17 +177,15 @@ class CheckedRelations(CheckedTexts):
             one, (slope, total) = self.relation(name), put_in(total, q, self.relation(name).left)
             refuse(one.kind != "finite" or one.leaf or not self.is_nowhere_zero(slope), f"`{name}` does not give `{q}`")
         refuse(not self.ring.vanishes(total), "the cofactors: the two sides are not the same")
-        needs, target = () if self.is_nowhere_zero(h) else (h,), step["id" if new else "of"]
-        defined = (h, *cofactors, left) if new or given else (h, *cofactors)
+        needs, defined = () if self.is_nowhere_zero(h) else (h,), (h, *cofactors, *([left] if new or given else []))
         used = *step["c"], *(name for name, _ in given)
-        return {target: left} if new else {}, [Consequence(target, used, needs, defined)]
+        return left if new else None, Consequence(step["id" if new else "of"], used, needs, defined)
 
-    def _rate(self, step: dict[str, Any]) -> tuple[dict[str, Tree], list[Consequence]]:
+    def _rate(self, step: dict[str, Any]) -> tuple[Tree | None, Consequence | None]:
         """What is constantly 0, or keeps its value, has the derivative 0."""
         of = self.relation(step["of"])
         refuse(of.kind != "finite", "only a finite relation has a rate")
-        rate = total_derivative(of.left, self.variables)
-        return {step["id"]: rate}, [Consequence(step["id"], (of.name,), (), (of.left,))]
+        return total_derivative(of.left, self.variables), Consequence(step["id"], (of.name,), (), (of.left,))
 
     def owned(self, owner: str | None, kinds: Collection[str] = ("finite", "velocity")) -> tuple[str, ...]:
         """The relations of a constraint, or of all."""
@@ -192,7 +194,7 @@ class CheckedRelations(CheckedTexts):
 
     def holds_time(self, names: Iterable[str]) -> bool:
         """Whether time or dt occurs in a relation."""
-        return any(not {"t", "tdot"}.isdisjoint(symbols_in(self.relation(name).left)) for name in names)
+        return any(not {"t", "tdot"}.isdisjoint(self.relation(name).left.symbols) for name in names)
 
     def relation(self, name: Any) -> CheckedRelation:
         """A relation by its id."""
@@ -229,12 +231,12 @@ class CheckedRelations(CheckedTexts):
                 values = [point.value_with(tree, wide) for tree in (*one.nonzero, *one.defined)]
             except CheckError:
                 return False
-            return one.at in (None, point.name) and all(map(excludes_zero, values[: len(one.nonzero)]))
+            return one.at in (None, point.name) and all(map(not_zero, values[: len(one.nonzero)]))
 
         return self.once(("met", place, point.name), look)
 
 
 def told(error: Exception) -> str:
     """A fault in one line."""
-    why = f"a field is missing or of another kind ({error!s:.80})"
-    return str(error)[:200] if isinstance(error, CheckError) else why
+    known = isinstance(error, CheckError)
+    return str(error)[:200] if known else f"a field is missing or of another kind ({error!s:.80})"

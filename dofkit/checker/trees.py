@@ -128,19 +128,15 @@ def call(name: str, *arguments: Tree) -> Tree:
     return _MEANINGS[name](*arguments) if name in _MEANINGS else Tree(name, arguments)
 
 
-TWO, _HALF, MINUS = number(2), number(Fraction(1, 2)), number(-1)
+TWO, HALF, MINUS = number(2), number(Fraction(1, 2)), number(-1)
 #: Each is the same real number, and has a value and is smooth at the same places.
 _MEANINGS: dict[str, Callable[..., Tree]] = {
-    "tan": lambda u: times(call("sin", u), call("sec", u)),
-    "cot": lambda u: times(call("cos", u), call("csc", u)),
-    "sec": lambda u: power(call("cos", u), MINUS),
-    "csc": lambda u: power(call("sin", u), MINUS),
-    "sqrt": lambda u: power(u, _HALF),
-    "abs": lambda u: power(power(u, TWO), _HALF),
-    "asin": lambda u: call("atan2", u, call("sqrt", difference(ONE, power(u, TWO)))),
-    "acos": lambda u: call("atan2", call("sqrt", difference(ONE, power(u, TWO))), u),
-    "atan": lambda u: call("atan2", u, ONE),
-    "sinh": lambda u: times(_HALF, difference(call("exp", u), call("exp", negative(u)))),
-    "cosh": lambda u: times(_HALF, add(call("exp", u), call("exp", negative(u)))),
+    "tan": lambda u: times(call("sin", u), call("sec", u)), "sec": lambda u: power(call("cos", u), MINUS),
+    "cot": lambda u: times(call("cos", u), call("csc", u)), "csc": lambda u: power(call("sin", u), MINUS),
+    "sqrt": lambda u: power(u, HALF), "abs": lambda u: power(power(u, TWO), HALF),
+    "asin": lambda u: call("atan2", u, call("cos asin", u)), "acos": lambda u: call("atan2", call("cos asin", u), u),
+    "cos asin": lambda u: call("sqrt", difference(ONE, power(u, TWO))), "atan": lambda u: call("atan2", u, ONE),
+    "sinh": lambda u: times(HALF, difference(call("exp", u), call("exp", negative(u)))),
+    "cosh": lambda u: times(HALF, add(call("exp", u), call("exp", negative(u)))),
     "tanh": lambda u: times(call("sinh", u), power(call("cosh", u), MINUS)),
-}
+}  # fmt: skip

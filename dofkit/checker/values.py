@@ -5,7 +5,7 @@ Every operation on balls encloses the true one, where it is defined and smooth a
 
 import operator
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import reduce
 from typing import Any, TypeVar
@@ -18,13 +18,9 @@ from dofkit.checker.trees import MINUS, ONE, TWO, ZERO, Effort, Tree, add, call,
 #: Bits of every ball.
 PRECISION = 320
 Made = TypeVar("Made")
+MAKERS: Mapping[str, Callable[..., Tree]] = {"sum": add, "product": times, "power": power}
 #: A choice for a declared function: its arguments, and a text of them.
 Choices = Mapping[str, tuple[tuple[str, ...], Tree]]
-
-
-def symbols_in(tree: Tree) -> frozenset[str]:
-    """The names of the symbols of a tree."""
-    return tree.symbols
 
 
 def folded(tree: Tree, made: Callable[[Tree, tuple[Made, ...]], Made]) -> Made:
@@ -45,21 +41,15 @@ def substituted(tree: Tree, values: Mapping[str, Tree], functions: Choices | Non
     def replaced(node: Tree, below: tuple[Tree, ...]) -> Tree:
         if node.head == "apply" and functions and node.value in functions:
             arguments, text = functions[str(node.value)]
-            return substituted(slope_of(text, arguments, node.orders), dict(zip(arguments, below, strict=True)))
+            for argument, order in zip(arguments, node.orders, strict=True):
+                for _ in range(order):
+                    text = derivative(text, argument)
+            return substituted(text, dict(zip(arguments, below, strict=True)))
         if below == node.below:
             return values.get(str(node.value), node) if node.head == "symbol" else node
-        makers: dict[str, Callable[..., Tree]] = {"sum": add, "product": times, "power": power}
-        return makers[node.head](*below) if node.head in makers else Tree(node.head, below, node.value, node.orders)
+        return MAKERS[node.head](*below) if node.head in MAKERS else Tree(node.head, below, node.value, node.orders)
 
     return folded(tree, replaced)
-
-
-def slope_of(text: Tree, arguments: Sequence[str], orders: Sequence[int]) -> Tree:
-    """A text differentiated so often by each of its arguments."""
-    for argument, order in zip(arguments, orders, strict=True):
-        for _ in range(order):
-            text = derivative(text, argument)
-    return text
 
 
 def derivative(tree: Tree, name: str) -> Tree:
@@ -75,33 +65,31 @@ def derivative(tree: Tree, name: str) -> Tree:
 
 def _partial(node: Tree, place: int) -> Tree:
     """The derivative of a node by what stands at one place below it."""
-    below, head = node.below, node.head
-    if head == "product":
+    u, *others = below = node.below
+    if node.head == "product":
         return times(*below[:place], *below[place + 1 :])
-    if head == "power":
-        falling = times(below[1], power(below[0], add(below[1], MINUS)))
-        return times(node, call("log", below[0])) if place else falling
-    if head == "apply":
-        return Tree(head, below, node.value, tuple(k + (i == place) for i, k in enumerate(node.orders)))
-    if head == "atan2":
-        size = add(power(below[0], TWO), power(below[1], TWO))
+    if node.head == "power":
+        return times(node, call("log", u)) if place else times(below[1], power(u, add(below[1], MINUS)))
+    if node.head == "apply":
+        return replace(node, orders=tuple(k + (i == place) for i, k in enumerate(node.orders)))
+    if node.head == "atan2":
+        size = add(power(u, TWO), *(power(v, TWO) for v in others))
         return times(MINUS if place else ONE, below[1 - place], power(size, MINUS))
-    slopes = {"sum": ONE, "exp": node, "log": power(below[0], MINUS)}
-    slopes |= {"sin": call("cos", below[0]), "cos": negative(call("sin", below[0]))}
-    return slopes[head]
+    slopes = {"sum": ONE, "exp": node, "log": power(u, MINUS), "sin": call("cos", u), "cos": negative(call("sin", u))}
+    return slopes[node.head]
 
 
 def along(field: Mapping[str, Tree], tree: Tree) -> Tree:
     """The derivative of a tree along a field."""
-    held = symbols_in(tree)
+    held = tree.symbols
     return add(*(times(value, derivative(tree, name)) for name, value in field.items() if name in held))
 
 
 def linear_in(tree: Tree, names: Collection[str]) -> tuple[dict[str, Tree], Tree] | None:
     """The slopes (not 0) and the rest of a tree that is linear in some symbols; None where it is not, as written."""
-    used = sorted(symbols_in(tree).intersection(names))
+    used = sorted(tree.symbols.intersection(names))
     slopes = {name: derivative(tree, name) for name in used}
-    if any(not symbols_in(slope).isdisjoint(used) for slope in slopes.values()):
+    if any(not slope.symbols.isdisjoint(used) for slope in slopes.values()):
         return None
     return {q: slope for q, slope in slopes.items() if slope != ZERO}, substituted(tree, dict.fromkeys(used, ZERO))
 
@@ -116,10 +104,10 @@ def put_in(tree: Tree, name: str, given: Tree) -> tuple[Tree, Tree]:
 def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
     """The degree in symbols in which every term of a tree is homogeneous; None where there is none."""
 
-    def of(node: Tree, below: tuple[Fraction | None, ...]) -> Fraction | None:
+    def degree(node: Tree, below: tuple[Fraction | None, ...]) -> Fraction | None:
         if not below:
             return Fraction(node.head == "symbol" and node.value in names)
-        known, exponent = [degree for degree in below if degree is not None], node.below[-1].value
+        known, exponent = [one for one in below if one is not None], node.below[-1].value
         if len(known) < len(below):
             return None
         if node.head == "power" and isinstance(exponent, Fraction):
@@ -128,7 +116,7 @@ def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
             return sum(known, Fraction(0))
         return known[0] if len(set(known)) == 1 and (node.head == "sum" or not known[0]) else None
 
-    return folded(tree, of)
+    return folded(tree, degree)
 
 
 def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
@@ -146,21 +134,16 @@ def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
     return add(*form, times(parts[1], symbol("tdot"))) if form or degree else parts[1]
 
 
-def excludes_zero(ball: Any) -> bool:
+def not_zero(ball: Any) -> bool:
     """Whether 0 is certainly not in a ball."""
     return bool(ball.is_finite() and (ball > 0 or ball < 0))
 
 
-def evaluated(tree: Tree, values: Mapping[str, Any], effort: Effort, functions: Choices | None = None) -> Any:
+def evaluated(tree: Tree, values: Mapping[str, Any], effort: Effort) -> Any:
     """The ball of a tree, where every part of it, as written, has a value and is smooth around; else `CheckError`."""
 
     def value(node: Tree, below: tuple[Any, ...]) -> Any:
         effort.spend(1)
-        if node.head == "apply":
-            refuse(node.value not in (functions or {}), f"no choice for the function `{node.value}` at the point")
-            arguments, text = (functions or {})[str(node.value)]
-            slope = slope_of(text, arguments, node.orders)
-            return evaluated(slope, dict(zip(arguments, below, strict=True)), effort)
         found = _value(node, values, below)
         refuse(not found.is_finite(), "a value is not finite at the point")
         return found
@@ -183,21 +166,15 @@ def _value(node: Tree, values: Mapping[str, Any], below: tuple[Any, ...]) -> Any
     u, other = below[0], below[-1]
     if head in ("sin", "cos", "exp") or (head == "log" and u > 0):
         return getattr(u, head)()
-    if head == "atan2" and (other > 0 or excludes_zero(u)):
+    if head == "atan2" and (other > 0 or not_zero(u)):
         return arb.atan2(u, other)
-    refuse(head != "power", f"`{head}` has no smooth value at the point")
-    return _raised(node, u, other)
-
-
-def _raised(node: Tree, u: Any, other: Any) -> Any:
-    """A power: of what is positive; a whole one, of what is not 0 where it is negative; a constant root of 0."""
-    exponent = node.below[1].value
-    if isinstance(exponent, Fraction) and exponent.denominator == 1:
-        refuse(exponent < 0 and not excludes_zero(u), "a denominator may be 0 at the point")
+    # a power: of what is positive; a whole one, of what is not 0 where it is negative; a constant root of 0
+    exponent = node.below[1].value if head == "power" else Fraction(1, 2)
+    if isinstance(exponent, Fraction) and exponent.denominator == 1 and (exponent > 0 or not_zero(u)):
         found = repeated(arb(1), u, abs(int(exponent)), operator.mul)
         return found if exponent > 0 else 1 / found
-    zero = u == 0 and other > 0 and not symbols_in(node)
-    refuse(not (u > 0 or zero), "a root or a power has no smooth value at the point")
+    zero = u == 0 and other > 0 and not node.symbols
+    refuse(head != "power" or not (u > 0 or zero), f"a {head} has no smooth value at the point, or may have none")
     return u if zero else u**other
 
 
@@ -228,14 +205,15 @@ class CheckedPoint:
 
     def value_with(self, tree: Tree, others: Mapping[str, Any]) -> Any:
         """The ball of a tree at the point, with other balls for some symbols."""
-        return evaluated(tree, {"tdot": arb(1), **self.balls, **others}, self.effort, self.functions)
+        chosen = substituted(tree, {}, self.functions) if tree.applied else tree
+        return evaluated(chosen, {"tdot": arb(1), **self.balls, **others}, self.effort)
 
     def is_regular(self, matrix: Sequence[Sequence[Tree]]) -> None:
         """`CheckError` unless a square matrix is regular at the point."""
         self.effort.spend(len(matrix) ** 3 // 10 + 1)
         rows = [[self.value(tree) for tree in row] for row in matrix]
         with ctx.workprec(PRECISION):
-            refuse(rows and not excludes_zero(arb_mat(rows).det()), "the minor may be 0")
+            refuse(rows and not not_zero(arb_mat(rows).det()), "the minor may be 0")
 
     def settle(self, equations: Sequence[Tree], columns: Sequence[str], radius: Any) -> None:
         """The balls of columns become those of the only zero of as many equations in a box around them.

@@ -178,8 +178,7 @@ from typing import Any, NamedTuple
 
 from dofkit.checker import dimension_rules as numbers
 from dofkit.checker import label_rules as labels
-from dofkit.checker.evidence import CheckedEvidence
-from dofkit.checker.fields import take_cover
+from dofkit.checker.evidence import CheckedEvidence, take_cover
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, document_of, read_problem, sha256_of
 from dofkit.checker.relations import FAULTS, told
@@ -193,30 +192,21 @@ Rule = Callable[[CheckedEvidence, dict[str, Any], dict[str, Any]], object]
 #: The rules: paths of the report (fields of an entry, without ``/``), names of rules, and what looks at them.
 TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/consistent, /feasible", "point, regular", labels.consistent),
-    ("/consistent, /feasible", "nullstellensatz", labels.refuted),
-    ("/conflicting", "conflict", labels.conflict),
-    ("/dof, /velocity_dof", "squeeze, regular", numbers.bounds),
-    ("/dof, /velocity_dof", "everywhere", numbers.everywhere),
+    ("/consistent, /feasible", "nullstellensatz", labels.refuted), ("/conflicting", "conflict", labels.conflict),
+    ("/dof, /velocity_dof", "squeeze, regular", numbers.bounds), ("circuit", "cofactors", numbers.circuit),
     ("/velocity_dof, /redundant_equations, /redundancies", "count", numbers.counted),
     ("/holonomic, /scleronomic, /singular", "count", numbers.counted),
-    ("/instantaneous_dof", "rank", numbers.instantaneous),
-    ("/redundant", "cofactors", numbers.redundant),
-    ("independent", "independent", numbers.independence),
-    ("/integrable_part", "integrals", labels.integrable_part),
+    ("/instantaneous_dof", "rank", numbers.instantaneous), ("/redundant", "cofactors", numbers.redundant),
+    ("independent", "independent", numbers.independence), ("independent", "inequality", labels.by_kind),
+    ("/integrable_part", "integrals", labels.integrable_part), ("/growth_vector", "span", numbers.growth),
     ("/generalized_coordinates", "minor, frobenius", numbers.generalized_coordinates),
-    ("/growth_vector", "span", numbers.growth),
-    ("circuit", "cofactors", numbers.circuit),
-    ("holonomic, holonomic_alone", "finite", labels.finite),
-    ("holonomic, holonomic_alone, independent", "inequality", labels.inequality),
+    ("holonomic, holonomic_alone", "finite, inequality", labels.by_kind),
     ("holonomic, holonomic_alone", "integral, frobenius", labels.integrable),
-    ("holonomic, holonomic_alone", "bracket", labels.bracket),
-    ("holonomic_alone", "wedge", labels.wedge),
-    ("scleronomic, catastatic", "timeless", labels.timeless),
-    ("scleronomic, catastatic", "turns", labels.turns),
-    ("exact", "exact, not exact", labels.exact),
-    ("integrating_factor", "integral", labels.factor),
-    ("integral", "integral", labels.integral),
-)
+    ("holonomic, holonomic_alone", "bracket", labels.bracket), ("holonomic_alone", "wedge", labels.wedge),
+    ("scleronomic, catastatic", "timeless", labels.timeless), ("scleronomic, catastatic", "turns", labels.turns),
+    ("exact", "exact, not exact", labels.exact), ("integrating_factor", "integral", labels.factor),
+    ("integral", "integral", labels.integral), ("/dof, /velocity_dof", "everywhere", numbers.everywhere),
+)  # fmt: skip
 RULES = {(path, rule): look for paths, rules, look in TABLE for path in paths.split(", ") for rule in rules.split(", ")}
 #: What may be false of poses near the configuration alone.
 LOCAL = ("/singular", "/holonomic", "/scleronomic")
@@ -232,15 +222,15 @@ class Verification(NamedTuple):
     uncovered: list[str]
 
 
-def verify(scene: Mapping[str, Any] | str | None, certificate: Mapping[str, Any] | str | bytes) -> Verification:
-    """Recheck every claim of a certificate about a scene (its document, or its text).
+def verify(scene: Any, certificate: Mapping[str, Any] | str | bytes, rules: Mapping[Any, Rule] = RULES) -> Verification:
+    """Recheck every claim of a certificate about a scene (its document, or its text), by ``rules``.
 
     Without a scene, the document in the certificate is taken. A certificate that cannot be read, or that is of another
     scene, raises `CheckError`; a claim that is not shown is told in ``failed``.
     """
     given = certificate_of(certificate)
     scene = given["scene"].get("document") if scene is None else scene
-    return Verifier(document_of(scene) if isinstance(scene, str) else scene, given).run()
+    return Verifier(document_of(scene) if isinstance(scene, str) else scene, given, rules=rules).run()
 
 
 def certificate_of(given: Any) -> dict[str, Any]:
@@ -264,11 +254,11 @@ def certificate_of(given: Any) -> dict[str, Any]:
 class Verifier:
     """One certificate while it is verified."""
 
-    def __init__(self, document: Mapping[str, Any], given: dict[str, Any], problem: Problem | None = None) -> None:
-        self.document, self.given, self.effort = document, given, Effort()
+    def __init__(self, document: Any, given: Any, problem: Any = None, rules: Mapping[Any, Rule] = RULES) -> None:
+        self.document, self.given, self.rules, self.effort = document, given, rules, Effort()
         other = given["scene"].get("sha256") != sha256_of(document)
         refuse(other, "the certificate is of another scene, or of this one before it was edited")
-        self.problem = problem or read_problem(document)
+        self.problem: Problem = problem or read_problem(document)
         refuse("tolerance" in canonical(document), "what is measured up to a tolerance is not proved")
         self.evidences: dict[bool, CheckedEvidence] = {}
         self.verified: dict[str, Any] = {}
@@ -282,9 +272,10 @@ class Verifier:
         return self.evidences[cayley]
 
     def run(self) -> Verification:
-        """Every claim in its order."""
-        failed, seen = list[dict[str, str]](), set(self.given["uncovered"])
-        for claim in self.given["claims"]:
+        """Every claim in its order; where the type of a constraint is not known, all are uncovered."""
+        unread, whole, left = self.problem.world.unread, self.given["claims"], self.given["uncovered"]
+        failed, seen, claims = list[dict[str, str]](), set(left), [] if unread else whole
+        for claim in claims:
             path, rule = str(claim.get("path"))[:200], str(claim.get("rule"))[:60]
             try:
                 refuse(path in seen, "the path is claimed twice, or claimed and uncovered")
@@ -292,8 +283,9 @@ class Verifier:
             except FAULTS as error:
                 failed.append({"path": path, "rule": rule, "why": told(error)})
             seen.add(path)
-        name, count = str(self.given["scene"].get("name", self.document.get("name")))[:200], len(self.given["claims"])
-        return Verification(name, count, count - len(failed), failed, list(self.given["uncovered"]))
+        name = str(self.given["scene"].get("name", self.document.get("name")))[:200]
+        left = left + [str(claim.get("path"))[:200] for claim in whole if unread]
+        return Verification(name, len(whole), len(claims) - len(failed), failed, left)
 
     def check(self, claim: dict[str, Any]) -> None:
         """`CheckError` unless the claim is shown; what was verified before may be used."""
@@ -307,7 +299,7 @@ class Verifier:
         for name in claim.get("covers", []):
             evidence.once(("covers", name), partial(take_cover, evidence, name))
         owner = parts[-2].replace("~1", "/").replace("~0", "~")
-        found = RULES[field or path, rule](evidence, {**claim, "owner": owner, "field": field}, self.verified)
+        found = self.rules[field or path, rule](evidence, {**claim, "owner": owner, "field": field}, self.verified)
         same = json.dumps(found, sort_keys=True) == json.dumps(value, sort_keys=True)
         refuse(not same, f"the evidence gives {found!r}, not {str(value)[:80]!r}")
         self.verified |= {f"{field} {owner}" if field else path: value, f"{path} about": about}

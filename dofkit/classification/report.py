@@ -93,11 +93,18 @@ def _generalized(study: Study) -> list[str] | None:
     if outcome.dof is None:
         return None
     chosen = set(outcome.untouched)
+    known: dict[int, list[int]] = {}
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
-        own = generalized(block, a, study.setting, system.rotations)
+        places = None if a.kind is None else known.get(a.kind)
+        if places is None:
+            own = generalized(block, a, study.setting, system.rotations)
+        else:
+            own = [block.coordinates[k] for k in places]
         if own is None:
             return None
-        chosen |= set(own)
+        if a.kind is not None and not system.rotations:
+            known[a.kind] = [block.coordinates.index(name) for name in own]
+        chosen.update(own)
     turning = partly_turned(chosen, system.rotations)
     for group in turned_together(outcome.blocks, outcome.answers, outcome.untouched, turning):
         if group.places == 1:

@@ -104,8 +104,10 @@ def rows_at_drawing(group: TurnedGroup, setting: Setting, most: float = math.inf
     """
     numbers = dict.fromkeys(row.constraint for row in group.block.rows)
     found = setting.joint_rows(numbers) if setting.joint_rows is not None and not group.hidden else None
-    if found is not None or len(group.block.coordinates) > most:
+    if found is not None and len(found.rows) == len(group.block.rows):
         return found
+    if len(group.block.coordinates) > most:
+        return None
     chart = make_chart(group.block, setting, group.hidden)
     point = pose_point(chart, {**(setting.reference or {}), ex.TIME: ex.ZERO}, 3)
     if point is None or not on_variety(chart, point):

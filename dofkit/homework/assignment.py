@@ -30,6 +30,8 @@ from dofkit.scene.scene import Scene
 
 #: A scene of more constraints is refused: grading starts with working out all that may be asked of it.
 MOST_CONSTRAINTS = 5000
+#: Bytes of a scene's file that may have more of them: they are counted before they are read as a scene.
+LARGE = 100_000
 FeedbackLevel = Literal["hint", "full"]
 Visibility = Literal["visible", "after_due_date", "after_published", "hidden"]
 UnreadablePolicy = Literal["review", "zero"]
@@ -189,6 +191,9 @@ def _scene(problem: Problem, base: Path) -> Scene:
         _bounded(problem.scene.get("constraints"))
         return load(problem.scene, name=problem.id)
     path = base / problem.scene
+    if path.is_file() and path.stat().st_size > LARGE:
+        written = read_document(path.read_bytes(), str(path)).value
+        _bounded(written.get("constraints") if isinstance(written, Mapping) else None)
     scene = load(path if path.is_file() else problem.scene)
     _bounded(scene.constraints)
     return scene

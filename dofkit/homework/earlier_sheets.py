@@ -58,7 +58,7 @@ def followed(before: Sequence[StudentSheet], roster: Roster) -> tuple[tuple[Stud
 
     Raises VaryError where two in the roster go by the names of one who has a sheet.
     """
-    known = Variants(seed="-", students=tuple(before))
+    known = Variants(seed="-", version="", students=tuple(before))
     heirs: dict[str, Participant] = {}
     fresh: list[StudentSheet] = []
     for member in roster.members:

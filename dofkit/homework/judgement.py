@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.homework.result import Status
-from dofkit.homework.sentences.said import Language, Said
+from dofkit.homework.sentences.said import Language, Said, say
 
 #: What stands in a submission as an answer.
 Given = str | int | float | Fraction | Sequence["Given"]
@@ -85,8 +85,9 @@ def needs_review(read_as: str, reason: Sentence) -> Judgement:
 
 def unreadable(error: TextError, ways: tuple[JudgedReading, ...] = ()) -> Judgement:
     """What could not be read, and where: open until a person decides. ``ways``: what it may mean."""
-    hint = f" ({error.hint})" if error.hint else ""
-    return Judgement("unreadable", None, "", (), (Said(f"{error.message}{hint}"),), error.column or 1, ways)
+    said = say("{fault} ({hint})", fault=error.message, hint=error.hint) if error.hint else None
+    told = say("{fault}", fault=error.message) if said is None else said
+    return Judgement("unreadable", None, "", (), (told,), error.column or 1, ways)
 
 
 def agreed(found: Sequence[Judgement]) -> Judgement:

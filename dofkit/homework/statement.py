@@ -40,7 +40,12 @@ def filled(text: str, scene: Scene, hidden: Collection[str] = ()) -> str:
 
     ``hidden``: constraints whose equations are not told.
     """
-    return _PLACE.sub(lambda match: _told(match[1], match[2], scene, hidden) or match[0], text)
+
+    def place(match: re.Match[str]) -> str:
+        told = _told(match[1], match[2], scene, hidden) or match[0]
+        return f"\n\n{told}\n\n" if (match[1], match[2]) == (ALL, None) else told  # a list begins on its own line
+
+    return _PLACE.sub(place, text)
 
 
 def _told(name: str, field: str | None, scene: Scene, hidden: Collection[str] = ()) -> str | None:

@@ -9,13 +9,13 @@ is there), or where that grows too large or several finite relations hold, at fr
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import permutations
 
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.frames import field_frame
-from dofkit.exact.ring.canonical import Canon, remainder
+from dofkit.exact.ring.canonical import Canon, Poly, remainder
 from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
@@ -44,13 +44,15 @@ def first_integrals(forms: Codistribution, number: int, seed: int = 0) -> list[F
     """
     search = IntegralSearch(forms, seed)
     found: list[FirstIntegral] = []
+    bordered: BorderedMinors | None = None
     for degree in range(1, MAX_DEGREE + 1):
         monomials = search.monomials(degree)
         if len(monomials) > MAX_PRODUCTS or len(found) >= number:
             break
         for f in search.candidates(monomials):
             if len(found) < number and search.adds(f, [k.expr for k in found]):
-                sure = _identically(search.forms, f, search.points[0])
+                bordered = bordered or BorderedMinors(search.forms, search.points[0])
+                sure = _identically(bordered, f)
                 if sure or (sure is None and search.holds(f)):
                     found.append(FirstIntegral(readable(f), bool(sure)))
     return found
@@ -66,6 +68,8 @@ def integral_by_row(forms: Codistribution, integrals: Sequence[FirstIntegral]) -
 
     f can stand for a row where df is not in the span of the others; different rows get different ones while they last.
     """
+    if not integrals:
+        return {}
     search = IntegralSearch(forms, 0)
     sample = search.sample()
     if sample is None:
@@ -102,25 +106,55 @@ def readable(f: Expr) -> Expr:
     return arranged(upright(f))
 
 
-def _identically(forms: Codistribution, f: Expr, sample: FormSample) -> bool | None:
+def _identically(bordered: BorderedMinors, f: Expr) -> bool | None:
     """Do the bordered minors of df under the rows vanish identically? None where they are not written out."""
-    chart = forms.chart
-    if len(chart.nodes) > 1 or len(forms.rows.entries) > MAX_ROWS:
+    if not bordered.short:
         return None
-    slopes = {i: chart.ring.node(diff(f, s)) for i, s in enumerate(chart.symbols) if s in f.symbols}
     try:
-        canon = Canon(chart.ring)
-        relation = canon.quotient(chart.nodes[0])[0] if chart.nodes else None
-        n = len(chart.symbols)
-        table = [polynomials(canon, row, n) for row in (*forms.rows.entries, slopes)]
-        frame = field_frame(sample.matrix, n, sample.p)
-        rows = [*frame.rows, len(table) - 1]
-        for j in frame.free:
-            minor = determinant(canon, [[table[r][c] for c in (*frame.dependent, j)] for r in rows])
-            if relation is not None and minor != 0:
-                minor = remainder(minor, relation)
-            if minor != 0:
-                return False if relation is None else None
+        if all(minor == 0 for minor in bordered.of(f)):
+            return True
     except NoValueError:
         return None
-    return True
+    return None if bordered.chart.nodes else False
+
+
+class BorderedMinors:
+    """The minors of a system's independent rows bordered by the differential of a function, in the canonical ring."""
+
+    def __init__(self, forms: Codistribution, sample: FormSample) -> None:
+        self.forms, self.chart = forms, forms.chart
+        self.short = len(self.chart.nodes) <= 1 and len(forms.rows.entries) <= MAX_ROWS
+        self.frame = field_frame(sample.matrix, len(self.chart.symbols), sample.p)
+        self.canon: Canon | None = None
+        self._cofactors: dict[int, dict[int, Poly]] = {}
+
+    def of(self, f: Expr) -> Iterator[Poly]:
+        """Those of df, one for each free column, modulo a finite relation. Raises NoValueError."""
+        ring, symbols = self.chart.ring, self.chart.symbols
+        slopes = {i: ring.node(diff(f, s)) for i, s in enumerate(symbols) if s in f.symbols}
+        if self.canon is None or len(self.canon.gens) < len(ring.vars):
+            self.canon, self._cofactors = Canon(ring), {}
+        canon = self.canon
+        relation = canon.quotient(self.chart.nodes[0])[0] if self.chart.nodes else None
+        row = polynomials(canon, slopes, len(symbols))
+        for j in self.frame.free:
+            minor = canon.one * 0
+            for c, cofactor in self._along(canon, j).items():
+                if row[c] != 0:
+                    minor = minor + canon.reduce(row[c] * cofactor)
+            minor = canon.reduce(minor)
+            yield minor if relation is None or minor == 0 else remainder(minor, relation)
+
+    def _along(self, canon: Canon, j: int) -> dict[int, Poly]:
+        """The cofactors of the bordering row in the dependent columns and column ``j``; all functions share them."""
+        if j not in self._cofactors:
+            n = len(self.chart.symbols)
+            rows = [polynomials(canon, self.forms.rows.entries[r], n) for r in self.frame.rows]
+            columns = (*self.frame.dependent, j)
+            found = {}
+            for k, c in enumerate(columns):
+                others = [d for d in columns if d != c]
+                minor = determinant(canon, [[row[d] for d in others] for row in rows]) if rows else canon.one
+                found[c] = -minor if k % 2 else minor
+            self._cofactors[j] = found
+        return self._cofactors[j]

@@ -25,7 +25,7 @@ from dofkit.integrability.lie_algebra import Span
 from dofkit.integrability.lie_algebra_at_points import SampledSpan, ball_span
 from dofkit.integrability.pfaffian_system import Codistribution, linear_rows
 from dofkit.integrability.prolongation import is_nonzero
-from dofkit.integrability.shared_forms import is_curved
+from dofkit.integrability.shared_forms import CurlAtPoint
 from dofkit.integrability.single_form import proof
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
@@ -192,7 +192,7 @@ def _flat(known: SampledForms, forms: Sequence[Pfaffian]) -> list[Pfaffian]:
     """The forms that may integrate by themselves: those with curvature at the point do not."""
     rows, point = known.forms.rows, known.point
     at, first = values(rows.ring, point), known.forms.finite
-    return [form for i, form in enumerate(forms) if not is_curved(rows, first + i, at, point)]
+    return [form for i, form in enumerate(forms) if not CurlAtPoint(rows, first + i, at, point).is_curved]
 
 
 def _label(place: int, known: SampledForms, proof_of: Certificate | None) -> HolonomyLabel:

@@ -7,7 +7,7 @@ not 0 there is not 0 as a function, where the functions that occur are known to 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations
 from typing import Any
 
@@ -19,22 +19,62 @@ from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.zero.independence import doubt, independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.integrability.lie_algebra import lie_span
-from dofkit.integrability.pfaffian_system import Codistribution, codistribution
+from dofkit.integrability.pfaffian_system import Codistribution
 from dofkit.relations.ambient import free_point
-from dofkit.relations.blocks import Block
-from dofkit.relations.setting import Setting
 
 #: The seed of the point.
 SEED = 5
 
 
-@dataclass(frozen=True)
+class CurlAtPoint:
+    """One form and its differential at a point: d(omega) has the components d_i a_j - d_j a_i."""
+
+    def __init__(self, rows: FormRows, row: int, at: Sequence[Scalar], point: Any) -> None:
+        one, entries = point.number(ex.ONE.args[0]), rows.entries[row]
+        self.columns, self.zero = rows.columns, one * 0
+        self.value = {c: at[node] for c, node in entries.items()}
+        self.slopes = {c: gradient(rows.ring, at, point, [(node, one)]) for c, node in entries.items()}
+
+    def curl(self, i: int, j: int) -> Scalar:
+        """A component of d(omega)."""
+        columns, zero = self.columns, self.zero
+        return self.slopes.get(j, {}).get(columns[i], zero) - self.slopes.get(i, {}).get(columns[j], zero)
+
+    @cached_property
+    def is_open(self) -> bool:
+        """Is d(omega) something else than 0?"""
+        return any(self.curl(i, j) != 0 for i, j in combinations(range(len(self.columns)), 2))
+
+    @cached_property
+    def is_curved(self) -> bool:
+        """Is d(omega) ^ omega something else than 0? Then the form does not integrate by itself [Frobenius1877].
+
+        With a coefficient a_k that is not 0 that holds where a component (i, j, k) is not 0 for some i and j.
+        """
+        value, zero = self.value, self.zero
+        k = next((c for c, a in value.items() if a != 0), None)
+        if k is None:
+            return False
+        for i, j in combinations([c for c in range(len(self.columns)) if c != k], 2):
+            total = value[k] * self.curl(i, j) + value.get(i, zero) * self.curl(j, k)
+            if total + value.get(j, zero) * self.curl(k, i) != 0:
+                return True
+        return False
+
+
 class SharedForms:
     """A block's forms, a point, and the program's values there."""
 
-    forms: Codistribution
-    point: FieldPoint
-    at: Sequence[Scalar]
+    def __init__(self, forms: Codistribution, point: FieldPoint) -> None:
+        self.forms, self.point = forms, point
+        self.at = values(forms.chart.ring, point)
+        self._curls: dict[int, CurlAtPoint] = {}
+
+    def curl(self, number: int) -> CurlAtPoint:
+        """One form with its differential."""
+        if number not in self._curls:
+            self._curls[number] = CurlAtPoint(self.forms.rows, number, self.at, self.point)
+        return self._curls[number]
 
     def reach_everything(self, numbers: Sequence[int]) -> bool:
         """Do brackets of the velocities that some independent forms allow reach every direction?
@@ -42,9 +82,9 @@ class SharedForms:
         Then the largest integrable part of these forms is 0 at a generic point [Frobenius1877]. Only columns of what
         they mention are looked at: nothing else is touched by them.
         """
-        rows = self._of(numbers)
         if len(numbers) == 1:
-            return is_curved(rows, 0, self.at, self.point)
+            return self.curl(numbers[0]).is_curved
+        rows = self._of(numbers)
         n = len(rows.columns)
         try:
             frame = field_frame(rows.matrix(self.at, self.point.number(ex.ZERO.args[0])), n, self.point.p)
@@ -70,36 +110,9 @@ def _symbols(rows: FormRows, entries: Iterable[dict[int, int]]) -> Iterable[int]
     return (ring.code[i][1] for i in ring.order(roots) if ring.code[i][0] == VAR)
 
 
-def shared_forms(block: Block, setting: Setting) -> SharedForms | None:
-    """The forms of a block on which no finite relation holds; None where GF(p) does not tell what is not 0."""
-    if block.finite or block.nonlinear or not block.forms:
-        return None
-    forms = codistribution(block, setting, ())
+def shared_forms(forms: Codistribution) -> SharedForms | None:
+    """Forms on which no finite relation holds, at a point; None where GF(p) does not tell what is not 0."""
     ring = forms.chart.ring
-    point = free_point(forms.chart, SEED) if doubt(ring) is None and independent_generators(ring) else None
-    return None if point is None else SharedForms(forms, point, values(ring, point))
-
-
-def is_curved(rows: FormRows, row: int, at: Sequence[Scalar], point: Any) -> bool:
-    """Is d(omega) ^ omega of one row something else than 0 at a point? Then it does not integrate by itself.
-
-    With a coefficient a_k that is not 0 that holds where a component (i, j, k) is not 0 for some i and j.
-    """
-    entries, columns = rows.entries[row], rows.columns
-    one = point.number(ex.ONE.args[0])
-    pivot = next((c for c, node in entries.items() if at[node] != 0), None)
-    if pivot is None:
-        return False
-    slopes = {c: gradient(rows.ring, at, point, [(node, one)]) for c, node in entries.items()}
-    zero = one * 0
-
-    def curl(i: int, j: int) -> Scalar:
-        return slopes.get(j, {}).get(columns[i], zero) - slopes.get(i, {}).get(columns[j], zero)
-
-    value = {c: at[node] for c, node in entries.items()}
-    others = [c for c in range(len(columns)) if c != pivot]
-    for i, j in combinations(others, 2):
-        total = value[pivot] * curl(i, j) + value.get(i, zero) * curl(j, pivot)
-        if total + value.get(j, zero) * curl(pivot, i) != 0:
-            return True
-    return False
+    certain = not forms.finite and doubt(ring) is None and independent_generators(ring)
+    point = free_point(forms.chart, SEED) if certain else None
+    return None if point is None else SharedForms(forms, point)

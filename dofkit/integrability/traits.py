@@ -41,12 +41,13 @@ class Traits:
     exact: TraitAnswer | None = None
 
 
-def traits(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH) -> Traits:
-    """All labels that a piece carries by itself."""
+def traits(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH, opened: bool = False) -> Traits:
+    """All labels that a piece carries by itself; ``opened``: its differential is known not to be 0."""
     still = scleronomic(piece, positive, engines)
     if not isinstance(piece, Pfaffian):
         return Traits(still)
-    return Traits(still, catastatic(piece, positive, engines), exact(piece, positive, engines))
+    closed: TraitAnswer = (False, "proved") if opened else exact(piece, positive, engines)
+    return Traits(still, catastatic(piece, positive, engines), closed)
 
 
 def scleronomic(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:

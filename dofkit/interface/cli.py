@@ -124,12 +124,18 @@ def convert(file: options.ModelPath, out: options.ScenePath = None, limits: opti
 
 
 @app.command()
-def lagrange(files: options.Files, as_json: options.AsJson = False, linearize: options.Linearize = False) -> None:
+def lagrange(
+    files: options.Files,
+    as_json: options.AsJson = False,
+    linearize: options.Linearize = False,
+    certificate: options.CertificatePath = None,
+) -> None:
     """Derive equations of motion: Lagrangian, momenta, forces, one equation for each coordinate."""
     from dofkit.interface.named_files import named_files
     from dofkit.interface.supervised import motions
 
-    _print(motions(named_files(files), linearize, Telling.here(as_json)))
+    place = None if certificate is None else str(certificate)
+    _print(motions(named_files(files), linearize, Telling.here(as_json), place))
 
 
 def _still(kind: str, about: str) -> None:

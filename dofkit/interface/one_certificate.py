@@ -11,6 +11,7 @@ from dofkit.base.workers import Json
 from dofkit.checker import CheckError, Verification, verify
 from dofkit.interface.supervised import CertificateGiven
 from dofkit.methods import certificates
+from dofkit.motion_checker import MOTION_RULES
 from dofkit.scene.found_files import find
 
 #: Exit statuses: all is well, something failed, something could not be read.
@@ -34,10 +35,10 @@ def _verified(given: CertificateGiven) -> Verification:
     """The checker by itself; a scene that it cannot read may be in other words, and is given in the standard ones."""
     certificate = Path(given.certificate).read_bytes()
     if given.scene is None:
-        return verify(None, certificate)
+        return verify(None, certificate, MOTION_RULES)
     data = find(given.scene).data
     try:
-        return verify(data if isinstance(data, str) else data.decode("utf-8"), certificate)
+        return verify(data if isinstance(data, str) else data.decode("utf-8"), certificate, MOTION_RULES)
     except (CheckError, UnicodeDecodeError):
         return certificates.verify(given.scene, certificate)
 

@@ -29,6 +29,7 @@ from dofkit.scene.scene import Scene
 
 #: What only some options need, imported there.
 _USED_BY_OPTIONS = {
+    "certificate_of_motion": "dofkit.methods.certificates.motion_evidence",
     "changed": "dofkit.interface.show.changes",
     "selected_line": "dofkit.interface.selection",
     "selection_of": "dofkit.interface.selection",
@@ -113,17 +114,24 @@ def _changes(scene: Scene, report: Report, given: Given) -> Sequence[SheetSectio
 def _written_certificate(scene: Scene, report: Report, path: str) -> Report:
     """The report with its certificate, which is written to a path; folders on the way are made."""
     report = with_certificate(scene, report)
+    _write(report.certificate, path)
+    return report
+
+
+def _write(certificate: dict[str, Any] | None, path: str) -> None:
     place = Path(path)
     try:
         place.parent.mkdir(parents=True, exist_ok=True)
-        place.write_text(json.dumps(report.certificate, ensure_ascii=False) + "\n", encoding="utf-8")
+        place.write_text(json.dumps(certificate, ensure_ascii=False) + "\n", encoding="utf-8")
     except OSError as error:
         raise DofkitError(f"the certificate cannot be written to '{path}': {error.strerror or error}") from None
-    return report
 
 
 def _equations(scene: Scene, given: Given) -> Iterator[Json]:
     report = lagrange.lagrange(scene, given.linearize, given.budget)
+    if given.certificate is not None:
+        told = report.model_dump(mode="json")
+        _write(_used("certificate_of_motion")(scene, told, report.classification), given.certificate)
     if given.telling.as_json:
         yield streams(_line(report.model_dump(mode="json"), given))
     else:

@@ -148,10 +148,14 @@ def names_of(files: Sequence[str]) -> list[str]:
     return [Given(file, 0.0, "auto", Telling()).name for file in files]
 
 
-def motions(files: Sequence[str], linearize: bool, telling: Telling) -> Generator[Printed]:
-    """What is printed of the equations of motion of each file, in their order."""
+def motions(
+    files: Sequence[str], linearize: bool, telling: Telling, certificate: str | None = None
+) -> Generator[Printed]:
+    """What is printed of the equations of motion of each file, in their order; ``certificate`` as for `reports`."""
     given = Given("", DEFAULT_SECONDS, "auto", telling._replace(ascii_only=ascii_only()), linearize)
-    return _answers(files, given, _motion, (ONE_FILE, "dofkit.motion.lagrange.equations"))
+    return _answers(
+        files, given, _motion, (ONE_FILE, "dofkit.motion.lagrange.equations"), places_of(files, certificate)
+    )
 
 
 def pictures(files: Sequence[str], kind: str, out: str | None, ending: str) -> Generator[Printed]:
@@ -227,7 +231,8 @@ def report_by(worker: Runner, given: Given) -> Printed:
 
 
 def _motion(worker: Worker, given: Given) -> Printed:
-    outcome = worker.run(Job("dofkit.interface.one_file:motion_lines", given, limit(given.budget)))
+    share = 1 if given.certificate is None else CERTIFICATE_SHARE
+    outcome = worker.run(Job("dofkit.interface.one_file:motion_lines", given, share * limit(given.budget)))
     return Printed(**outcome.value) if outcome.finished else _plain(given, outcome.reason)
 
 

@@ -12,30 +12,43 @@ known to stay the same when all its members are moved together.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Hashable, Mapping
+from typing import NamedTuple
 
-import networkx as nx
-
+from dofkit.base.libraries import nx
 from dofkit.system import GROUND, Connection, Constraint, System
 
 #: A node of the graph: a body, a particle, the ground, a coordinate that is nobody's, or a constraint by its number.
 Node = Hashable
 
 
-def bridges(system: System) -> frozenset[int]:
-    """The numbers of the joints that close no loop, of those of a drawing in fractions; none without a drawing."""
+class Bridges(NamedTuple):
+    """The ``joints`` that close no loop, and the constraints ``afloat``: without these joints nothing ties them to the
+    ground, so that they hold after any motion of all their bodies as one.
+    """
+
+    joints: frozenset[int] = frozenset()
+    afloat: frozenset[int] = frozenset()
+
+
+def bridges(system: System) -> Bridges:
+    """The joints that close no loop, of those of a drawing in fractions, by numbers; none without a drawing."""
     if system.reference is None or system.dimension == 1:
-        return frozenset()
+        return Bridges()
     joints = {c.constraint: c.members for c in system.connections if _is_drawn(c, system)}
     if not joints:
-        return frozenset()
+        return Bridges()
     owners: dict[str, Node] = {q.name: q.owner or ("coordinate", q.name) for q in system.coordinates}
     connected = {c.constraint: c for c in system.connections}
     graph: nx.Graph[Node] = nx.Graph()
     for i, constraint in enumerate(system.constraints):
         graph.add_edges_from((i, node) for node in joints.get(i) or _held(constraint, connected.get(i), owners))
-    graph.remove_edges_from(list(nx.bridges(graph)))
-    return frozenset(i for i in joints if not graph.adj[i])
+    found = Counter(node for edge in nx.bridges(graph) for node in edge)
+    apart = frozenset(i for i in joints if found[i] == len(graph.adj[i]))
+    graph.remove_nodes_from(apart)
+    grounded = nx.node_connected_component(graph, GROUND) if GROUND in graph else set()
+    return Bridges(apart, frozenset(range(len(system.constraints))) - apart - grounded)
 
 
 def _is_drawn(c: Connection, system: System) -> bool:

@@ -55,7 +55,8 @@ def _floating(system: System, joints: list[Connection]) -> Iterator[str]:
         if held[name] not in roots:
             roots.add(held[name])
             yield from own.get(name, ())
-    yield from (q.name for q in system.coordinates if q.owner not in system.bodies)
+    bodies = frozenset(system.bodies)
+    yield from (q.name for q in system.coordinates if q.owner not in bodies)
 
 
 def _coupled(system: System) -> Iterator[dict[str, Fraction]]:

@@ -84,8 +84,10 @@ class Answer:
     points it is told; ``argument``: by which row of the table, with a chance of error below 2^-``bits``, or a ``gap``;
     ``witness``: a certified configuration, as text, and ``real`` the rows there; ``first_order_sure``: is the number of
     velocities at the reference proved? ``exists``: and that the relations hold there at all times? ``trusted``: is
-    what is not 0 over GF(p) known not to be 0? ``parts``: what was answered apart, all other rows being independent of
-    each other and of these; None where the whole was looked at together, and only then is there a ``matrix``.
+    what is not 0 over GF(p) known not to be 0? ``kind``: the same for blocks that are each other's up to names, whose
+    coordinates then correspond place by place; None for one that was not compared. ``parts``: what was answered apart,
+    all other rows being independent of each other and of these; None where the whole was looked at together, and only
+    then is there a ``matrix``.
     """
 
     consistent: bool | None = True
@@ -119,6 +121,7 @@ class Answer:
     witness: Mapping[Expr, str] | None = None
     linear: bool = False
     looked: FollowedClasses = field(default_factory=FollowedClasses)
+    kind: int | None = None
     size: Size = field(default_factory=Size)
     parts: tuple[AnsweredPart, ...] | None = None
 

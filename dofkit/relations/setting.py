@@ -43,6 +43,7 @@ class Setting:
     ``geometric``: those that are no texts, whose numbers are measured where there is a ``tolerance``; then ``bodies``
     and the ``centre`` of all that is drawn are told too. ``tilts``: the second of the Euler angles of bodies whose
     angles texts name; where its sine is 0 the other two turn alike. ``bridges``: the joints that close no loop;
+    ``afloat``: the constraints that hold after any motion of all that they hold, without these, as one;
     ``within``: what is asked of hangs by such joints on more. ``joint_rows``: of constraints at the drawing, where the
     geometry of joints alone tells them.
     """
@@ -67,5 +68,6 @@ class Setting:
     centre: tuple[float, ...] = ()
     tilts: frozenset[str] = frozenset()
     bridges: frozenset[int] = frozenset()
+    afloat: frozenset[int] = frozenset()
     within: bool = False
     joint_rows: Callable[[Iterable[int]], NamedRows | None] | None = None

@@ -130,7 +130,7 @@ NAMES: dict[str, False_] = {
             )
         ],
         {"points": [{"id": "P", "values": {"x": "0", "xdotdot": "-1"}}]},
-        "has the name of a derivative",
+        "not shown to be isolated",
     ),
 }
 INTEGRALS: dict[str, False_] = {

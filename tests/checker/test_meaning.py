@@ -15,7 +15,6 @@ from shared.known_scenes import SCENES, few, scene_of, stem
 
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import document_of, read_problem
-from dofkit.checker.values import symbols_in
 from dofkit.expressions.differentials import in_velocities
 from dofkit.expressions.tree import Expr, coordinate, parameter, sym, velocity
 from dofkit.scene.lowering import lower
@@ -47,8 +46,8 @@ def names_by_symbol(system: System, problem: Problem) -> dict[Expr, str]:
     own = dict(zip((q.name for q in system.coordinates), problem.coordinates, strict=True))
     found = {coordinate(q): name for q, name in own.items()}
     found |= {velocity(q): f"{name}dot" for q, name in own.items()}
-    found |= {parameter(name): name for name in problem.parameters}
-    found |= {parameter(a): b for a, b in zip(system.generic, problem.generic, strict=True)}
+    found |= {parameter(name): name for name in problem.world.signs}
+    found |= {parameter(a): b for a, b in zip(system.generic, problem.world.generic, strict=True)}
     return found | {sym("time", "t"): "t", sym("dt", "dt"): "tdot"}
 
 
@@ -60,10 +59,10 @@ def test_it_has_the_coordinates_and_the_equations_of_the_scene(path: Path) -> No
         q for q in problem.coordinates if q in {one.name for one in system.coordinates}
     ]
     assert len(problem.coordinates) == len(system.coordinates)
-    assert dict(problem.parameters) == dict(system.parameters)
+    assert dict(problem.world.signs) == dict(system.parameters)
     told = [(c.name, len(c.relations)) for c in system.constraints]
     assert told == [(c.name, sum(r.owner == c.name for r in problem.relations)) for c in system.constraints]
-    assert len(problem.generic) == len(system.generic)
+    assert len(problem.world.generic) == len(system.generic)
 
 
 @every_scene
@@ -88,7 +87,7 @@ def test_the_drawing_is_the_reference_and_meets_every_finite_relation(path: Path
 
 
 def parameters_of(problem: Problem, rng: random.Random) -> dict[str, float]:
-    return {name: rng.uniform(0.5, 1.5) for name in problem.parameters}
+    return {name: rng.uniform(0.5, 1.5) for name in problem.world.signs}
 
 
 class Compared:
@@ -100,7 +99,7 @@ class Compared:
         self.theirs = [(in_velocities(relation.expr)[0], relation.sense) for relation in constraint.relations]
         self.ours = [relation for relation in problem.relations if relation.owner == constraint.name]
         self.rng = random.Random(f"{path.stem} {constraint.name}")
-        mentioned = frozenset().union(*(symbols_in(relation.left) for relation in self.ours))
+        mentioned = frozenset().union(*(relation.left.symbols for relation in self.ours))
         used = {s for e, _ in self.theirs for s in e.symbols} | {s for s, n in self.names.items() if n in mentioned}
         used -= {sym("dt", "dt")}
         self.columns = sorted(used, key=lambda s: s.args)

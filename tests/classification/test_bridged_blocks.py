@@ -31,13 +31,14 @@ CASES: dict[str, tuple[dict[str, Any], int]] = {
     "the same with a text": ({"bodies": BODIES, "constraints": [ROOT, *FOUR_BAR, TOOL, "x_h = 0"]}, 5),
     "with a text on the tool": ({"bodies": BODIES, "constraints": [ROOT, *FOUR_BAR, TOOL, "x_w = 0"]}, 5),
     "in the plane": ({"dimension": 2, "bodies": BODIES, "constraints": FLAT}, 3),
+    "in the plane with a text": ({"dimension": 2, "bodies": BODIES, "constraints": [*FLAT[:4], FLAT[5], "x_q = 0"]}, 4),
     "a tree": tree_with_loops(4, 0, 3),
     "a tree with a loop": tree_with_loops(3, 1, 5),
 }
 
 
 #: Those that are answered soon.
-SOON = ("in the plane", "a tree")
+SOON = ("in the plane", "in the plane with a text", "a tree")
 
 
 @pytest.mark.parametrize("name", [pytest.param(c, marks=() if c in SOON else pytest.mark.sweep) for c in CASES])

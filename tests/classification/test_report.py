@@ -78,3 +78,9 @@ def test_no_witness_is_put_together_of_points_with_other_parameters() -> None:
         found = {name: float(Fraction(text)) for name, text in at.items()}
         assert abs(found["x"] ** 2 - found["a"] + 7 / 8) < 1e-12
         assert abs(found["y"] ** 2 - 9 / 8 + found["a"]) < 1e-12
+
+
+def test_a_product_with_a_factor_that_is_zero_everywhere() -> None:
+    """tanh w = 1 - 2 / (e^(2 w) + 1), so that nothing is said of x."""
+    product = "(tanh(w) - 1 + 2/(exp(2*w) + 1))*(x - 1) = 0"
+    assert dofkit.classify({"coordinates": ["x", "y", "z", "w"], "constraints": [product]}).dof == 4

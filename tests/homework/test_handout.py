@@ -95,6 +95,11 @@ def test_a_sheet_says_what_is_asked_and_what_things_are_called() -> None:
     assert told.count("![Figure 1](figures/pendulum.svg)") == 1
 
 
+def test_the_list_of_constraints_begins_on_its_own_line() -> None:
+    told = written_sheet(sheet(pendulum(text="Given: [[constraints]] What now?")), drawing()).markdown
+    assert "Given: \n\n- `rod`: link (0, 0)-A, length l\n\n What now?" in told
+
+
 def test_an_equation_that_is_asked_for_is_not_told() -> None:
     asked = [{"id": "e", "ask": "equation", "constraint": "wire"}]
     prepared = sheet({"id": "wire", "scene": CURVE, "questions": asked})

@@ -13,7 +13,7 @@ import dofkit.homework
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.grading import grade
 from dofkit.homework.key.misconceptions import ERRORS
-from dofkit.homework.sentences.said import catalogue
+from dofkit.homework.sentences.said import Language, catalogue, stopped
 
 ROOM = Path(dofkit.homework.__file__).parent
 TOLD = [
@@ -76,3 +76,48 @@ def test_feedback_comes_in_the_language_of_the_assignment(language: str, feedbac
     asked = {"id": "p", "scene": scene, "questions": [{"id": "q", "ask": "label", "constraint": "c"}]}
     sheet = load_assignment({"title": "One", "language": language, "problems": [asked]})
     assert grade(sheet, {"student": "Ana", "answers": {"p": {"q": "holonomic"}}}).items[0].feedback == feedback
+
+
+def faults(node: ast.AST) -> Iterator[str]:
+    """What is told where reading stops, and what to do: every literal text of an error, its places filled."""
+    for call in ast.walk(node):
+        if isinstance(call, ast.Call) and getattr(call.func, "id", "") in ("TextError", "UnknownNameError"):
+            for told in (*call.args[:1], *call.args[2:3]):
+                if isinstance(told, ast.Constant) and isinstance(told.value, str):
+                    yield told.value
+                elif isinstance(told, ast.JoinedStr):
+                    parts = (_filled(part) for part in told.values)
+                    yield "".join(parts)
+
+
+def _filled(part: ast.expr) -> str:
+    if isinstance(part, ast.Constant):
+        return str(part.value)
+    return "coordinate" if ast.unparse(part) == "{what}" or "what" in ast.unparse(part) else "q7"
+
+
+@pytest.mark.parametrize("language", ["de", "fr", "es"])
+def test_why_reading_stopped_is_told_in_the_language(language: Language) -> None:
+    rooms = [path for name in ("answers", "key", "questions") for path in (ROOM / name).glob("*.py")]
+    told = {text for path in rooms for text in faults(ast.parse(path.read_text(encoding="utf-8")))}
+    assert len(told) > 15
+    assert {text for text in told if stopped(text, language) == text} == set()
+
+
+#: Words that no message in another language holds.
+ENGLISH = re.compile(r"\b(the|is|are|write|there|here|did|you|not|cannot|stands|missing)\b")
+
+
+@pytest.mark.parametrize("language", ["de", "fr", "es"])
+@pytest.mark.parametrize(
+    "answer",
+    ["x^2 + zz = 1", "x + (y = 1", "x ~ 1", "sin = 3", "x = 1)", "x =", "= x", "x : y", "x + dy = 0", "3 cm + x = 1",
+     "\\int x = 3", "x = 5 5", "sin(dx) = 0", "x = 3! + y", "(x, y) = 1", "x @ y = 0", "x = \u00bf"],
+)  # fmt: skip
+def test_an_answer_that_is_not_read_is_told_so_in_the_language(language: str, answer: str) -> None:
+    scene = {"coordinates": ["x", "y"], "constraints": [{"name": "c", "type": "equation", "text": "x^2 + y^2 = 1"}]}
+    asked = {"id": "p", "scene": scene, "questions": [{"id": "q", "ask": "equation", "constraint": "c"}]}
+    sheet = load_assignment({"title": "One", "language": language, "problems": [asked]})
+    item = grade(sheet, {"student": "Ana", "answers": {"p": {"q": answer}}}).items[0]
+    assert item.status == "unreadable", item
+    assert ENGLISH.search(re.sub(r"\(U\+[^)]*\)", "", item.feedback)) is None, item.feedback

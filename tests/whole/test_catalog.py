@@ -209,9 +209,9 @@ def test_every_catalog_scene_tells_where_it_is_from(key: str) -> None:
 
 
 def test_every_constraint_type_has_a_scene_whose_answers_are_known() -> None:
-    """Of the catalog or of textbooks. The lectures have no coupling, and the checker reads none: see test_coupling."""
+    """Of the catalog or of textbooks."""
     seen = {constraint.type for path in SCENES for constraint in scene_of(path).constraints}
-    assert sorted(TYPES.keys() - seen) == ["coupling"]
+    assert sorted(TYPES.keys() - seen) == []
 
 
 @pytest.mark.parametrize(

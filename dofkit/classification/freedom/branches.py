@@ -244,7 +244,7 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
 def _says_nothing(normal: Normal) -> bool:
     """Is there nothing to compare: it holds always or never, or is not written out, as no other joint is the same?"""
     branches = normal.branches
-    return branches in ((), ((),)) or isinstance(branches[0][0], JointEquation)
+    return branches in ((), ((),)) or any(isinstance(p, JointEquation) for p in branches[0])
 
 
 def _up_to_a_number(normal: Normal) -> Hashable:
@@ -302,6 +302,7 @@ class AnsweredBlocks:
         if known is not None:
             return known.told_of(block, names)
         found = in_time(block, setting)
+        found.kind = len(self._alike)
         self._alike[key] = AnsweredBlock(block, names, found)
         return found
 

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from dofkit.base.verdicts import VERDICTS, weakest
+from dofkit.configuration.generic_points import field_jacobian, pose_point
 from dofkit.configuration.witness import of_reference
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.relations.answer import Answer, AnsweredPart, FollowedClasses, Size
 from dofkit.relations.blocks import Block, Row, coordinates_of, split, uses_time
+from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.joint_equations import JointEquation
+from dofkit.relations.normal.normal_form import Finite
 from dofkit.relations.setting import Setting
 
 #: A block of so few coordinates, all of whose equations are written out, is answered as soon as a whole.
@@ -30,11 +35,48 @@ def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setti
     rows = [row for row in block.rows if row.constraint not in setting.bridges]
     cores, loose = split(block.coordinates, rows)
     within = replace(setting, within=True)
-    parts = [AnsweredPart(core, solve(core, within)) for core in cores]
+    parts = [AnsweredPart(core, _core_answer(core, within, solve)) for core in cores]
     if any(p.answer.consistent is not True or p.answer.about != "reference" for p in parts):
         return None
     found = _together(block, setting, parts, len(loose) - len(joints))
     return replace(found, looked=_looked(block, parts)) if found.instantaneous else None
+
+
+def _core_answer(core: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer:
+    """The answer of a part; of one that nothing ties to the ground as it is seen from one of its bodies.
+
+    There the set is that of the body's own coordinates times what is left where they are as drawn: all is moved along.
+    """
+    host = _host(core, setting)
+    if host is None:
+        return solve(core, setting)
+    drawn = {s: (setting.reference or {})[s] for s in map(ex.coordinate, host)}
+    rows = [
+        Row(r.constraint, Finite(substitute(r.piece.expr, drawn))) for r in core.finite if isinstance(r.piece, Finite)
+    ]
+    seen, loose = split([name for name in core.coordinates if name not in host], rows)
+    parts = [AnsweredPart(block, solve(block, setting)) for block in seen]
+    chart = make_chart(core, setting)
+    point = pose_point(chart, {**(setting.reference or {}), ex.TIME: ex.ZERO}, 3)
+    if point is None or any(p.answer.consistent is not True or p.answer.about != "reference" for p in parts):
+        return solve(core, setting)
+    found = _together(core, setting, parts, len(loose) + len(host))
+    looked = _looked(core, parts)
+    return replace(found, looked=looked, parts=None, matrix=field_jacobian(chart, point), modulus=point.p)
+
+
+def _host(core: Block, setting: Setting) -> tuple[str, ...] | None:
+    """The coordinates of the body that most is said of; None where something ties the part to the ground."""
+    if any(row.constraint not in setting.afloat for row in core.rows):
+        return None
+    mentioned = frozenset(core.coordinates)
+    owners = {c.name: c for c in setting.roles if c.name in mentioned}
+    turned = {c.owner for c in owners.values() if c.role not in ("x", "y", "z")}
+    said = Counter(owner for row in core.rows for owner in {owners[q].owner for q in coordinates_of(row.piece)})
+    host = max((owner for owner in said if owner in turned), key=lambda owner: said[owner], default=None)
+    own = tuple(name for name, c in owners.items() if c.owner == host)
+    whole = {2: 3, 3: 6}.get(setting.dimension)
+    return own if len(own) == whole else None
 
 
 def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:

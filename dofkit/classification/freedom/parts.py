@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from dofkit.classification.freedom.block import answer
 from dofkit.exact.engines import BOTH
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.pfaffian_system import Codistribution, codistribution
 from dofkit.integrability.shared_forms import SharedForms, shared_forms
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
+from dofkit.relations.normal.normal_form import Piece
 from dofkit.relations.setting import Setting
 
 #: A part by its coordinates and by which pieces its rows and conditions are.
@@ -25,6 +28,7 @@ class AnsweredParts:
     _answers: dict[_Key, tuple[Block, Answer]] = field(default_factory=dict)
     _blocks: list[tuple[Block, Answer]] = field(default_factory=list)
     _shared: dict[int, SharedForms | None] = field(default_factory=dict)
+    _forms: dict[tuple[int, ...], tuple[Block, Codistribution]] = field(default_factory=dict)
 
     @cached_property
     def plain(self) -> Setting:
@@ -43,6 +47,21 @@ class AnsweredParts:
         if key not in self._answers:
             self._answers[key] = part, self._unrestricted(part) or answer(part, self.plain)
         return self._answers[key][1]
+
+    def forms(self, part: Block, hidden: Sequence[Expr] = ()) -> Codistribution:
+        """The rows of a part as one-forms, with hidden relations; written down once."""
+        key = _key(part)[1]
+        if hidden:
+            return codistribution(part, self.plain, hidden)
+        if key not in self._forms:
+            self._forms[key] = part, codistribution(part, self.plain, ())
+        return self._forms[key][1]
+
+    def is_open(self, piece: Piece) -> bool:
+        """Is it known already that the differential of a form is not 0?"""
+        k, i = self._places.get(id(piece), (-1, -1))
+        shared = self._shared.get(k)
+        return shared is not None and shared.curl(i).is_open
 
     @cached_property
     def _places(self) -> dict[int, tuple[int, int]]:
@@ -63,7 +82,8 @@ class AnsweredParts:
         if a.witness is None or not a.consistent or len(part.rows) == len(block.rows):
             return None
         if k not in self._shared:
-            self._shared[k] = shared_forms(block, self.plain)
+            linear = not block.finite and not block.nonlinear
+            self._shared[k] = shared_forms(self.forms(block)) if linear else None
         shared = self._shared[k]
         if shared is None or not shared.reach_everything([i for _, i in places]):
             return None

@@ -13,7 +13,7 @@ from dofkit.expressions.renaming import shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.unwritten import Unwritten
 from dofkit.integrability.accelerations import without_accelerations
-from dofkit.mobility.bridges import bridges
+from dofkit.mobility.bridges import Bridges, bridges
 from dofkit.mobility.rows_at_drawing import RowsAtDrawing
 from dofkit.relations.joint_equations import unwritten
 from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Piece, normalise
@@ -33,8 +33,8 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
     """Each relation as what it says, and what may be assumed of the symbols."""
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     positive |= frozenset(ex.parameter(p) for p in system.generic if p.startswith("_L"))
-    apart = bridges(system) if "bridges" in reductions and system.tolerance is None else frozenset[int]()
-    reduced = reduce_all(system, positive, apart)
+    apart = bridges(system) if "bridges" in reductions and system.tolerance is None else Bridges()
+    reduced = reduce_all(system, positive, apart.joints)
     setting = Setting(
         positive,
         tuple(ex.parameter(p) for p in system.generic),
@@ -52,8 +52,9 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         bodies=_turned(system) if system.tolerance else (),
         centre=_centre(system) if system.tolerance else (),
         tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
-        bridges=apart,
-        joint_rows=RowsAtDrawing(system, positive).of if apart else None,
+        bridges=apart.joints,
+        afloat=apart.afloat,
+        joint_rows=RowsAtDrawing(system, positive).of if apart.joints else None,
     )
     return reduced, setting
 

@@ -139,7 +139,7 @@ class Companionship:
         whole = self.parts.of(part)
         if whole.dof is None:
             return CompanionIntegrals({}, [])
-        forms = codistribution(part, self.parts.plain, whole.hidden)
+        forms = self.parts.forms(part, whole.hidden)
         sought = len(part.coordinates) - whole.dof - len(part.finite) - len(whole.hidden)
         integrals = first_integrals(forms, sought)
         shift = forms.finite - len(part.finite)

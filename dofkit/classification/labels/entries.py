@@ -52,8 +52,8 @@ def entries_of(
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
-    shared, entries, consistent = SharedEntries(setting), list[ConstraintEntry](), outcome.consistent
-    sided = with_a_side(outcome)
+    shared, entries = SharedEntries(setting, company.parts), list[ConstraintEntry]()
+    consistent, sided = outcome.consistent, with_a_side(outcome)
     for i, r in enumerate(reduced):
         number = known.independent.get(i, None if told[i] else 0)
         circuit = None if i not in known.circuits else [names[j] for j in known.circuits[i]]

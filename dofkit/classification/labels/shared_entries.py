@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Sequence
 
+from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.labels.entry import LabelledRow
 from dofkit.expressions.tree import TIME
 from dofkit.integrability.traits import Traits, traits
@@ -22,8 +23,8 @@ STILL = Traits((True, "proved"))
 class SharedEntries:
     """What was found of constraints, to be told again of others of the same kind."""
 
-    def __init__(self, setting: Setting) -> None:
-        self._setting = setting
+    def __init__(self, setting: Setting, parts: AnsweredParts) -> None:
+        self._setting, self._parts = setting, parts
         self._traits: dict[Hashable, Traits] = {}
         self._entries: dict[Hashable, ConstraintEntry] = {}
 
@@ -36,7 +37,8 @@ class SharedEntries:
         key = shape_together((piece,))
         found = self._traits.get(key)
         if found is None:
-            found = self._traits[key] = traits(piece, self._setting.positive, self._setting.engines)
+            opened = self._parts.is_open(piece)
+            found = self._traits[key] = traits(piece, self._setting.positive, self._setting.engines, opened)
         return found
 
     def kind(self, r: Reduced, told: Sequence[LabelledRow], *beside: Hashable) -> Hashable:
@@ -84,7 +86,7 @@ class SharedEntries:
 
 def _is_still(piece: Piece) -> bool:
     """Is it a finite relation without time? All that it carries by itself is known then."""
-    return isinstance(piece, Finite) and TIME not in piece.expr.symbols
+    return isinstance(piece, JointEquation) or (isinstance(piece, Finite) and TIME not in piece.expr.symbols)
 
 
 def _sureness(a: Answer) -> Hashable:

@@ -163,7 +163,7 @@ class Reals:
         if even is not None and (len(even) > 1 or len(factor) == 1):
             options = [[i for i in zeros if i not in self.never] for zeros in even]
             return [[self.canon.gens[i] for i in sorted(set(choice))] for choice in cartesian(*options)]
-        if len(factor) > 2 and factor.total_degree() == 2:
+        if len(factor) > 2 and factor.total_degree() == 2 and not self._is_graph(factor):
             e = self.canon.to_expr(factor)
             branches, _ = zero_set(e, self.positive, e.symbols)
             if branches != ((e,),):
@@ -173,6 +173,10 @@ class Reals:
                     raise TooLargeError
                 return [[self.canon.quotient(node)[0] for node in branch] for branch in nodes]
         return [[factor]]
+
+    def _is_graph(self, factor: Poly) -> bool:
+        """Is an irreducible factor linear in a real generator? Then its zeros are a graph over the others."""
+        return any(k == 1 and len(self.canon.gens) - 1 - i in self.free for i, k in enumerate(factor.degrees()))
 
     def solved(self, poly: Poly) -> tuple[int, Poly] | None:
         """A condition as the value of a generator that can be put into the others; None where it cannot be solved."""

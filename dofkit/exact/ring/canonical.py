@@ -99,11 +99,13 @@ class Canon:
     def reduce(self, poly: Poly) -> Poly:
         """Modulo the generators' algebraic relations."""
         check()
+        degrees = poly.degrees()
         for place, degree, relation in self._divisors:
             if len(poly) > MAX_TERMS:
                 raise TooLargeError
-            if poly.degrees()[place] >= degree:
+            if degrees[place] >= degree:
                 _, poly = divmod(poly, relation)
+                degrees = poly.degrees()
         return poly
 
     @cached_property

@@ -27,20 +27,27 @@ from dofkit.expressions.tree import Expr
 def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) -> dict[tuple[str, Expr], int]:
     """For every basic angle or exponent, the common denominator of its multiples."""
     denominators: dict[tuple[str, Expr], int] = {}
-    seen: set[Expr] = set()
-    for e in expressions:
-        for node in ex.nodes(e):
-            if node in seen or node.op not in ("fn", "pow"):
-                continue
-            seen.add(node)
-            family = _family(node)
-            if family:
-                argument = node.args[1] if node.op == "fn" else node.args[1] * ex.fn("log", node.args[0])
-                for rest, factor in linear_terms(over_primes(substitute(argument, alias))).items():
-                    factor = exact_turn(factor)[1] if rest == ex.PI and family == "cis" else factor
-                    old = denominators.get((family, rest), 1)
-                    denominators[family, rest] = old * factor.denominator // gcd(old, factor.denominator)
+    for node in _with_functions(expressions):
+        family = _family(node) if node.op in ("fn", "pow") else None
+        if family:
+            argument = node.args[1] if node.op == "fn" else node.args[1] * ex.fn("log", node.args[0])
+            for rest, factor in linear_terms(over_primes(substitute(argument, alias))).items():
+                factor = exact_turn(factor)[1] if rest == ex.PI and family == "cis" else factor
+                old = denominators.get((family, rest), 1)
+                denominators[family, rest] = old * factor.denominator // gcd(old, factor.denominator)
     return denominators
+
+
+def _with_functions(expressions: Iterable[Expr]) -> set[Expr]:
+    """Every node in which a function occurs."""
+    found: set[Expr] = set()
+    left = [e for e in expressions if e.functions]
+    while left:
+        node = left.pop()
+        if node not in found:
+            found.add(node)
+            left.extend(child for child in ex.children(node) if child.functions)
+    return found
 
 
 def _family(node: Expr) -> str | None:
@@ -73,12 +80,13 @@ class Ring(Instructions):
         self._denominators = _angle_arguments(given, self.alias)
         self._split = split_logs((e for e in given if "log" in e.functions), positive)
         self._memo: dict[Expr, int] = {}
+        self._turns: dict[Expr, tuple[int, int]] = {}
         self._building: dict[str, Callable[[Expr], int]] = {
             "num": lambda e: self.emit(NUM, e.args[0]),
             "sym": self.symbol,
             "const": self._constant,
-            "add": lambda e: self.emit(ADD, tuple(self.node(t) for t in e.args)),
-            "mul": lambda e: self.emit(MUL, tuple(self.node(t) for t in e.args)),
+            "add": lambda e: self.emit(ADD, self._nodes(e.args)),
+            "mul": lambda e: self.emit(MUL, self._nodes(e.args)),
             "pow": self._power,
             "fn": self._function,
             "call": self._call,
@@ -97,6 +105,10 @@ class Ring(Instructions):
             found = self._memo[e] = self._building[e.op](e)
         return found
 
+    def _nodes(self, parts: Iterable[Expr]) -> tuple[int, ...]:
+        memo = self._memo
+        return tuple([memo[e] if e in memo else self.node(e) for e in parts])
+
     def forget(self, size: int) -> None:
         """Instructions from number ``size`` on are dropped, as if they had never been emitted, if none is a generator.
 
@@ -108,6 +120,7 @@ class Ring(Instructions):
             del self._interned[key]
         del self.code[size:]
         self._memo = {e: node for e, node in self._memo.items() if node < size}
+        self._turns = {u: turn for u, turn in self._turns.items() if max(turn) < size}
         self._orders = {roots: order for roots, order in self._orders.items() if all(i < size for i in roots)}
 
     def _constant(self, e: Expr) -> int:
@@ -180,6 +193,12 @@ class Ring(Instructions):
 
     def _cis(self, u: Expr) -> tuple[int, int]:
         """(cos u, sin u) as polynomials in those of the basic angles."""
+        found = self._turns.get(u)
+        if found is None:
+            found = self._turns[u] = self._turn(u)
+        return found
+
+    def _turn(self, u: Expr) -> tuple[int, int]:
         u = substitute(u, self.alias)
         total = (self.number(1), self.number(0))
         for rest, factor in linear_terms(u).items():

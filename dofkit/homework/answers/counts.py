@@ -32,6 +32,21 @@ _BOUND = re.compile(
 )
 _OTHERWISE = re.compile(r"\b(?:or|oder|ou|oppure|rather|actually|eigentlich)\b", re.IGNORECASE)
 _BEFORE_NAME = re.compile(r"\s*\d+(?:\s+[^\W\d_]+){1,2}\s*")
+#: Where the sum of parts stands: before a colon or parentheses, or after a word that concludes. What is taken away.
+_BEFORE_PARTS = re.compile(
+    r"\A\s*(?:\d+|[^\W\d_]+)\s*(?:dofs?|Freiheitsgrade|degr[^\W\d_]+\s+[^\W\d_]+\s+[^\W\d_]+)?\s*[:(]"
+)
+_AFTER_PARTS = re.compile(
+    r"\b(?:so|also|hence|thus|therefore|total|altogether|insgesamt|zusammen|macht|daher|donc|luego|quindi|portanto)\s*:?\s+"
+    r"(?:\d+|[^\W\d_]+)(?:\s+[^\W\d_]+)*\s*[.!]?\s*\Z",
+    re.IGNORECASE,
+)
+_SUBTRACTED = words(
+    "coordinate coordinates koordinate koordinaten coordonnee coordonnees coordenada coordenadas coordinata constraint "
+    "constraints zwangsbedingung zwangsbedingungen bedingung bedingungen bindung bindungen contrainte contraintes "
+    "liaison liaisons ligadura ligaduras restriccion restricciones vincolo vincoli equation equations gleichung "
+    "gleichungen minus less weniger moins menos meno"
+)
 #: So many longer words say what the parts of a sum are.
 _FEWEST_EXPLAINED, _SHORT = 2, 3
 #: In a part of more words `one` may be an article.
@@ -66,6 +81,8 @@ def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
     ``called``: what the number asked for is called; where others stand beside it, only this one counts. Raises
     TextError, with its column; DoubtError where it says several.
     """
+    if isinstance(answer, (list, tuple)) and len(answer) == 1:
+        return number(answer[0], called)
     script = script_of(one_text(answer)).replaced(_BOLD, r"\1").replaced(_COMMA, ".")
     if not re.search(r"[\\^_]", script.text):
         script = script.replaced(_BRACKETS, " ")
@@ -100,7 +117,7 @@ def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
 
 
 def _sum_of_parts(text: str) -> Fraction | None:
-    """The first or last of several numbers among words where it is the sum of the others: `3: 2 shifts and 1 turn`."""
+    """The sum of several numbers among words, told before or after them: `3: 2 shifts, 1 turn`, `2 each, so 4`."""
     words = [plain(m[0]) for m in _WORD.finditer(text)]
     if _SIGNS.search(text) or not (DOUBTS | NEGATIONS).isdisjoint(words) or _OTHERWISE.search(text):
         return None
@@ -109,8 +126,9 @@ def _sum_of_parts(text: str) -> Fraction | None:
     explained = sum(len(w) > _SHORT for w in words if w not in NUMBERS) >= _FEWEST_EXPLAINED
     if len(numbers) <= _FEWEST_EXPLAINED or not explained:
         return None
-    wholes = {n for n in (numbers[0], numbers[-1]) if 2 * n == sum(numbers)}
-    return Fraction(wholes.pop()) if len(wholes) == 1 else None
+    told = [n for n, place in ((numbers[0], _BEFORE_PARTS), (numbers[-1], _AFTER_PARTS)) if place.search(text)]
+    wholes = {n for n in told if 2 * n == sum(numbers)}
+    return Fraction(wholes.pop()) if len(wholes) == 1 and _SUBTRACTED.isdisjoint(words) else None
 
 
 def _beside(text: str) -> set[int]:

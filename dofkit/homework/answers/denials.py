@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 
 from dofkit.homework.answers.prose import FILLING, REASONS, YES, phrases, plain, words
 
@@ -44,29 +45,37 @@ _NONES = words(
 )
 #: What is denied, by its beginning; a prefix denies it too.
 _DENIED = re.compile(
-    r"(?P<prefix>non-?|nicht-?|an|un|in)?(?:integr|holonom|olonom|exist|esist|redund|redond|ueberfluss|uberfluss|superflu|sobra"
+    r"(?P<prefix>non-?|nicht-?|an|un|in)?(?:integr|holonom|olonom|exist|esist|redund|redond|ridond|ueberfluss|uberfluss|superflu|sobra"
     r"|entbehr|relation|beziehung|equation|gleichung|ecuacion|equazion|equac|dropped|weglass|primitive|stammfunktion"
     r"|potential)[a-z]*"
 )
 _AROUND = words(
     "there here this that these they such any exists has have does do did can be form forme forma differential "
     "differentielle zwangsbedingung bedingung gleichung lasst sich gibt man kann werden hier da admits admet possede "
-    "besitzt hat tiene ha posee ce c n d l il elle y a ne s si se puede puo pode hay ci vi ha tem of finite finie "
+    "besitzt hat tiene ha posee ce il elle ne si se puede puo pode hay ci vi ha tem of finite finie "
     "sobre constraint liaison relacion relazione relacao di de del della diese dieser die das der to for fur fuer pour "
-    "para per esta questa questo bindung exact exakt moglich possible es una uno e lo la m t su sua ihr sein so "
+    "para per esta questa questo bindung exact exakt moglich possible es una uno lo la su sua ihr sein so "
+    "vorhanden endliche endlichen vincolo vincoli ligadura restriccion vinculo "
     "ser sein etre essere been unfortunately leider hence also daher donc luego quindi"
 )
 _EVERY = words("all every each alle jede jeder toutes tous chaque todas todos tutti tutte")
 _NEEDED = re.compile(
     r"(?:need|necess|requir|independen|unabhangig|notig|benotigt|notwendig|indispens|independant|indipend)"
 )
-_CONTRACTED = ((re.compile(r"\b(?:can't|cannot)\b"), "can not"), (re.compile(r"n't\b"), " not"))
+_CONTRACTED = (
+    (re.compile(r"\bn['’]y\b"), " "),
+    (re.compile(r"\b(?:l|d|n|c|s|m|t|qu|un|dell|all|nell)['’]"), " "),
+    (re.compile(r"\b(?:can't|cannot)\b"), "can not"),
+    (re.compile(r"n't\b"), " not"),
+)
 
 
-def says_none(text: str) -> bool:
-    """Does a text say that there is none?"""
+def says_none(text: str, known: Collection[str] = (), every: bool = False) -> bool:
+    """Does a text say that there is none? ``known``: names, which are no words; ``every``: `all are needed` says so."""
     told = plain(REASONS.split(text, maxsplit=1)[0])
-    return _denies(told) or _denies(plain(re.split(_PARTS, told, maxsplit=1)[0]))
+    first = plain(re.split(_PARTS, told, maxsplit=1)[0])
+    names = {plain(name) for name in known}
+    return any(_denies(part, names) or (every and _needs_all(part, names)) for part in (told, first))
 
 
 def beside_none(text: str) -> list[str]:
@@ -86,16 +95,21 @@ def affirms(part: str) -> bool:
     return plain(part) in YES or (bool(found) and _closed(found) and _denial(found) == 0 and _names_it(found))
 
 
-def _denies(told: str) -> bool:
+def _denies(told: str, names: Collection[str] = ()) -> bool:
     """Does a text in small letters say that there is none, in a known phrase or in words of a closed list?"""
     if told in NONE:
         return True
     found = _tokens(told)
-    if not found or not _closed(found):
+    if not found or not _closed(found) or not _EVERY.isdisjoint(found) or any(w in names for w in found):
         return False
-    if not _EVERY.isdisjoint(found):
-        return _denial(found) == 0 and any(_NEEDED.match(w) for w in found)
     return _denial(found) == 1 and (_names_it(found) or not _NONES.isdisjoint(found))
+
+
+def _needs_all(told: str, names: Collection[str]) -> bool:
+    """`all are needed`, `alle sind unabhängig`."""
+    found = _tokens(told)
+    whole = bool(found) and _closed(found) and not _EVERY.isdisjoint(found) and not any(w in names for w in found)
+    return whole and _denial(found) == 0 and any(_NEEDED.match(w) for w in found)
 
 
 def _tokens(told: str) -> list[str]:

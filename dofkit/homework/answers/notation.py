@@ -14,6 +14,19 @@ from dofkit.homework.answers.script import By, Script
 #: Stands between equations of which one follows from another.
 ARROW = "⇒"
 _NAME = r"(?:\\[A-Za-z]+|[A-Za-zα-ωΑ-Ω])(?:_\{?\w+\}?)?"
+_DOTTED = rf"\\dd?ot\s*\{{?\s*{_NAME}\s*\}}?"
+#: What d/dt stands before without parentheses: a name, with its dots or in letters.
+_TERM = (
+    rf"{_DOTTED}|(?!\\(?:left|big|Big|frac|tfrac|dfrac|sqrt|sin|cos|tan|exp|ln|log)){_NAME}(?![A-Za-z\d_])"
+    r"|[A-Za-z]{2,}(?:_\w+)?(?!\s*\()"
+)
+#: Where it ends: before a further factor it may stand before both.
+_NO_FACTOR = r"(?=\s*(?:[-+=<>)}\],;\n]|\\right|\Z))"
+_OF_TIME = r"\s*\{\s*\\left\s*\(\s*t\s*\\right\s*\)\s*\}"
+_TWO = r"\s*(?:\^\s*\{?\s*2\s*\}?|\*\*\s*2|²)\s*"
+_FRACTION_2 = rf"\\frac\s*\{{\s*d{_TWO}\}}\s*\{{\s*d\s*t{_TWO}\}}"
+_FRACTION_1 = r"\\frac\s*\{\s*d\s*\}\s*\{\s*d\s*t\s*\}"
+_SLASH_2, _SLASH_1 = rf"(?<![\w\\])d{_TWO}/\s*dt{_TWO}", r"(?<![\w\\])d\s*/\s*dt(?![\w^*²])"
 #: Signs that a document made of a backslash and a letter.
 _CONTROLS = {"\x07": "a", "\x08": "b", "\t": "t", "\n": "n", "\x0b": "v", "\x0c": "f", "\r": "r", "\x1b": "e"}
 _COMMANDS = words(
@@ -70,6 +83,12 @@ _RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
         (r"\\[dtc]?frac\s+([A-Za-z\d])\s*([A-Za-z\d])(?!\w)", r"\\frac{\1}{\2}"),
         (r"\\[dtc]frac(?![A-Za-z])", r"\\frac"),
         (r"\\(?:mathrm|text|rm|operatorname)\s*\{\s*d\s*\}\s*|\\dd(?![A-Za-z])\s*|(?<![A-Za-z])ⅆ", "d"),
+        (rf"{_FRACTION_2}\s*({_NAME}){_OF_TIME}", r"Ddt(Ddt(\1))"),
+        (rf"{_FRACTION_1}\s*({_NAME}){_OF_TIME}", r"Ddt(\1)"),
+        (rf"({_NAME}){_OF_TIME}", r"\1"),
+        (rf"(?:{_FRACTION_2}|{_SLASH_2})\s*({_TERM}){_NO_FACTOR}", r"Ddt(Ddt(\1))"),
+        (rf"(?:{_FRACTION_1}|{_SLASH_1})\s*({_TERM}){_NO_FACTOR}", r"Ddt(\1)"),
+        (rf"\\frac\s*\{{\s*d\s*({_DOTTED})\s*\}}\s*\{{\s*d\s*t\s*\}}", r"Ddt(\1)"),
         (rf"\\frac\s*\{{\s*d\s*\^\s*\{{?\s*2\s*\}}?\s*({_NAME})\s*\}}\s*\{{\s*d\s*t\s*\^\s*\{{?\s*2\s*\}}?\s*\}}",
          lambda m: f" ddot({m[1]}) "),
         (rf"\\frac\s*\{{\s*d\s*({_NAME})\s*\}}\s*\{{\s*d\s*t\s*\}}", lambda m: f" dot({m[1]}) "),
@@ -196,6 +215,6 @@ def script_of(text: str) -> Script:
 
 #: A plain text without any of these needs no rule.
 _ODD = re.compile(
-    r"Derivative|Eq\(|Equality|[\\$&`\"{>]|:=|\bdd?ot\(|\bd/|np\.|math\.|sympy\.|sp\.|numpy\.|<br"
+    r"Derivative|Eq\(|Equality|[\\$&`\"{>]|:=|\bdd?ot\(|\bd\s*/|\bd\s*(?:\^|\*\*)\s*2\s*/|np\.|math\.|sympy\.|sp\.|numpy\.|<br"
     r"|\.[*/^]|\b(?:sen|tg|Sin|Cos|Tan|Sqrt|Exp|SIN|COS|TAN|SQRT|EXP)\b"
 )

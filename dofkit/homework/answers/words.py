@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -85,18 +85,19 @@ def _words(script: Script) -> Iterator[Word]:
         yield Word(body[place:].rstrip("."), script.columns[start + place])
 
 
-def is_none(answer: object, says: Callable[[str], bool] | None = None) -> bool:
+def is_none(answer: object, says: Callable[[str], bool], known: Collection[str] = (), every: bool = False) -> bool:
     """Is the answer that there is none? ``says``: does a part of it name one all the same?
 
-    Raises DoubtError where it says both.
+    ``known``: names that are no words; ``every``: that all are needed says so too. Raises DoubtError where it
+    says both.
     """
     if isinstance(answer, Sequence) and not isinstance(answer, str):
-        return not answer or (len(answer) == 1 and is_none(answer[0], says))
+        return not answer or (len(answer) == 1 and is_none(answer[0], says, known, every))
     if not isinstance(answer, str) or len(answer) > MOST_CHARACTERS:
         return False
-    if says is not None and any(says(part) or affirms(part) for part in beside_none(answer)):
+    if any(says(part) or affirms(part) for part in beside_none(answer)):
         raise DoubtError("it says that there is none, and names one.", 1, None)
-    return says_none(answer)
+    return says_none(answer, known, every)
 
 
 def lists_only(part: str, known: Sequence[str]) -> bool:

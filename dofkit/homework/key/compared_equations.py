@@ -76,7 +76,7 @@ class EquationComparison:
                 if self._found(exact).status == "right":
                     told = "Its numbers are rounded: write them exactly, as roots and fractions."
                     return partly(HALF, way.shown, told, ROUNDED)
-        if found.codes == (Sameness.EMPTY.value,) and len(way.relations) > 1:
+        if found.codes == (Sameness.EMPTY.value,) and len(way.relations) > 1 and not way.derived:
             return self._contradictory(way) or found
         if way.derived and found.status != "right":
             last = self._found(way.claim)

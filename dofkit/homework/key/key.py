@@ -35,17 +35,19 @@ class Key:
     """What is right for one problem. ``convention``: which freedom a bare "degrees of freedom" means.
 
     ``also``: further coordinates that an answer may use, and what they are. ``others``: other name -> declared name.
+    ``base``: the key without the coordinates of an answer's own.
     """
 
     scene: Scene
     convention: Convention = "configuration"
     also: Mapping[str, str] = field(default_factory=dict)
     others: Mapping[str, str] = field(default_factory=dict)
+    base: Key | None = field(default=None, repr=False)
 
     @cached_property
     def report(self) -> Report:
-        """What dofkit says of the scene."""
-        return classify(self.scene)
+        """What dofkit says of the scene. An answer's own coordinates, each with its equation, leave that as it is."""
+        return classify(self.scene) if self.base is None else self.base.report
 
     @cached_property
     def _known(self) -> dict[tuple[Chosen, frozenset[str]], bool | None]:
@@ -72,6 +74,19 @@ class Key:
             known = compare()
             if len(self._compared) < MOST_KNOWN:
                 self._compared[texts] = known
+        return known
+
+    @cached_property
+    def _implied(self) -> dict[str, bool]:
+        return {}
+
+    def implied(self, text: str, decide: Callable[[], bool]) -> bool:
+        """Does a relation follow from the scene's constraints? Worked out once for each text."""
+        known = self._implied.get(text)
+        if known is None:
+            known = decide()
+            if len(self._implied) < MOST_KNOWN:
+                self._implied[text] = known
         return known
 
     @cached_property
@@ -102,9 +117,10 @@ class Key:
                     "expect": {},
                 }
             )
+            key = Key(scene, self.convention, others=self.others, base=self)
             if len(self._extended) == MOST_EXTENDED:
-                return Key(scene, self.convention, others=self.others)
-            self._extended[names, texts] = Key(scene, self.convention, others=self.others)
+                return key
+            self._extended[names, texts] = key
         return self._extended[names, texts]
 
     @cached_property

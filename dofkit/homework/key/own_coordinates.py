@@ -35,7 +35,8 @@ def chosen_coordinates(answer: Given, key: Key) -> ChosenCoordinates:
 
     Raises TextError for others.
     """
-    if is_none(answer, lambda part: lists_only(part, [*key.coordinates, *key.also])):
+    known = [*key.coordinates, *key.also]
+    if is_none(answer, lambda part: lists_only(part, known), known):
         return ChosenCoordinates([], key)
     try:
         return ChosenCoordinates(names_of(answer, key.coordinates, "coordinate", key.others), key)
@@ -99,6 +100,10 @@ def _equations(key: Key, name: str) -> list[str]:
 
 def _implied(key: Key, text: str) -> bool:
     """Does a relation follow from the scene's constraints?"""
+    return key.implied(text, lambda: _follows(key, text))
+
+
+def _follows(key: Key, text: str) -> bool:
     posed = with_equations(key.scene, Read((text,), frozenset(), text, False), "offered")
     reduced, setting = prepared(lower(posed))
     *others, own = reduced

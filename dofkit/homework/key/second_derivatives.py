@@ -24,7 +24,10 @@ def held_accelerations(way: AnswerReading, key: Key, names: tuple[str, ...]) -> 
     told = [[_multiple(e, g) for g in twice] for e in given]
     if any(True not in row and None in row for row in told):
         return None
-    return all(True in row for row in told) and all(any(row[j] for row in told) for j in range(len(twice)))
+    columns = [[row[j] for row in told] for j in range(len(twice))]
+    if any(True not in column and None in column for column in columns):
+        return None
+    return all(True in row for row in told) and all(True in column for column in columns)
 
 
 def _in_velocities(e: Expr) -> Expr:

@@ -26,21 +26,23 @@ from dofkit.system import System
 def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
     """Does nothing move when these coordinates are held: is what is finite in the scene, with dq = 0 for them, rigid?
 
-    Time stands still, so what it prescribes does not move. None where that was not decided. Non-holonomic constraints
-    are left out: they do not fix the configuration.
+    ``report``: of the scene, or without its last constraints, which define coordinates. Time stands still, so what it
+    prescribes does not move. None where that was not decided. Non-holonomic constraints are left out: they do not fix
+    the configuration.
     """
     basis = report.integrable_part.basis if report.integrable_part is not None else []
     if basis is None:
         return None
     held = [Equation(name=f"held {name}", text=f"d{name} = 0") for name in names]
-    named = [c.model_copy(update={"name": e.name}) for c, e in zip(scene.constraints, report.constraints, strict=True)]
+    own = [c.name for c in scene.constraints[len(report.constraints) :]]
+    given = [*(e.name for e in report.constraints), *own]
+    named = [c.model_copy(update={"name": name}) for c, name in zip(scene.constraints, given, strict=True)]
     whole = _with(scene, [*named, *held])
     if basis:
         whole = with_equations(whole, read_equations(basis, vocabulary_of(scene).names, constants=True), "integral")
     system = _at_one_time(lower(whole))
     reduced, setting = prepared(system)
-    own = {e.name for e in report.constraints}
-    finite = [replace(r, normals=_finite(r.normals)) if r.constraint.name in own else r for r in reduced]
+    finite = [replace(r, normals=_finite(r.normals)) if r.constraint.name in given else r for r in reduced]
     found = solve(system, finite, setting)
     return None if found.dof is None else found.dof == 0
 

@@ -64,7 +64,7 @@ class Redundant(QuestionBase):
 
     def _names(self, answer: Given, key: Key) -> list[str]:
         known = list(key.constraints)
-        none = is_none(answer, lambda part: lists_only(part, known))
+        none = is_none(answer, lambda part: lists_only(part, known), known, every=True)
         return [] if none else names_of(answer, known, "constraint", key.others)
 
     def solution(self, key: Key) -> Sentence:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -53,6 +54,11 @@ class Appeals:
             if (item.problem, item.question) in self._asked and item.status in ("right", "wrong", "partly"):
                 told = JudgedAnswer(item.problem, item.question, item.read_as, item.status, item.variant)
                 self._answers[told] = None
+
+    def gather(self, results: Iterable[Result]) -> None:
+        """More submissions."""
+        for result in results:
+            self.add(result)
 
     def write(self, folder: Path) -> list[Path]:
         """Write a certificate of each problem's scene, called by the problem, and of answers; the paths written.

@@ -181,8 +181,8 @@ class _Run:
             self.failed += journal.failed
             for one, lines in self._with_lines(left, False):
                 journal.write(one, lines)
-        for result in () if self.appeals is None else _results(path):
-            self.appeals.add(result)
+        if self.appeals is not None:
+            self.appeals.gather(_results(path))
         if self.form.name != NATIVE:
             self.form.written(_results(path), self.prepared, out, self.roster, self.sources)
         review.write(path, self.prepared)

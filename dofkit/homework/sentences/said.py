@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from importlib.resources import files
 from typing import Literal, NamedTuple
@@ -17,6 +18,41 @@ def catalogue() -> dict[str, dict[str, str]]:
     data = files("dofkit.homework.sentences").joinpath("catalogue.yaml").read_bytes()
     rows: list[dict[str, str]] = read_document(data, "catalogue").value
     return {language: {row["en"]: row[language] for row in rows} for language in ("de", "fr", "es")}
+
+
+@cache
+def _reading(language: Language) -> list[tuple[re.Pattern[str], str]]:
+    """What matches an English text of why reading stopped, and the same in a language with the names that it found."""
+    data = files("dofkit.homework.sentences").joinpath("reading.yaml").read_bytes()
+    rows: list[dict[str, str]] = read_document(data, "reading").value
+    return [(_pattern(row["en"]), row[language]) for row in rows]
+
+
+def _pattern(sentence: str) -> re.Pattern[str]:
+    parts = _PLACE.split(sentence)
+    return re.compile(
+        "".join(re.escape(part) if i % 2 == 0 else f"(?P<{part}>.+?)" for i, part in enumerate(parts)), re.DOTALL
+    )
+
+
+_PLACE = re.compile(r"\{(\w+)\}")
+
+
+def stopped(text: str, language: Language) -> str:
+    """Why reading stopped, or what to do, in a language; in English where it has no such text.
+
+    >>> stopped("`q` is not declared", "fr")
+    "`q` n'est pas déclaré"
+    """
+    for pattern, told in _reading(language) if language != "en" else ():
+        found = pattern.fullmatch(text)
+        if found is not None:
+            return told.format(**found.groupdict())
+    return text
+
+
+#: The places of a sentence in which it stands why reading stopped.
+FAULTS = frozenset({"fault", "hint"})
 
 
 class Said(NamedTuple):
@@ -35,7 +71,9 @@ class Said(NamedTuple):
         sentence = known.get(self.sentence, self.sentence)
         if not self.values:
             return sentence
-        return sentence.format(**{name: _word(str(value), known) for name, value in self.values})
+        return sentence.format(
+            **{n: stopped(str(v), language) if n in FAULTS else _word(str(v), known) for n, v in self.values}
+        )
 
 
 def _word(text: str, known: dict[str, str]) -> str:

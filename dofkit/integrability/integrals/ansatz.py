@@ -181,10 +181,10 @@ class FormSample:
 
     def series_of_slopes(self, monomials: Sequence[Monomial], order: int) -> nmod_mat:
         """The same along a curve: of every coefficient of the series a row, of every product a column."""
-        columns: list[list[int]] = [[] for _ in monomials]
+        columns: list[list[Any]] = [[] for _ in monomials]
         for rates in self._slopes(monomials):
             for column, rate in zip(columns, rates, strict=True):
-                found = [int(c) for c in rate.poly.coeffs()]
+                found = rate.poly.coeffs()
                 column += found + [0] * (order - len(found))
         return nmod_mat(columns, self.p).transpose()
 
@@ -259,7 +259,8 @@ def _sample_at(forms: Codistribution, point: FieldPoint | RandomCurve | None) ->
         basis = kernel(matrix, frame, one * 0) if frame.free else []
         gradients = {}
         for v in ring.vars:
-            g = gradient(ring, at, point, [(ring.var_node[v.index], one)])
+            plain = v.kind == "symbol"
+            g = {v.index: one} if plain else gradient(ring, at, point, [(ring.var_node[v.index], one)])
             gradients[v.index] = {place: g[c] for place, c in enumerate(columns) if c in g}
         at_vars = [at[ring.var_node[v.index]] for v in ring.vars]
     except NoValueError:

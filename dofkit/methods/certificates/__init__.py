@@ -8,12 +8,14 @@ from dofkit.base.surface import handed_on
 
 if TYPE_CHECKING:
     from dofkit.methods.certificates.answers import certificates_of
+    from dofkit.methods.certificates.motion_evidence import certificate_of_motion
     from dofkit.methods.certificates.verifying import verify
 
-__all__ = ["certificates_of", "verify"]
+__all__ = ["certificate_of_motion", "certificates_of", "verify"]
 
 #: What is handed on, and where it lives: imported when it is first asked for.
 _HOMES = {
+    "certificate_of_motion": "dofkit.methods.certificates.motion_evidence",
     "certificates_of": "dofkit.methods.certificates.answers",
     "verify": "dofkit.methods.certificates.verifying",
 }

@@ -49,7 +49,7 @@ def functions_of(document: Mapping[str, Any], names: Sequence[str]) -> list[str]
     """What constraints say is 0, in the checker's reading; `CheckError` where it holds lengths that are not told."""
     problem = read_problem(document)
     found = [one for one in problem.relations if one.owner in names]
-    if any(one.kind == "inequality" or not one.left.symbols.isdisjoint(problem.generic) for one in found):
+    if any(one.kind == "inequality" or not one.left.symbols.isdisjoint(problem.world.generic) for one in found):
         raise CheckError("an inequality, or a length that is not told")
     return [text_of(one.left).replace("tdot", "1") for one in found]
 

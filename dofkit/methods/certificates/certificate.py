@@ -108,7 +108,7 @@ class Certifying:
             else:
                 self.found["claims"].append(claim)
                 self._compare_about(path, claim)
-        written = _without_spare_parts(self.found)
+        written = without_spare_parts(self.found)
         for path, value, make in left:
             self._look_for_others(path, value, make)
         written["uncovered"] = [path for path in written["uncovered"] if path not in self.contradictions]
@@ -197,7 +197,7 @@ def _guarded(found: Iterator[Found]) -> Iterator[Found]:
         return
 
 
-def _without_spare_parts(found: dict[str, Any]) -> dict[str, Any]:
+def without_spare_parts(found: dict[str, Any]) -> dict[str, Any]:
     """The certificate with only the parts that its claims use."""
     used = _texts_in(found["claims"])
     for part in ("covers", "minors", "fields", "points"):
@@ -232,7 +232,7 @@ def _rooms(
     plain = read_problem(document)
     rooms = [Room(report, document, Scenery(plain, False, parts))]
     bodies = frozenset(_names(document.get("bodies")))
-    if plain.dimension == 3 and bodies and plain.reference:
+    if plain.world.dimension == 3 and bodies and plain.reference:
         chart = _with_cayley(document, bodies)
         if chart is not None:
             found["cayley"] = sorted(bodies)

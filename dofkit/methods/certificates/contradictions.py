@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from typing import Any, NamedTuple
 
-from dofkit.checker.fields import admissible, field_named, involutive, span
+from dofkit.checker.evidence import admissible, field_named, involutive, span
 from dofkit.checker.label_rules import consistent, moves
 from dofkit.checker.trees import CheckError, add, negative, number, times
-from dofkit.checker.values import along, derivative, excludes_zero
+from dofkit.checker.values import along, derivative, not_zero
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.everywhere import graph_order
 from dofkit.methods.certificates.forms import Words, involutive_rows, tangent_fields, words_of
@@ -129,7 +129,7 @@ def is_one_part(room: Room) -> bool:
     """
     evidence = room.scenery.evidence
     analytic = all(evidence.has_value_everywhere(evidence.relation(one).left) for one in evidence.equations)
-    if not analytic or room.problem.functions:
+    if not analytic or room.problem.world.names.functions:
         return False
     slopes = (evidence.slope(one, q) for one in evidence.finite for q in room.problem.coordinates)
     if all(map(evidence.own_symbol, evidence.finite)) or all(evidence.ring.rational(s) is not None for s in slopes):
@@ -272,7 +272,7 @@ def _no_integral(room: Room, entry: ConstraintEntry) -> Iterator[Contradiction]:
     given = {"at": standing.point.name, "fields": fields, "rows": standing.rows, "minor": room.minor(standing)}
     point, function = admissible(evidence, given, evidence.equations)[0], evidence.text(text)
     for one in fields:
-        if excludes_zero(point.value(along(field_named(evidence, one), function))):
+        if not_zero(point.value(along(field_named(evidence, one), function))):
             yield Contradiction("the evidence gives a velocity that changes it")
 
 
@@ -289,7 +289,7 @@ def _no_factor(room: Room, entry: ConstraintEntry) -> Iterator[Contradiction]:
     for i, v in enumerate(variables):
         for u in variables[:i]:
             curl = add(derivative(scaled[v], u), negative(derivative(scaled[u], v)))
-            if room.differs(curl, point) and excludes_zero(evidence.point(point.name).value(curl)):
+            if room.differs(curl, point) and not_zero(evidence.point(point.name).value(curl)):
                 yield Contradiction(f"the evidence gives a curl in {u}, {v} that is not 0")
 
 

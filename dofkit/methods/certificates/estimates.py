@@ -23,7 +23,7 @@ class Values:
         self.values = values
         self._done: dict[int, tuple[Tree, float]] = {}
 
-    def of(self, tree: Tree) -> float:
+    def value(self, tree: Tree) -> float:
         """The value; `NoEstimateError` where there is none."""
         known = self._done.get(id(tree))
         if known is None:
@@ -41,7 +41,7 @@ class Values:
             return self.values[str(tree.value)]
         if head == "pi":
             return math.pi
-        below = [self.of(part) for part in tree.below]
+        below = [self.value(part) for part in tree.below]
         if head == "sum":
             return sum(below)
         if head == "product":
@@ -65,13 +65,13 @@ class Estimates:
 
     def value(self, tree: Tree) -> float:
         """The value; `NoEstimateError` where there is none."""
-        return self.of(tree)[0]
+        return self.value_and_gradient(tree)[0]
 
     def gradient(self, tree: Tree) -> Gradient:
         """The derivatives by the symbols that occur."""
-        return self.of(tree)[1]
+        return self.value_and_gradient(tree)[1]
 
-    def of(self, tree: Tree) -> Estimate:
+    def value_and_gradient(self, tree: Tree) -> Estimate:
         """Value and gradient."""
         known = self._done.get(id(tree))
         if known is None:
@@ -90,7 +90,7 @@ class Estimates:
             return self.values[name], {name: 1.0}
         if head == "pi":
             return math.pi, {}
-        below = [self.of(part) for part in tree.below]
+        below = [self.value_and_gradient(part) for part in tree.below]
         if head == "sum":
             return sum(value for value, _ in below), combined([(1.0, slope) for _, slope in below])
         if head == "product":

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from dofkit.checker.trees import CheckError
-from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.forms import orbit
 from dofkit.methods.certificates.rigid_fields import backing
 from dofkit.methods.certificates.room import Room, Standing, Told
@@ -109,7 +108,7 @@ def graph_order(room: Room, names: Sequence[str] | None = None, columns: Sequenc
 def _moved(room: Room, name: str) -> set[str]:
     """The variables of a finite relation; those with velocities in another."""
     one = room.scenery.evidence.relation(name)
-    held = symbols_in(one.left)
+    held = one.left.symbols
     if one.kind == "finite":
         return set(held) & set(room.scenery.evidence.variables)
     return {q for q in room.problem.coordinates if f"{q}dot" in held}
@@ -118,7 +117,7 @@ def _moved(room: Room, name: str) -> set[str]:
 def given_first(room: Room, names: Sequence[str]) -> tuple[Order, list[str]]:
     """Relations that give a coordinate which those chosen before do not hold, short ones first; and the others."""
     coordinates = room.problem.coordinates
-    held = {name: symbols_in(room.scenery.evidence.relation(name).left) & set(coordinates) for name in names}
+    held = {name: room.scenery.evidence.relation(name).left.symbols & set(coordinates) for name in names}
     order: Order = []
     taken: set[str] = set()
     for name in sorted(held, key=lambda one: len(held[one])):
@@ -134,7 +133,7 @@ def _gives(room: Room, name: str, q: str) -> bool:
     evidence = room.scenery.evidence
     try:
         slope = evidence.slope(name, q)
-        plain = symbols_in(slope) <= evidence.chosen and room.point is not None and room.differs(slope, room.point)
+        plain = slope.symbols <= evidence.chosen and room.point is not None and room.differs(slope, room.point)
         return plain or bool(evidence.ring.rational(slope))
     except CheckError:
         return False
@@ -143,10 +142,10 @@ def _gives(room: Room, name: str, q: str) -> bool:
 def own_symbols(room: Room) -> dict[str, str]:
     """For each relation a generic symbol or parameter that occurs in no other."""
     relations = room.problem.relations
-    held = {one.name: symbols_in(one.left) for one in relations}
+    held = {one.name: one.left.symbols for one in relations}
     found: dict[str, str] = {}
     for one in relations:
-        for symbol in (*room.problem.generic, *room.problem.parameters):
+        for symbol in (*room.problem.world.generic, *room.problem.world.signs):
             if symbol in held[one.name] and not any(symbol in held[other] for other in held if other != one.name):
                 found.setdefault(one.name, symbol)
     return found
@@ -158,7 +157,7 @@ def _split(room: Room, order: Order, left: list[str], own: dict[str, str]) -> tu
     coordinates = set(room.problem.coordinates)
 
     def free(name: str) -> frozenset[str]:
-        held = symbols_in(room.scenery.evidence.relation(name).left) & coordinates
+        held = room.scenery.evidence.relation(name).left.symbols & coordinates
         return frozenset().union(*(given.get(q, frozenset((q,))) for q in held))
 
     for name, q in order:

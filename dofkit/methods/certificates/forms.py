@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from dofkit.checker.evidence import CheckedEvidence
-from dofkit.checker.fields import VelocityField, bracket, field_named
+from dofkit.checker.evidence import CheckedEvidence, VelocityField, bracket, field_named
 from dofkit.checker.trees import ZERO, CheckError, Tree, negative
-from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError, Values
 from dofkit.methods.certificates.found_points import FoundPoint
@@ -36,7 +34,7 @@ def tangent_fields(room: Room, standing: Standing) -> list[str] | None:
     """Fields that span the kernel of rows: one for every coordinate (and time) that is no column."""
     scenery, pairs = room.scenery, dict(zip(standing.rows, standing.columns, strict=True))
     evidence = scenery.evidence
-    timed = any(not {"t", "tdot"}.isdisjoint(symbols_in(evidence.relation(row).left)) for row in standing.rows)
+    timed = any(not {"t", "tdot"}.isdisjoint(evidence.relation(row).left.symbols) for row in standing.rows)
     free = [q for q in (*room.problem.coordinates, *(["t"] if timed else [])) if q not in pairs.values()]
     found = []
     for one in free:
@@ -72,7 +70,7 @@ def _touched(room: Room, standing: Standing, free: str) -> list[str]:
 
 
 def _holds(tree: Tree, name: str) -> bool:
-    return not {name, f"{name}dot"}.isdisjoint(symbols_in(tree))
+    return not {name, f"{name}dot"}.isdisjoint(tree.symbols)
 
 
 def words_of(room: Room, standing: Standing, most: int) -> Words | None:
@@ -108,7 +106,7 @@ def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Word
     for _ in range(LONGEST):
         fresh = []
         for word, value in level:
-            vector = {q: estimates.of(tree) for q, tree in value.items()}
+            vector = {q: estimates.value(tree) for q, tree in value.items()}
             pivots = echelon([*vectors, vector]).pivots
             if len(pivots) > len(vectors):
                 words.append(word)

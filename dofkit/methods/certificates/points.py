@@ -110,7 +110,7 @@ class PointSearch:
         if self.scenery.timed:
             known = attempt == 0 and "t" in self.witness
             found["t"] = self.witness["t"].limit_denominator(64) if known else Fraction(drawn.randint(1, 8), 8)
-        for name in (*self.problem.coordinates, *self.problem.generic, *unknowns):
+        for name in (*self.problem.coordinates, *self.problem.world.generic, *unknowns):
             if name not in found:
                 found[name] = Fraction(drawn.choice([-1, 1]) * drawn.randint(3, 24), 8)
         if attempt == 0:
@@ -129,7 +129,7 @@ class PointSearch:
         for _ in range(ITERATIONS):
             self.scenery.effort.spend(40 * len(names) * (1 + len(names)))
             estimates = Estimates(floats)
-            pairs = [estimates.of(self.scenery.left(name)) for name in names]
+            pairs = [estimates.value_and_gradient(self.scenery.left(name)) for name in names]
             if max((abs(value) for value, _ in pairs), default=0.0) < 1e-13:
                 return floats
             rows = [{n: s for n, s in slope.items() if n in unknowns} for _, slope in pairs]
@@ -143,10 +143,10 @@ class PointSearch:
 
     def _with_generic(self, floats: dict[str, float], names: Sequence[str]) -> dict[str, float]:
         """Generic lengths as they are at the start."""
-        generic = set(self.problem.generic)
+        generic = set(self.problem.world.generic)
         estimates = Estimates(dict(floats))
         for name in names if generic else ():
-            value, slope = estimates.of(self.scenery.left(name))
+            value, slope = estimates.value_and_gradient(self.scenery.left(name))
             own = [symbol for symbol in slope if symbol in generic]
             if len(own) == 1:
                 floats[own[0]] -= value / slope[own[0]]

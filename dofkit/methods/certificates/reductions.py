@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from dofkit.checker.trees import CheckError, Tree, add, number, power, times
-from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.scenery import Scenery
 from dofkit.methods.certificates.texts import number_text, text_of
 
@@ -73,7 +72,7 @@ def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
                 return None
         else:
             return None
-    return None if base is None or not symbols_in(base) else (coefficient, base, exponent)
+    return None if base is None or not base.symbols else (coefficient, base, exponent)
 
 
 def without_factor(scenery: Scenery, name: str) -> str:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from dofkit.checker.fields import field_named, on_row
+from dofkit.checker.evidence import field_named, on_row
 from dofkit.checker.trees import CheckError
-from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.estimates import Estimates
 from dofkit.methods.certificates.room import Room, Standing, Told
@@ -62,7 +61,7 @@ def backing(room: Room, standing: Standing | None) -> Told | None:
 def covering(room: Room, standing: Standing) -> list[Told] | None:
     """Blocks of relations whose rank is told by how many there are, or by rigid motions."""
     scenery, blocks = room.scenery, []
-    candidates = motions(room.document, room.problem.dimension)
+    candidates = motions(room.document, room.problem.world.dimension)
     known = {*standing.rows, *standing.dependent}
     finite = [name for name in scenery.evidence.finite if name in known]
     for names in parts_of(scenery, finite):
@@ -70,7 +69,7 @@ def covering(room: Room, standing: Standing) -> list[Told] | None:
         if rank == len(names):
             blocks.append({"rows": names, "fields": [], "columns": []})
             continue
-        held = {symbol for name in names for symbol in symbols_in(scenery.evidence.relation(name).left)}
+        held = {symbol for name in names for symbol in scenery.evidence.relation(name).left.symbols}
         own = [q for q in room.problem.coordinates if q in held]
         fields = [{q: text for q, text in one.items() if q in held} for one in candidates]
         columns = _chosen(scenery, fields, standing)
@@ -85,7 +84,7 @@ def kept_motions(room: Room, columns: Sequence[str]) -> dict[str, str]:
     """Motions of all together that keep all finite relations, each with a column: independent at the main point."""
     scenery, estimates = room.scenery, Estimates(room.point.floats if room.point else {})
     finite = list(scenery.evidence.finite)
-    ids = [field_id(scenery, {"components": one}) for one in motions(room.document, room.problem.dimension)]
+    ids = [field_id(scenery, {"components": one}) for one in motions(room.document, room.problem.world.dimension)]
     kept = [one for one in ids if _kept(scenery, [one], finite)]
     fields = [field_named(scenery.evidence, one) for one in kept]
     rows = [{q: estimates.value(tree) for q, tree in one.items() if q in columns} for one in fields]
@@ -95,7 +94,7 @@ def kept_motions(room: Room, columns: Sequence[str]) -> dict[str, str]:
 def parts_of(scenery: Scenery, names: list[str]) -> list[list[str]]:
     """Relations that share coordinates, together."""
     coordinates = set(scenery.problem.coordinates)
-    held = {name: symbols_in(scenery.evidence.relation(name).left) for name in names}
+    held = {name: scenery.evidence.relation(name).left.symbols for name in names}
     moved = {name: {s for q in coordinates for s in (q, f"{q}dot") if s in held[name]} for name in names}
     found: list[tuple[set[str], list[str]]] = []
     for name in names:

@@ -10,7 +10,6 @@ from typing import Any
 from dofkit.checker.label_rules import form_of
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.trees import CheckError, Tree
-from dofkit.checker.values import symbols_in
 from dofkit.methods.certificates.dependence import accounted, rate_of
 from dofkit.methods.certificates.elimination import echelon
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
@@ -79,7 +78,7 @@ class RoomParts:
 
     def met(self, form: Mapping[str, Tree]) -> frozenset[str]:
         """The variables of a form: those it moves and those it mentions."""
-        return frozenset(form).union(*(symbols_in(tree) for tree in form.values()))
+        return frozenset(form).union(*(tree.symbols for tree in form.values()))
 
     def differs(self, tree: Tree, point: FoundPoint) -> bool:
         """Whether a tree is not 0 at a point, by far."""
@@ -141,7 +140,7 @@ class Room(RoomParts):
 
     def _searched(self) -> FoundPoint | None:
         problem = self.problem
-        unknowns = [*problem.coordinates, *problem.generic]
+        unknowns = [*problem.coordinates, *problem.world.generic]
         names = reduced(self.scenery, self.scenery.evidence.finite)
         if self.nonlinear:
             names += [name for name in self.equations if name not in names]

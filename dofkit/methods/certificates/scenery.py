@@ -10,7 +10,7 @@ from typing import Any
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.trees import CheckError, Effort, Tree
-from dofkit.checker.values import substituted, symbols_in
+from dofkit.checker.values import substituted
 
 #: Units of the checker's work that looking for the evidence of one scene may cost.
 WORK = 12_000_000
@@ -38,20 +38,22 @@ class Scenery:
     @cached_property
     def functions(self) -> dict[str, dict[str, Any]]:
         """A polynomial for every unknown function."""
-        return {name: _polynomial(len(own), i) for i, (name, own) in enumerate(self.problem.functions.items())}
+        return {
+            name: _polynomial(len(own), i) for i, (name, own) in enumerate(self.problem.world.names.functions.items())
+        }
 
     @cached_property
     def parameters(self) -> dict[str, Fraction]:
         """A value for every parameter that occurs."""
-        used = {name for one in self.problem.relations for name in symbols_in(one.left)}
-        used |= {name for tree in self.problem.reference.values() for name in symbols_in(tree)}
-        names = [name for name in self.problem.parameters if name in used]
+        used = {name for one in self.problem.relations for name in one.left.symbols}
+        used |= {name for tree in self.problem.reference.values() for name in tree.symbols}
+        names = [name for name in self.problem.world.signs if name in used]
         return {name: _CHOICES[i % len(_CHOICES)] for i, name in enumerate(names)}
 
     @cached_property
     def timed(self) -> bool:
         """Whether time occurs in any relation, inequalities included."""
-        return any(not {"t", "tdot"}.isdisjoint(symbols_in(one.left)) for one in self.problem.relations)
+        return any(not {"t", "tdot"}.isdisjoint(one.left.symbols) for one in self.problem.relations)
 
     def linear(self, name: str) -> bool:
         """Whether a relation is a linear form in the velocities; False where that cannot be told."""

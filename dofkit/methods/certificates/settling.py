@@ -36,7 +36,7 @@ class PointSettling:
         estimates = Estimates(floats)
         lefts = [self.scenery.left(name) for name in names]
         rows = [{n: s for n, s in estimates.gradient(left).items() if n in unknowns} for left in lefts]
-        generic = set(self.problem.generic)
+        generic = set(self.problem.world.generic)
 
         def weight(place: int, column: str) -> float:
             if column in generic:
@@ -52,7 +52,7 @@ class PointSettling:
         for most in _ROUNDINGS:
             exact = {name: Fraction(round(value * most), most) for name, value in found.items() if name not in columns}
             exact |= {name: value for name, value in self.scenery.parameters.items() if name in exact}
-            if any(s != "real" and exact.get(n, 1) <= 0 for n, s in self.problem.parameters.items()):
+            if any(s != "real" and exact.get(n, 1) <= 0 for n, s in self.problem.world.signs.items()):
                 continue
             floats = {**found, **floats_of(exact)}
             try:
@@ -71,7 +71,7 @@ class PointSettling:
         found, wanted = dict(floats), set(columns)
         for _ in range(ITERATIONS):
             estimates = Estimates(found)
-            pairs = [estimates.of(self.scenery.left(name)) for name in rows]
+            pairs = [estimates.value_and_gradient(self.scenery.left(name)) for name in rows]
             matrix = [{n: s for n, s in slope.items() if n in wanted} for _, slope in pairs]
             step = solved(matrix, [value for value, _ in pairs], columns)
             if step is None or any(abs(change) > 1e6 for change in step.values()):

@@ -7,7 +7,7 @@ from itertools import combinations
 
 from flint import arb
 
-from dofkit.checker.fields import HIGHEST_ORDER, along_curve
+from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
 from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates.families import families
 from dofkit.methods.certificates.rigid_fields import kept_motions

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 
 from dofkit.checker.trees import ZERO, CheckError, Tree, difference, negative, times
-from dofkit.checker.values import linear_in, put_in, symbols_in
+from dofkit.checker.values import linear_in, put_in
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
 from dofkit.methods.certificates.found_points import FoundPoint
 from dofkit.methods.certificates.scenery import Scenery
@@ -27,7 +27,7 @@ def puts(scenery: Scenery, names: Sequence[str]) -> Order:
     """
     evidence, coordinates = scenery.evidence, scenery.problem.coordinates
     lefts = {name: evidence.relation(name).left for name in names if evidence.relation(name).kind == "finite"}
-    held = {name: symbols_in(left).intersection(coordinates) for name, left in lefts.items()}
+    held = {name: left.symbols.intersection(coordinates) for name, left in lefts.items()}
     order: Order = []
     taken: set[str] = set()
     for name in sorted(held, key=lambda one: len(held[one])):
@@ -51,11 +51,11 @@ def with_puts(scenery: Scenery, tree: Tree, order: Order) -> Tree:
 
 def needed_puts(scenery: Scenery, trees: Iterable[Tree], order: Order) -> Order:
     """Those that change trees."""
-    held, found = frozenset[str]().union(*map(symbols_in, trees)), Order()
+    held, found = frozenset[str]().union(*(tree.symbols for tree in trees)), Order()
     for name, q in order:
         if q in held:
             found.append([name, q])
-            held |= symbols_in(scenery.evidence.relation(name).left)
+            held |= scenery.evidence.relation(name).left.symbols
     return found
 
 
@@ -83,7 +83,7 @@ def _stands(scenery: Scenery, step: dict[str, object]) -> bool:
 
 def _pair_steps(scenery: Scenery, pair: tuple[str, str], point: FoundPoint) -> Iterator[dict[str, object]]:
     lefts = [scenery.evidence.relation(name).left for name in pair]
-    shared = symbols_in(lefts[0]) & symbols_in(lefts[1])
+    shared = lefts[0].symbols & lefts[1].symbols
     for one, other in combinations([q for q in scenery.problem.coordinates if q in shared], 2):
         parts = [linear_in(left, (one, other)) for left in lefts]
         if any(part is None or not scenery.evidence.ring.vanishes(part[1]) for part in parts):

@@ -16,6 +16,7 @@ from dofkit.mobility.graph.compiled import Engine, engine_for
 from dofkit.mobility.graph.grouping import ascending, places_by_label
 from dofkit.mobility.graph.net import Net
 from dofkit.mobility.graph.pebbles import FREE, Board
+from dofkit.mobility.graph.plain_game import PlainGame, plain_net
 
 # [JacobsHendrickson1997] [PollaczekGeiringer1927] [Laman1970]
 _PROOF = Proof(
@@ -73,8 +74,11 @@ class PlaneGraph:
         self._ends = self._engine.array(ends)
         self._dependent = self._engine.filled(links, 0)
         self._board = _board(self._engine, joints, links)
-        net, outer = _net(self._engine, self._ends, joints, self._dependent)
-        self._engine.kernels.play(self._board, net, outer, self._dependent)
+        if self._engine.compiled:
+            net, outer = _net(self._engine, self._ends, joints, self._dependent)
+            self._engine.kernels.play(self._board, net, outer, self._dependent)
+        elif links:
+            PlainGame(self._board).play(*plain_net(ends, joints), self._dependent)
 
     @cached_property
     def redundant(self) -> list[int]:

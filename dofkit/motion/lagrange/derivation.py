@@ -1,4 +1,4 @@
-"""Lagrange's equations d/dt dL/dqdot - dL/dq = Q + sum lam a, by SymPy's mechanics, in readable form."""
+"""Lagrange's equations d/dt dL/dqdot - dL/dq = Q + sum lam a [Lagrange1788], by SymPy's mechanics, in readable form."""
 
 from __future__ import annotations
 

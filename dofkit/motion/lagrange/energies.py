@@ -103,9 +103,13 @@ def _turning(world: World, inertia: object, frame: Frame) -> Expr:
     if frame.dimension == 2:
         rate = ex.velocity(frame.angles[0])
         return HALF * mass(world, inertia, "inertia", frame.name) * rate * rate
-    spin = body_spin(frame)
+    return spin_energy(world, inertia, frame.name, body_spin(frame))
+
+
+def spin_energy(world: World, inertia: object, name: str, spin: Vec) -> Expr:
+    """s.J s/2 of the body of that name in space, with the spin s and J in its axes."""
     if not isinstance(inertia, tuple):
-        return HALF * mass(world, inertia, "inertia", frame.name) * square(spin)
+        return HALF * mass(world, inertia, "inertia", name) * square(spin)
     if len(inertia) != 3:
         world.fault("an inertia is one number, three principal moments or three rows", "inertia")
         return ZERO

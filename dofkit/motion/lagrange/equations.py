@@ -7,6 +7,7 @@ multiplier where not, as non-holonomic ones always do; redundant ones are left o
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from dofkit.base.arguments import seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, by_processor, check, left, limited
@@ -22,6 +23,7 @@ from dofkit.motion.lagrange.conserved import conserved, cyclic
 from dofkit.motion.lagrange.derivation import Derived, derive
 from dofkit.motion.lagrange.elimination import ELIMINATIONS, Care
 from dofkit.motion.lagrange.energies import Energy, energy_of
+from dofkit.motion.lagrange.joint_motion import joint_motion, written_length
 from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError, modelled
 from dofkit.motion.lagrange.quantities import missing
 from dofkit.motion.lagrange.regularity import SINGULAR, degenerate
@@ -29,10 +31,12 @@ from dofkit.motion.lagrange.report import Conserved, Linearized, MotionReport
 from dofkit.motion.lagrange.small_motions import linearized
 from dofkit.motion.lagrange.term_order import ordered
 from dofkit.motion.lagrange.tidying import by_rates, length
+from dofkit.scene.drawing import Drawing
 from dofkit.scene.lowering import system_of
 from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
 from dofkit.scene.survey import survey
+from dofkit.system import System
 
 __all__ = ["Conserved", "Linearized", "MotionReport", "NoEquationsError", "derived_of", "lagrange"]
 
@@ -40,10 +44,20 @@ __all__ = ["Conserved", "Linearized", "MotionReport", "NoEquationsError", "deriv
 LONGEST = 500
 #: Seconds for each attempt with less eliminated than the one before.
 TRYING = 8.0
+#: Seconds for the equations of a tree in the angles of its joints, and the nodes of a Lagrangian that is tried.
+JOINTS_TRYING, MOST_WRITTEN = 20.0, 2000
 #: Seconds for sorting a Lagrangian, and the nodes of one that is too long for that.
 SORTING, MOST_NODES = 2.0, 1500
 #: Said where the elimination was cut short.
 LONG = "More could be eliminated, but the equations would be too long to read: some constraints keep a multiplier."
+
+#: Said where a tree is too large.
+TOO_LONG = (
+    "in the angles and displacements of {} joints the Lagrangian has {} parts, and at most {} are differentiated in "
+    "the time there is: weld some of the joints, or take a part of the tree"
+)
+#: Said where texts are longer than a scene's may be.
+LENGTHY = f"Some of these texts have more than {MAX_CHARACTERS} characters, which no scene reads."
 
 
 def lagrange(scene: SceneLike, linearize: bool = False, budget: float | None = None) -> MotionReport:
@@ -77,6 +91,9 @@ def derived_of(scene: Scene) -> Derived:
     Where they would be longer than a text of a scene may be, less is eliminated, and more multipliers are kept.
     """
     source = read(scene)
+    by_joints = _by_joints(source)
+    if by_joints is not None:
+        return by_joints
     freest: LagrangeModel | None = None
     for care in ELIMINATIONS[:-1]:
         model = source.model(care)
@@ -94,6 +111,28 @@ def derived_of(scene: Scene) -> Derived:
             if _readable(derived):
                 return _with_note(derived, freest)
     return _with_note(derive(source.model(ELIMINATIONS[-1])), freest)
+
+
+def _by_joints(source: MotionSource) -> Derived | None:
+    """The equations of a tree in space in joint coordinates; None of any other. Raises where they are too long."""
+    tree = joint_motion(source.scene, source.drawing, source.system)
+    if tree is None:
+        return None
+    energy, scene = tree.energy, load(tree.value)
+    terms = written_length(energy.lagrangian)
+    if terms > MOST_WRITTEN:
+        raise NoEquationsError(TOO_LONG.format(len(scene.coordinates), terms, MOST_WRITTEN))
+    found = survey(scene)
+    own = replace(source, system=system_of(scene, found), energy=energy, names=found.names)
+    try:
+        with by_processor(min(JOINTS_TRYING, 0.5 * left())):
+            derived = derive(_sorted(own.model()))
+    except OutOfTimeError:
+        check()
+        raise NoEquationsError(TOO_LONG.format(len(scene.coordinates), terms, "fewer")) from None
+    if _readable(derived):
+        return derived
+    return replace(derived, model=replace(derived.model, notes=(*derived.model.notes, LENGTHY)))
 
 
 def _with_note(derived: Derived, freest: LagrangeModel | None) -> Derived:
@@ -146,9 +185,15 @@ class MotionSource:
     """What the equations of motion of a scene are derived from."""
 
     scene: Scene
-    study: Examined
+    system: System
     energy: Energy
     names: Names
+    drawing: Drawing
+
+    @cached_property
+    def study(self) -> Examined:
+        """What is known of the scene's constraints."""
+        return studied(self.system)
 
     def model(self, care: Care = ELIMINATIONS[0]) -> LagrangeModel:
         """Made ready, with as much eliminated as ``care`` allows. Raises SceneError for masses that are missing."""
@@ -174,7 +219,7 @@ def read(scene: Scene) -> MotionSource:
         )
         hint = "add `energies: {kinetic: ..., potential: ...}`, or a `mass` to its particles and bodies"
         raise SceneError((Fault(message, hint=hint),), scene.name)
-    return MotionSource(scene, studied(system_of(scene, found)), energy, found.names)
+    return MotionSource(scene, system_of(scene, found), energy, found.names, found.drawing)
 
 
 def _tells_of_motion(scene: Scene) -> bool:

@@ -12,7 +12,7 @@ from typing import Literal
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import HALF, ZERO, Expr
-from dofkit.expressions.vectors import Vec, dot, length, minus, scaled, square
+from dofkit.expressions.vectors import Vec, dot, length, minus, plus, scaled, square
 from dofkit.motion.lagrange.quantities import EntryWorlds, masses, moving, needed
 from dofkit.motion.lagrange.rates import by_time
 from dofkit.scene.frames import Placed
@@ -77,7 +77,7 @@ class ForceReader:
         return work
 
     def _gravity(self, world: World, force: Force) -> Expr:
-        pull = _vector(world, force.acceleration, force.direction, "acceleration", downward=True)
+        pull = _pull(world, force)
         return -ex.add(*(
             mass * dot(pull, tuple(map(ex.coordinate, names))) for _, mass, names in masses(self.scene, self.worlds)
         ))  # fmt: skip
@@ -103,6 +103,16 @@ class ForceReader:
         if rest.is_zero:
             return HALF * stiffness * square(gap)
         return HALF * stiffness * (ex.sqrt(square(gap)) - rest) ** 2
+
+
+def gravity_of(scene: Scene, worlds: EntryWorlds) -> Vec:
+    """The acceleration of all gravity in a scene."""
+    pulls = [_pull(worlds.at("forces", i), force) for i, force in enumerate(scene.forces) if force.type == "gravity"]
+    return plus((ZERO,) * scene.dimension, *pulls)
+
+
+def _pull(world: World, force: Force) -> Vec:
+    return _vector(world, force.acceleration, force.direction, "acceleration", downward=True)
 
 
 def _damper(world: World, force: Force) -> Expr:

@@ -8,7 +8,7 @@ from pydantic import Field, PrivateAttr
 
 from dofkit.base.display import Companion, DisplayedFormulas, text_of
 from dofkit.base.verdicts import Verdict
-from dofkit.report import ToldModel
+from dofkit.report import Report, ToldModel
 
 if TYPE_CHECKING:
     from dofkit.motion.lagrange.derivation import Derived
@@ -77,11 +77,20 @@ class MotionReport(DisplayedFormulas, ToldModel):
         """What the command line prints; its lines are not broken, so that equations can be copied."""
         return text_of(self, width)
 
+    @property
+    def classification(self) -> Report:
+        """The report of the constraints that the equations rest on; of one that was read back there is none."""
+        return self._own.model.study.report
+
+    @property
+    def _own(self) -> Derived:
+        if self._derived is None:
+            raise ValueError("this report was read back as text: derive it again by dofkit.lagrange(scene)")
+        return self._derived
+
     def to_sympy(self) -> Handover:
         """Coordinates, speeds, Lagrangian, forces and constraint lists, ready for LagrangesMethod and KanesMethod.
 
         Raises ValueError for a report that was read back and not derived here.
         """
-        if self._derived is None:
-            raise ValueError("this report was read back as text: derive it again by dofkit.lagrange(scene)")
-        return self._derived.handover
+        return self._own.handover

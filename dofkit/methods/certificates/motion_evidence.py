@@ -1,0 +1,145 @@
+"""Evidence for equations of motion: a point of the motions that are told, rows, and what relations are multiples of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from typing import Any
+
+from dofkit.checker.problem import CheckedProblem as Problem
+from dofkit.checker.problem import canonical, read_problem, sha256_of
+from dofkit.checker.trees import MINUS, ONE, Tree, number, power, symbol, times
+from dofkit.checker.values import along, substituted
+from dofkit.checker.verification import PARTS
+from dofkit.methods.certificates.certificate import HINDRANCES, without_spare_parts
+from dofkit.methods.certificates.estimates import Estimates
+from dofkit.methods.certificates.found_points import FoundPoint
+from dofkit.methods.certificates.lowering import document_of_scene
+from dofkit.methods.certificates.room import Room, Told
+from dofkit.methods.certificates.scenery import Scenery
+from dofkit.methods.certificates.texts import number_text, text_of
+from dofkit.methods.certificates.trial import ClaimTrial
+from dofkit.motion_checker import MOTION_RULES, TOLD
+from dofkit.report import Report
+from dofkit.scene.scene import Scene
+
+PATH = "/motion"
+#: How many points are tried.
+MOST_POINTS = 4
+
+
+def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Report) -> dict[str, Any]:
+    """The certificate of equations of motion, as `lagrange` tells them; uncovered where no evidence was found.
+
+    ``report``: what the equations rest on.
+    """
+    document = document_of_scene(scene)
+    parts: dict[str, list[Told]] = {part: [] for part in PARTS}
+    named = {"name": report.scene, "sha256": sha256_of(document), "document": canonical(document)}
+    found: dict[str, Any] = {"certificate": 1, "scene": named, "cayley": [], **parts, "claims": [], "uncovered": [PATH]}
+    try:
+        problem = read_problem(document)
+        room = Room(report, document, Scenery(problem, False, parts))
+        trial = ClaimTrial(document, found, problem, MOTION_RULES)
+        trial.admit(room.scenery)
+        for evidence in MotionEvidence(room, {name: motion[name] for name in TOLD}).found():
+            if trial.outcome(evidence) == "shown":
+                found |= {"claims": [evidence], "uncovered": []}
+                break
+    except HINDRANCES:
+        pass
+    return without_spare_parts(found)
+
+
+class MotionEvidence:
+    """What is told of a motion, in the checker's reading."""
+
+    def __init__(self, room: Room, told: dict[str, Any]) -> None:
+        self.room, self.told, self.evidence = room, told, room.scenery.evidence
+        self.problem: Problem = room.problem
+        self.constants = self._constants()
+        self.places = {q: self.read(text) for q, text in told["eliminated"].items()}
+        self.limits = dict(zip(told["multipliers"], map(self.read, told["constraints"]), strict=True))
+
+    def _constants(self) -> dict[str, str]:
+        """Names in the eliminated coordinates that are none of the scene's: constants of integration."""
+        found: dict[str, str] = {}
+        for text in self.told["eliminated"].values():
+            for k in range(1, 5):
+                for name in (f"C{k}", f"C_{k}", "C"):
+                    if name in text and name not in (*self.problem.world.signs, *self.problem.coordinates):
+                        found[name] = "0"
+        return found
+
+    def read(self, text: str) -> Tree:
+        """A text of the report."""
+        kept = (f"{q}ddot" for q in self.told["coordinates"])
+        return self.evidence.text(text.removesuffix("= 0"), [*self.told["multipliers"], *self.constants, *kept])
+
+    def found(self) -> Iterator[Told]:
+        """Claims, one point after another."""
+        claim: Told = {"path": PATH, "value": self.told, "rule": "lagrange", "c": self.cofactors()}
+        claim |= {"constants": self.constants} if self.constants else {}
+        size = len(self.places) + len(self.limits)
+        for point in self.points() if size else ():
+            standing = self.room.standing_of(self.room.equations, point=point)
+            if standing is not None and len(standing.rows) == size:
+                self.room.add_point(point)
+                for factors in self.factors():
+                    yield {**claim, **factors, "minor": self.room.minor(standing)}
+        if not size:
+            for factors in self.factors():
+                yield {**claim, **factors}
+
+    def factors(self) -> Iterator[Told]:
+        """None, or exponentials that the equations were divided by."""
+        yield {}
+        for power_of_e in sorted(_exponentials(self.read(self.told["lagrangian"]))):
+            yield {"factors": dict.fromkeys(self.told["coordinates"], power_of_e)}
+
+    def cofactors(self) -> dict[str, dict[str, str]]:
+        """For every relation that is not 0 where coordinates are put in, the told constraint whose multiple it is."""
+        rates = {**{q: symbol(f"{q}dot") for q in self.problem.coordinates}, "t": ONE}
+        put: dict[str, Tree] = {"tdot": ONE, **self.places}
+        put |= {f"{q}dot": along(rates, tree) for q, tree in self.places.items()}
+        found, ring = {}, self.evidence.ring
+        for name in self.evidence.equations:
+            left = substituted(self.evidence.relation(name).left, put)
+            for multiplier, tree in self.limits.items() if not ring.vanishes(left) else ():
+                ratio = ring.rational(times(left, power(tree, MINUS)))
+                if ratio is not None:
+                    found[name] = {multiplier: number_text(Fraction(int(ratio.p), int(ratio.q)))}
+        return found
+
+    def points(self) -> Iterator[FoundPoint]:
+        """The configuration; else points whose eliminated coordinates are put in, or any."""
+        search = self.room.search
+        if self.problem.reference:
+            if (found := search.reference()) is not None:
+                yield found
+            return
+        if not self.limits:
+            yield from filter(None, map(self._put_in, range(MOST_POINTS)))
+        elif self.room.point is not None:
+            yield self.room.point
+
+    def _put_in(self, attempt: int) -> FoundPoint | None:
+        values = dict(self.room.scenery.parameters)
+        values |= {q: Fraction(k + attempt + 2, 7 + 2 * attempt) for k, q in enumerate(self.told["coordinates"])}
+        values |= {"t": Fraction(attempt, 3)} if self.room.scenery.timed else {}
+        values |= {name: Fraction(self.constants[name]) for name in self.constants}
+        texts = {name: number_text(value) for name, value in values.items() if name not in self.constants}
+        floats = {name: float(value) for name, value in values.items()}
+        numbers = {name: number(value) for name, value in values.items()}
+        try:
+            for q, tree in self.places.items():
+                texts[q] = text_of(substituted(tree, numbers))
+                floats[q] = Estimates(floats).value(self.room.scenery.chosen(tree))
+        except HINDRANCES:
+            return None
+        return FoundPoint(f"T{attempt}", texts, floats, self.room.scenery.functions)
+
+
+def _exponentials(tree: Tree) -> set[str]:
+    below = set[str]().union(*map(_exponentials, tree.below))
+    return below | {text_of(tree)} if tree.head == "exp" else below

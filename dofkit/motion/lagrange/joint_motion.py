@@ -1,0 +1,249 @@
+"""The energies of a tree of bodies in space in the angles and displacements of its joints.
+
+A body's point that is drawn at a stands at g(a); over a joint g' = g o J, with J a turn or a shift by q that is told in
+the drawing. Velocities are kept in the axes of each body: c = R^T (velocity of a point), s = R^T (angular velocity).
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
+from dofkit.expressions.text import Names, parse_relations, to_text, valid_name
+from dofkit.expressions.tree import HALF, ZERO, Expr
+from dofkit.expressions.vectors import (
+    Vec,
+    apply,
+    cross,
+    dot,
+    is_zero,
+    length,
+    minus,
+    plus,
+    scaled,
+    square,
+    transposed,
+    unit,
+)
+from dofkit.mobility.joint_tree import tree_coordinates
+from dofkit.motion.lagrange.energies import Energy, spin_energy
+from dofkit.motion.lagrange.forces import gravity_of
+from dofkit.motion.lagrange.quantities import EntryWorlds, masses
+from dofkit.scene.constraints.coupling import Coupling
+from dofkit.scene.drawing import Drawing
+from dofkit.scene.frames import Frame, euler
+from dofkit.scene.scene import Scene
+from dofkit.system import GROUND, Connection, System
+
+#: Said of the coordinates.
+COUNTED = "Angles and displacements of joints count from the drawing: {}."
+_AXES = tuple(unit(i, 3) for i in range(3))
+
+
+class Step(NamedTuple):
+    """A part of a joint's motion: a turn about ``along`` through ``at``, or a shift along it, by ``amount``."""
+
+    along: Vec
+    at: Vec | None
+    amount: Expr
+    rate: Expr
+
+    def back(self) -> Step:
+        """The motion of the first body against the second."""
+        return self._replace(amount=-self.amount, rate=-self.rate)
+
+
+class Moving(NamedTuple):
+    """How a body moves: ``velocity`` of its point drawn at ``point``, its ``spin``, and gravity's ``pull``, all in its
+    axes; ``fall``: gravity times where that point stands."""
+
+    point: Vec
+    velocity: Vec
+    spin: Vec
+    pull: Vec
+    fall: Expr
+
+    def at(self, point: Vec) -> Moving:
+        """The same told of another point."""
+        arm = minus(point, self.point)
+        return Moving(
+            point, plus(self.velocity, cross(self.spin, arm)), self.spin, self.pull, self.fall + dot(self.pull, arm)
+        )
+
+    def after(self, step: Step) -> Moving:
+        """The body that a step carries."""
+        along = step.along
+        if step.at is None:
+            more = plus(cross(self.spin, scaled(step.amount, along)), scaled(step.rate, along))
+            fall = self.fall + step.amount * dot(self.pull, along)
+            return self._replace(velocity=plus(self.velocity, more), fall=fall)
+        here = self.at(step.at)
+        spin = plus(_turned_back(step, here.spin), scaled(step.rate, along))
+        return here._replace(velocity=_turned_back(step, here.velocity), spin=spin, pull=_turned_back(step, here.pull))
+
+
+def _turned_back(step: Step, v: Vec) -> Vec:
+    """A direction of the first body in the axes of the second: (u.v) u + cos q (v - (u.v) u) - sin q u x v."""
+    own = scaled(dot(step.along, v), step.along)
+    across, turned = minus(v, own), cross(step.along, v)
+    cosine, sine = ex.fn("cos", step.amount), ex.fn("sin", step.amount)
+    return plus(own, scaled(cosine, across), scaled(-sine, turned))
+
+
+@dataclass(frozen=True)
+class JointMotion:
+    """A scene in which joints' angles and displacements are the coordinates, as a mapping; and its energies."""
+
+    value: Mapping[str, object]
+    energy: Energy
+
+
+def joint_motion(scene: Scene, drawing: Drawing, system: System) -> JointMotion | None:
+    """The motion of a tree in space; None of what is none, or has particles, other forces than gravity, or screws."""
+    kinds = {force.type for force in scene.forces}
+    if scene.dimension != 3 or scene.particles or scene.coordinates or kinds - {"gravity"} or len(scene.bodies) < 2:
+        return None
+    if scene.energies is not None or tree_coordinates(system) is None:
+        return None
+    reader = _TreeReader(scene, drawing, system, {})
+    joints = [c for c in system.connections if c.facts.freedoms or c.facts.welded]
+    steps = [reader.steps_of(c) for c in joints]
+    known = [one for one in steps if one is not None]
+    couplings = reader.couplings()
+    if len(known) < len(steps) or couplings is None:
+        return None
+    energy = reader.energy({c.members: own for c, own in zip(joints, known, strict=True)})
+    if energy is None:
+        return None
+    kept = {"name": scene.name, "title": scene.title, "parameters": scene.parameters, "functions": scene.functions}
+    value = {key: part for key, part in kept.items() if part} | {"coordinates": [*reader.names.values()]}
+    return JointMotion({**value, "constraints": couplings}, energy)
+
+
+@dataclass
+class _TreeReader:
+    """Reads a tree; ``names``: the coordinate for each angle and displacement, as far as they were met."""
+
+    scene: Scene
+    drawing: Drawing
+    system: System
+    names: dict[str, str]
+
+    def _named(self, told: str) -> str:
+        """The coordinate of an angle or displacement, ``shoulder.angle``: ``shoulder_angle``, or the like."""
+        taken = {*self.names.values(), *self.system.parameters, *self.system.functions}
+        found = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in told).strip("_")
+        found = found if found[:1].isalpha() else f"q_{found}"
+        while found in taken or valid_name(found) is not None:
+            found += "_"
+        self.names[told] = found
+        return found
+
+    def steps_of(self, joint: Connection) -> list[Step] | None:
+        """What the second body of a joint does against the first; None of a screw, or of general position."""
+        name = self.system.constraints[joint.constraint].name
+        place = joint.places[0] if joint.places else None
+        lines = [one for one in joint.directions if one is not None]
+        if joint.facts.by_turn or len(lines) < len(joint.directions) or (joint.places and place is None):
+            return None
+        steps = []
+        for number, what in enumerate(joint.facts.freedoms):
+            q = self._named(f"{name}.{what}")
+            along, turns = _line_of(what, number, lines)
+            at = place if turns else None
+            if turns and at is None:
+                return None
+            steps.append(Step(scaled(ex.ONE / length(along), along), at, ex.coordinate(q), ex.velocity(q)))
+        return steps
+
+    def energy(self, joints: Mapping[tuple[str, ...], list[Step]]) -> Energy | None:
+        """T and V in the coordinates of joints; None where not every body hangs on the ground."""
+        worlds = EntryWorlds(self.drawing)
+        pull = gravity_of(self.scene, worlds)
+        zero = (ZERO,) * 3
+        moving = {GROUND: Moving(zero, zero, zero, pull, ZERO)}
+        left = deque([GROUND])
+        while left:
+            body = left.popleft()
+            for (first, second), steps in joints.items():
+                if body not in (first, second) or {first, second} <= moving.keys():
+                    continue
+                other, own = (second, steps) if body == first else (first, [s.back() for s in reversed(steps)])
+                moving[other] = moving[body]
+                for step in own:
+                    moving[other] = moving[other].after(step)
+                left.append(other)
+        if len(moving) <= len(self.scene.bodies):
+            return None
+        kinetic, potential = [], []
+        for (world, m, _), body in zip(masses(self.scene, worlds), self.scene.bodies, strict=True):
+            frame = world.frames[body.name]
+            centre = moving[body.name].at(frame.start)
+            kinetic.append(HALF * m * square(centre.velocity))
+            kinetic.append(spin_energy(world, body.inertia, body.name, apply(_axes_back(frame), centre.spin)))
+            potential.append(-m * centre.fall)
+        told = COUNTED.format(", ".join(f"{own} is {name}" for name, own in self.names.items()))
+        return None if worlds.faults else Energy(ex.add(*kinetic), ex.add(*potential), ZERO, {}, (told,))
+
+    def couplings(self) -> list[str] | None:
+        """Relations between joints as texts; None where one mentions what is no coordinate here."""
+        found = []
+        for written in self.scene.constraints:
+            if not isinstance(written, Coupling):
+                continue
+            own = {letter: self._measured(name) for letter, name in written.lettered.items()}
+            letters = frozenset(own)
+            table = self.drawing.vocabulary.names
+            names = Names(letters, table.parameters, table.functions, table.arguments)
+            for relation in parse_relations(written.text, names):
+                if relation.relation != "=":
+                    continue
+                told = {ex.coordinate(letter): ex.coordinate(name) for letter, name in own.items() if name}
+                if len(told) < len(own):
+                    return None
+                found.append(f"{to_text(substitute(relation.left - relation.right, told))} = 0")
+        return found
+
+    def _measured(self, name: str) -> str | None:
+        """The coordinate that a coupling means by a joint's name, with what is meant of it or alone."""
+        alone = [own for told, own in self.names.items() if told == name or told.rpartition(".")[0] == name]
+        return alone[0] if len(alone) == 1 else None
+
+
+def _line_of(what: str, number: int, lines: Sequence[Vec]) -> tuple[Vec, bool]:
+    """The line of a part of a joint's motion, and whether it turns about it.
+
+    A rotation turns about x, y and z; of a plane's motion the displacements are across its normal.
+    """
+    if what.startswith("rotation"):
+        return _AXES[number], True
+    if what.startswith("angle"):
+        return lines[number if len(lines) > 1 else 0], True
+    if what == "displacement":
+        return lines[0], False
+    first = next(across for across in (cross(lines[0], axis) for axis in _AXES) if not is_zero(across))
+    return (first, cross(lines[0], first))[number], False
+
+
+def _axes_back(frame: Frame) -> tuple[Vec, ...]:
+    """From directions of the drawing to the body's own axes."""
+    return transposed(euler(*frame.initial))
+
+
+def written_length(e: Expr) -> int:
+    """How many nodes an expression has as it is written, shared ones counted as often as they stand there."""
+    lengths: dict[Expr, int] = {}
+    left = [e]
+    while left:
+        node = left[-1]
+        below = [part for part in node.args if isinstance(part, Expr)]
+        waiting = [part for part in below if part not in lengths]
+        if waiting:
+            left += waiting
+        else:
+            lengths[left.pop()] = 1 + sum(lengths[part] for part in below)
+    return lengths[e]
