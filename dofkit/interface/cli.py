@@ -77,15 +77,11 @@ def classify(
 ) -> None:
     """Classify scenes: degrees of freedom, labels, integrals, redundancy, each with a verdict."""
     from dofkit.interface.classification import Asked, classified, watched
-    from dofkit.interface.named_files import named_files
 
     if budget is not None and math.isnan(budget):
         raise typer.BadParameter("it is a number of seconds", param_hint="--budget")
     if out is not None and (watch or full or how or brief):
-        raise typer.BadParameter(
-            "it writes JSON lines: --watch, --brief, --full and --how are for what is printed", param_hint="--out"
-        )
-    files = named_files(files)
+        raise typer.BadParameter("it writes JSON lines, without --watch, --brief, --full, --how", param_hint="--out")
     place = None if certificate is None else str(certificate)
     telling = Telling.here(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
     telling = telling._replace(only=options.fields(only), without=options.listed(without), limits=limits)
@@ -129,11 +125,10 @@ def lagrange(
     certificate: options.CertificatePath = None,
 ) -> None:
     """Derive equations of motion: Lagrangian, momenta, forces, one equation for each coordinate."""
-    from dofkit.interface.named_files import named_files
     from dofkit.interface.supervised import motions
 
     place = None if certificate is None else str(certificate)
-    _print(motions(named_files(files), linearize, Telling.here(as_json), place))
+    _print(motions(files, linearize, Telling.here(as_json), place))
 
 
 def _still(kind: str, about: str) -> None:
@@ -261,10 +256,9 @@ def schema(
 
 
 def _pictures(files: list[str], kind: str, out: Path | None, ending: str) -> None:
-    from dofkit.interface.named_files import named_files
     from dofkit.interface.supervised import pictures
 
-    _print(pictures(named_files(files), kind, None if out is None else str(out), ending))
+    _print(pictures(files, kind, None if out is None else str(out), ending))
 
 
 def _print(printed: Generator[Printed]) -> None:

@@ -17,6 +17,7 @@ _HEAVY = {
     "Report": "dofkit.report",
     "all_explanations": "dofkit.interface.explanations",
     "catalog_names": "dofkit.scene.catalog",
+    "named_files": "dofkit.interface.named_files",
     "no_such": "dofkit.base.spelling",
 }
 
@@ -37,12 +38,20 @@ def catalogued(incomplete: str) -> list[str]:
 
 # of several commands
 
+
+def _named(arguments: list[str]) -> list[str]:
+    """Every file that is named; folders and patterns stand for what is in them."""
+    found: list[str] = handed_on(__name__, _HEAVY, "named_files")(arguments)
+    return found
+
+
 Files = Annotated[
     list[str],
     typer.Argument(
         metavar="FILE...",
         help="Scenes and models: paths, folders, catalog names, - for stdin.",
         autocompletion=catalogued,
+        callback=_named,
     ),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object a line, in the order given.")]
