@@ -88,15 +88,13 @@ def classify(
             "it writes JSON lines: --watch, --brief, --full and --how are for what is printed", param_hint="--out"
         )
     files = named_files(files)
-    place = None if certificate is None else str(certificate)
     telling = Telling.here(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
     telling = telling._replace(only=options.fields(only), without=options.listed(without), limits=limits)
-    asked = Asked(tuple(files), telling, budget, cast("MethodName", method), place, options.failures(fail_on))
+    asked = Asked(tuple(files), telling, budget, cast("MethodName", method), certificate, options.failures(fail_on))
     asked = asked._replace(workers=workers, scheduler=scheduler, out=out)
     with failures_of("--watch" if watch else "classify"):
         status = watched(asked) if watch else classified(asked)
-    if status:
-        raise typer.Exit(status)
+    raise typer.Exit(status)
 
 
 @app.command()
@@ -106,12 +104,10 @@ def verify(files: options.CertificateFiles, strict: options.Strict = False, as_j
 
     if len(files) > 2:
         raise typer.BadParameter("a scene and its certificate, or a certificate alone", param_hint="[SCENE] CERT")
-    scene = files[0] if len(files) == 2 else None
-    out, err, status = verification(CertificateGiven(scene, files[-1], strict, as_json))
+    out, err, status = verification(CertificateGiven(files[0] if files[1:] else None, files[-1], strict, as_json))
     typer.echo(out, nl=False)
     typer.echo(err, nl=False, err=True)
-    if status:
-        raise typer.Exit(status)
+    raise typer.Exit(status)
 
 
 @app.command()
@@ -134,8 +130,7 @@ def lagrange(
     from dofkit.interface.named_files import named_files
     from dofkit.interface.supervised import motions
 
-    place = None if certificate is None else str(certificate)
-    _print(motions(named_files(files), linearize, Telling.here(as_json), place))
+    _print(motions(named_files(files), linearize, Telling.here(as_json), certificate))
 
 
 def _still(kind: str, about: str) -> None:
