@@ -82,15 +82,13 @@ def classify(
         raise typer.BadParameter("it is a number of seconds", param_hint="--budget")
     if out is not None and (watch or full or how or brief):
         raise typer.BadParameter("it writes JSON lines, without --watch, --brief, --full, --how", param_hint="--out")
-    place = None if certificate is None else str(certificate)
     telling = Telling.here(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
     telling = telling._replace(only=options.fields(only), without=options.listed(without), limits=limits)
-    asked = Asked(tuple(files), telling, budget, cast("MethodName", method), place, options.failures(fail_on))
+    asked = Asked(tuple(files), telling, budget, cast("MethodName", method), certificate, options.failures(fail_on))
     asked = asked._replace(workers=workers, scheduler=scheduler, out=out)
     with failures_of("--watch" if watch else "classify"):
         status = watched(asked) if watch else classified(asked)
-    if status:
-        raise typer.Exit(status)
+    raise typer.Exit(status)
 
 
 @app.command()
@@ -100,12 +98,10 @@ def verify(files: options.CertificateFiles, strict: options.Strict = False, as_j
 
     if len(files) > 2:
         raise typer.BadParameter("a scene and its certificate, or a certificate alone", param_hint="[SCENE] CERT")
-    scene = files[0] if len(files) == 2 else None
-    out, err, status = verification(CertificateGiven(scene, files[-1], strict, as_json))
+    out, err, status = verification(CertificateGiven(files[0] if files[1:] else None, files[-1], strict, as_json))
     typer.echo(out, nl=False)
     typer.echo(err, nl=False, err=True)
-    if status:
-        raise typer.Exit(status)
+    raise typer.Exit(status)
 
 
 @app.command()
@@ -127,8 +123,7 @@ def lagrange(
     """Derive equations of motion: Lagrangian, momenta, forces, one equation for each coordinate."""
     from dofkit.interface.supervised import motions
 
-    place = None if certificate is None else str(certificate)
-    _print(motions(files, linearize, Telling.here(as_json), place))
+    _print(motions(files, linearize, Telling.here(as_json), certificate))
 
 
 def _still(kind: str, about: str) -> None:

@@ -150,7 +150,7 @@ Scheduler = Annotated[
 # of certificates
 
 CertificatePath = Annotated[
-    Path | None,
+    str | None,
     typer.Option("--certificate", metavar="OUT.json", help="Write why: a certificate; a folder for several files."),
 ]
 CertificateFiles = Annotated[
