@@ -2,7 +2,8 @@
 
 exp(u + v) = exp(u) exp(v), and z(u) = cos(u) + i sin(u) likewise. At a point of a set arguments may be related that are
 not as written (x = 2 t, or (x + y)^2 beside x^2 + 2 x y + y^2): small integer relations among the arguments there are
-looked for, and the values of related ones follow from each other. Everything else is drawn at random.
+looked for, and the values of related ones follow from each other; multiples of pi / D have the values of roots of
+unity. Everything else is drawn at random.
 """
 
 from __future__ import annotations
@@ -26,6 +27,8 @@ POWERS, MOST_ROOTS = (512, 512, 16, 16, 5, 5, 2, 2, 1, 1, 1, 1), 4
 SMALL = 2
 #: A number that all of these roots divide.
 ROOTS = lcm(*range(1, MOST_ROOTS + 1))
+#: Multiples of a unit are looked for up to so many times its order.
+TURNS = 64
 #: Roots are taken up to this degree.
 LARGEST = 512
 
@@ -37,10 +40,17 @@ class Character:
         """``drawn``: arguments that were drawn at random, each by itself: they are related by chance only."""
         self.p, self.drawn = p, set() if drawn is None else drawn
         self.values: dict[int, Any] = {} if known is None else known
+        self._unit: tuple[Any, Any, int] | None = None
 
     def copy(self, drawn: set[int]) -> Character:
         """The same values so far."""
-        return Character(self.p, dict(self.values), drawn)
+        other = Character(self.p, dict(self.values), drawn)
+        other._unit = self._unit
+        return other
+
+    def settle(self, argument: Any, root: Any, order: int) -> None:
+        """The value at an argument is a certain root of unity of this order: 2 pi / n gives exp(2 pi i / n)."""
+        self._unit = argument, root, order
 
     def at(self, argument: Any, draw: Callable[[], Any]) -> Any:
         """The value at an argument: what relations give, else one that is drawn. Raises NoPointError for a root."""
@@ -108,16 +118,35 @@ class Character:
             found = {w * power % self.p: at + times for w, at in found.items() for times, power in powers}
         return found
 
+    def _whole(self, u: int) -> Any | None:
+        """The value where u is a multiple of the unit, or differs by one from an argument or from minus one."""
+        if self._unit is None:
+            return None
+        unit, root, order = self._unit
+        for at, value in ((0, nmod(1, self.p)), *self.values.items()):
+            for other, known in ((at, value), (-at, 1 / value)):
+                k = int((nmod(u, self.p) - other) / unit)
+                k = k if 2 * k < self.p else k - self.p
+                if abs(k) <= TURNS * order:
+                    return known * root**k
+        return None
+
     def _related(self, u: int) -> Any | None:
         if u in self.drawn and self.drawn.issuperset(self.values):
             return None
+        whole = self._whole(u)
+        if whole is not None:
+            return whole
         if self.p - u in self.values:
             return 1 / self.values[self.p - u]
         relation = self._reduced(u) if len(self.values) <= MOST_REDUCED else self._of_two(u)
         if relation is None:
             return None
         own = relation.pop(u)
-        others = prod((self.values[v] ** -k for v, k in relation.items()), start=nmod(1, self.p))
+        if self._unit is not None and abs(own) > 1 and int(self._unit[0]) in relation:
+            raise NoPointError("an argument is a fraction of pi that is none of those written")
+        known = {**self.values} if self._unit is None else {**self.values, int(self._unit[0]): self._unit[1]}
+        others = prod((known[v] ** -k for v, k in relation.items()), start=nmod(1, self.p))
         return self._root(others if own > 0 else 1 / others, abs(own))
 
     def _root(self, value: Any, degree: int) -> Any:
@@ -137,7 +166,7 @@ class Character:
 
     def _reduced(self, u: int) -> dict[int, int] | None:
         """A short integer relation among the arguments and ``u``, by Lenstra, Lenstra and Lovasz's reduction."""
-        args = [u, *self.values]
+        args = [u, *self.values, *(() if self._unit is None else (int(self._unit[0]),))]
         n = len(args)
         if n < 2:
             return None

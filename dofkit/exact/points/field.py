@@ -20,7 +20,7 @@ from flint.utils.flint_exceptions import DomainError
 
 from dofkit.exact.errors import NoPointError, NoValueError
 from dofkit.exact.points.characters import Character
-from dofkit.exact.ring.instructions import Scalar, Var
+from dofkit.exact.ring.instructions import NUM, Scalar, Var
 from dofkit.exact.ring.program import value_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
@@ -31,6 +31,9 @@ PRIME_TRIES = 4000
 #: Primes that are tried where roots of roots must exist: each does modulo every other prime or so.
 NESTED_TRIES = 12
 
+
+#: Parts of a turn that are exact wherever pi is written, the largest number of parts that a number makes, and of all.
+WHOLE_TURNS, MOST_PARTS, MOST_ORDER = 12, 360, 10**5
 
 _bits: ContextVar[int] = ContextVar("prime_bits", default=PRIME_BITS)
 
@@ -46,9 +49,17 @@ def primes_of(bits: int) -> Iterator[None]:
 
 
 def circle_order(rings: Iterable[Ring]) -> int:
-    """The common denominator D of all angles pi/D."""
+    """The common denominator D of all angles pi/D; where pi itself is written, also of what x = pi/9 leads to."""
+    rings = tuple(rings)
     keys = (var.key for ring in rings for var in ring.vars if var.kind in ("cos", "sin"))
-    return lcm(1, *(denominator for rest, denominator in keys if rest == ex.PI))
+    order = lcm(1, *(denominator for rest, denominator in keys if rest == ex.PI))
+    turning = [ring for ring in rings if {"pi", "cos"} <= {"cos" if v.kind == "sin" else v.kind for v in ring.vars}]
+    for ring in turning:
+        written = {part.denominator for op, part in ring.code if op == NUM}
+        order = lcm(order, WHOLE_TURNS)
+        for denominator in sorted(d for d in written if d <= MOST_PARTS):
+            order = lcm(order, denominator) if lcm(order, denominator) <= MOST_ORDER else order
+    return order
 
 
 def number_roots(rings: Iterable[Ring]) -> tuple[tuple[int, int], ...]:
@@ -102,6 +113,13 @@ class FieldPoint:
     def set(self, var: Var, value: Scalar) -> None:
         """Give a generator its value."""
         self.given[var.kind, var.key] = value
+        if var.kind == "pi":
+            self._settle(value)
+
+    def _settle(self, pi: Scalar) -> None:
+        """Angles that come out as multiples of pi / D have the values of these."""
+        self._setup_unity()
+        self._turns.settle(pi / self.order, self._zeta, 2 * self.order)
 
     def copy(self) -> FieldPoint:
         """A point with the same values so far; what is drawn later differs."""
@@ -180,6 +198,8 @@ class FieldPoint:
         drawn = self.random()
         if var.kind == "symbol":
             self._drawn.add(int(drawn))
+        if var.kind == "pi":
+            self._settle(drawn)
         return drawn
 
     def _draw_value(self, var: Var, args: Sequence[Scalar]) -> Scalar:
