@@ -39,7 +39,7 @@ def test_texts_are_read_again_with_the_same_value(text: str) -> None:
 @pytest.mark.parametrize("text", TEXTS)
 def test_gradients_are_slopes(text: str) -> None:
     tree, step = parse(text, NAMES), 1e-6
-    ahead, back = Values({"x": 1.375 + step, "y": 0.625}).of(tree), Values({"x": 1.375 - step, "y": 0.625}).of(tree)
+    ahead, back = Values({"x": 1.375 + step, "y": 0.625}).value(tree), Values({"x": 1.375 - step, "y": 0.625}).value(tree)
     found = Estimates({"x": 1.375, "y": 0.625}).gradient(tree).get("x", 0.0)
     assert found == pytest.approx((ahead - back) / (2 * step), abs=1e-8)
 
@@ -48,7 +48,7 @@ def test_what_has_no_value_says_so() -> None:
     with pytest.raises(NoEstimateError):
         Estimates({"x": -1.0, "y": 0.0}).value(parse("sqrt(x)", NAMES))
     with pytest.raises(NoEstimateError):
-        Values({"x": 0.0, "y": 0.0}).of(parse("1/x", NAMES))
+        Values({"x": 0.0, "y": 0.0}).value(parse("1/x", NAMES))
 
 
 def test_numbers() -> None:
@@ -74,7 +74,7 @@ def test_the_least_step_is_along_the_row() -> None:
 
 def test_determinants() -> None:
     rows = [[number(2), number(1)], [number(5), number(4)]]
-    assert math.isclose(Values({}).of(determinant(rows)), 3.0)
+    assert math.isclose(Values({}).value(determinant(rows)), 3.0)
 
 
 def test_rigid_motions_of_the_plane() -> None:
