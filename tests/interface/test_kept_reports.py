@@ -256,7 +256,9 @@ def test_a_scene_that_ends_its_worker_ends_no_other(monkeypatch: pytest.MonkeyPa
     assert pool.asked == ["s0 s1 s2 s3 s4 s5", "s0 s1 s2", "one", "one", "s4 s5"]
 
 
-def test_a_batch_in_a_worker_tells_which_scene_comes_next() -> None:
+def test_a_batch_in_a_worker_tells_which_scene_comes_next(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without its limits, which are those of the process."""
+    monkeypatch.setattr("dofkit.interface.many.batch.allow", lambda _: None)
     given = (SceneGiven("a.yaml", b"coordinates: [x, y]"), SceneGiven("b.yaml", BAD.encode()))
     *before, last = batch_reports(SceneBatch(asked(), given))
     assert before == [{"next": 0}, {"next": 1}]

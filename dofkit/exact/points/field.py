@@ -113,13 +113,9 @@ class FieldPoint:
     def set(self, var: Var, value: Scalar) -> None:
         """Give a generator its value."""
         self.given[var.kind, var.key] = value
-        if var.kind == "pi":
-            self._settle(value)
-
-    def _settle(self, pi: Scalar) -> None:
-        """Angles that come out as multiples of pi / D have the values of these."""
-        self._setup_unity()
-        self._turns.settle(pi / self.order, self._zeta, 2 * self.order)
+        if var.kind == "pi":  # angles that come out as multiples of pi / D have the values of these
+            self._setup_unity()
+            self._turns.settle(value / self.order, self._zeta, 2 * self.order)
 
     def copy(self) -> FieldPoint:
         """A point with the same values so far; what is drawn later differs."""
@@ -199,7 +195,7 @@ class FieldPoint:
         if var.kind == "symbol":
             self._drawn.add(int(drawn))
         if var.kind == "pi":
-            self._settle(drawn)
+            self.set(var, drawn)
         return drawn
 
     def _draw_value(self, var: Var, args: Sequence[Scalar]) -> Scalar:

@@ -39,7 +39,10 @@ def test_texts_are_read_again_with_the_same_value(text: str) -> None:
 @pytest.mark.parametrize("text", TEXTS)
 def test_gradients_are_slopes(text: str) -> None:
     tree, step = parse(text, NAMES), 1e-6
-    ahead, back = Values({"x": 1.375 + step, "y": 0.625}).value(tree), Values({"x": 1.375 - step, "y": 0.625}).value(tree)
+    ahead, back = (
+        Values({"x": 1.375 + step, "y": 0.625}).value(tree),
+        Values({"x": 1.375 - step, "y": 0.625}).value(tree),
+    )
     found = Estimates({"x": 1.375, "y": 0.625}).gradient(tree).get("x", 0.0)
     assert found == pytest.approx((ahead - back) / (2 * step), abs=1e-8)
 
