@@ -91,6 +91,7 @@ def test_workers_stay_warm() -> None:
     assert any(line.outcome == "timed out" for line in lines)
 
 
+@pytest.mark.sweep
 def test_what_hears_no_signal_is_killed() -> None:
     lines = ran(["deaf"])
     assert [line.outcome for line in lines] == ["right"] * 7 + ["timed out"]

@@ -38,7 +38,7 @@ def problem_of(path: Path) -> Problem:
 
 
 KNOWN = [path for path in SCENES if path.stem not in UNREAD]
-every_scene = pytest.mark.parametrize("path", few("meanings", KNOWN, 8), ids=stem)
+every_scene = pytest.mark.parametrize("path", few("meanings", KNOWN, 12), ids=stem)
 
 
 def names_by_symbol(system: System, problem: Problem) -> dict[Expr, str]:

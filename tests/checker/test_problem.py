@@ -261,7 +261,7 @@ configuration: {x: "1/2"}
     assert sha256_of(document_of(flow)) != sha256_of(document_of(flow.replace("x = R", "x = 2 R")))
 
 
-@pytest.mark.parametrize("path", few("readings", SCENES, 8), ids=stem)
+@pytest.mark.parametrize("path", few("readings", SCENES, 12), ids=stem)
 def test_a_loaded_scene_has_the_hash_of_its_file(path: Path) -> None:
     written = document_of(path.read_text(encoding="utf-8"))
     loaded = scene_of(path).model_dump(mode="json")

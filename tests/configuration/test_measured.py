@@ -174,7 +174,7 @@ def shaky(links: list[str], dimension: int, rng: random.Random) -> Places:
 
 
 @pytest.mark.parametrize(("tolerance", "noise"), ROUNDED)
-@pytest.mark.parametrize(("links", "dimension"), [swept(OCTAHEDRON, 3), (K33, 2), (PRISM, 2)])
+@pytest.mark.parametrize(("links", "dimension"), [swept(OCTAHEDRON, 3), swept(K33, 2), (PRISM, 2)])
 def test_what_only_shakes_is_never_called_movable(
     links: list[str], dimension: int, tolerance: float, noise: float
 ) -> None:
@@ -260,6 +260,7 @@ def test_singular_positions_are_decided_as_exact_ones_are(name: str, dof: int) -
     assert (report.dof, report.verdicts["dof"].verdict) == (dof, "numeric")
 
 
+@pytest.mark.sweep
 def test_mechanisms_with_a_tolerance_are_answered_as_without_or_open() -> None:
     """One in five: a coarser reading of numbers that are exact changes no answer."""
     wrong, known, told = [], 0, 0

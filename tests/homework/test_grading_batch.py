@@ -388,7 +388,12 @@ def test_what_is_no_assignment_is_told_with_its_place(
 
 
 @pytest.mark.parametrize(
-    "more", [["--format", "word"], ["--check-only", "--format", "html"], ["--scheduler", "tcp://127.0.0.1:1"]]
+    "more",
+    [
+        ["--format", "word"],
+        ["--check-only", "--format", "html"],
+        pytest.param(["--scheduler", "tcp://127.0.0.1:1"], marks=pytest.mark.sweep),
+    ],
 )
 def test_options_that_cannot_be_are_told(more: list[str], assignment: str, capsys: pytest.CaptureFixture[str]) -> None:
     status, told, err = lines_of(capsys, "grade", assignment, assignment, *more)

@@ -416,10 +416,9 @@ def shown_points(form: str, out: Path, stdout: str) -> str:
     "form",
     [
         "native",
-        "moodle",
         *(
             pytest.param(form, marks=pytest.mark.sweep)
-            for form in ("gradescope", "prairielearn", "coursera", "canvas", "lti", "html")
+            for form in ("moodle", "gradescope", "prairielearn", "coursera", "canvas", "lti", "html")
         ),
     ],
 )

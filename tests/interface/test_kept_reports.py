@@ -101,6 +101,7 @@ def test_a_line_for_every_file_in_order(folder: Path, tmp_path: Path, capsys: py
     assert sorted(path.name for path in out.iterdir()) == ["reports.jsonl", "reports.jsonl.ledger"]
 
 
+@pytest.mark.sweep
 def test_what_is_printed_is_that_of_one_after_another(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for more in (["--json"], ["--only", "dof"], ["--brief"]):
         found = [called(capsys, "classify", str(folder), *more, *who) for who in ([], ["--workers", "1"])]

@@ -71,6 +71,7 @@ def test_more_than_three_scenes_are_a_line_each_and_a_summary(capsys: pytest.Cap
     assert lines[9].startswith("  slowest: ")
 
 
+@pytest.mark.sweep
 def test_three_are_in_full_and_so_are_all_that_are_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
     assert called(capsys, "classify", *FOUR[:3])[1].count("degrees of freedom  ") == 3
     assert called(capsys, "classify", "--full", *FOUR)[1].count("degrees of freedom  ") == 4

@@ -218,7 +218,7 @@ def test_a_form_that_is_not_closed_is_left_open_by_the_count() -> None:
     assert (closed.exact, closed.holonomic, closed.holonomic_alone) == (True, True, True)
 
 
-@pytest.mark.parametrize("path", few("expected", VARIED[::2], 4), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", few("expected", VARIED[::2], 6), ids=lambda path: path.stem)
 def test_no_method_alone_contradicts_what_is_expected(path: Path) -> None:
     given = scene_of(path)
     expect = given.expect
@@ -237,7 +237,7 @@ def test_no_method_alone_contradicts_what_is_expected(path: Path) -> None:
         assert METHODS[method].cannot in told.method
 
 
-@pytest.mark.parametrize("path", few("questions", VARIED[1::2], 8), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", few("questions", VARIED[1::2], 12), ids=lambda path: path.stem)
 def test_a_question_alone_has_the_answer_of_the_report(path: Path) -> None:
     """One of the questions for each scene, dealt out."""
     told, given = report_of(path), scene_of(path)

@@ -40,7 +40,7 @@ every_scene = pytest.mark.parametrize("path", SCENES, ids=stem)
 
 def on(what: str, paths: Sequence[Path]) -> pytest.MarkDecorator:
     """A quarter of these, and the others in the sweep."""
-    return pytest.mark.parametrize("path", few(what, paths, 4), ids=stem)
+    return pytest.mark.parametrize("path", few(what, paths, 6), ids=stem)
 
 
 def document_of(path: Path) -> Document:
@@ -104,7 +104,7 @@ def has_equation(path: Path) -> bool:
 MULTIPLIED = [
     pytest.param(*case.values, factor, marks=case.marks, id=f"{case.values[0].stem}-{factor}")
     for factor, hand in zip(FACTORS, dealt("factors", SCENES, len(FACTORS)), strict=True)
-    for case in few(factor, hand, 3)
+    for case in few(factor, hand, 4)
 ]
 
 
@@ -272,7 +272,7 @@ FIRST, LAST = dealt("again", VARIED, 2)
     [
         pytest.param(*case.values, place, marks=case.marks)
         for place, paths in ((0, FIRST), (-1, LAST))
-        for case in few("written again", paths, 8)
+        for case in few("written again", paths, 12)
     ],
     ids=lambda value: getattr(value, "stem", ""),
 )

@@ -45,7 +45,7 @@ LONG = frozenset(
         "unicycle-with-two-trailers",
     ]
 )
-SYMBOLIC = few("symbolic", [path for path in SCENES if path.stem not in LONG], 4) + [
+SYMBOLIC = few("symbolic", [path for path in SCENES if path.stem not in LONG], 6) + [
     swept(p) for p in SCENES if p.stem in LONG
 ]
 T = TypeVar("T")
