@@ -95,14 +95,18 @@ class ParsedTexts:
         return found
 
     def in_names(self, kind: Hashable, names: Sequence[str], make: Callable[[], Expr]) -> Expr:
-        """What ``make`` makes of some names, all different: the same for one ``kind`` but for these; made once."""
+        """What ``make`` makes of some names, all different: the same for one ``kind`` but for these; made once.
+
+        What holds other names, as that of a text which could not be read, is made each time.
+        """
         known = self._made.get(kind)
         if known is not None:
             places, template = known
             return template.of([names[k] for k in places])
         found = make()
         template = Template(found)
-        self._made[kind] = [names.index(name) for name in template.names], template
+        if set(template.names) <= set(names):
+            self._made[kind] = [names.index(name) for name in template.names], template
         return found
 
     def expression(self, text: str) -> Expr | TextError:
