@@ -1,4 +1,4 @@
-"""A whole course: four sheets with variants, review, grading again, every platform, for fifty students."""
+"""A whole course: four sheets with variants, review, grading again, every platform; ``course.py`` runs it for fifty."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 import course
 import pytest
 
-STUDENTS = 50
+STUDENTS = 12
 
 
 @pytest.mark.sweep
