@@ -71,9 +71,9 @@ BUGS: Mapping[str, Bug] = {
         "catalog/l6/x-dy-plus-y-dx.yaml",
     ),
     "pebbles": Bug(
-        "mobility/graph/pebbles.py",
-        "            return False, reached\n",
-        "            return True, 0\n",
+        "mobility/graph/plain_game.py",
+        "                dependent[i] = 1\n                self._condense",
+        "                dependent[i] = 0\n                self._condense",
         "catalog/l6/complete-framework-4-points-in-2d.yaml",
     ),
     "circuits": Bug(

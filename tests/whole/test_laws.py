@@ -299,7 +299,7 @@ def beside(path: Path) -> Document:
     """The scene and a copy of it under other names."""
     scene, document = scene_of(path), document_of(path)
     copy = Renaming(scene, lambda name: f"{name}_too").document(document)
-    copy["constraints"] = [{**c, "name": f"{c['name']}_too"} for c in copy["constraints"]]
+    copy["constraints"] = [{**c, "name": f"{c['name']}_too", **joints_too(c)} for c in copy["constraints"]]
     both = dict(document)
     for key, value in copy.items():
         if isinstance(value, list):
@@ -307,6 +307,13 @@ def beside(path: Path) -> Document:
         elif isinstance(value, dict):
             both[key] = {**document[key], **value}
     return both
+
+
+def joints_too(constraint: Document) -> Document:
+    """The joints of the copy that a coupling of the copy couples, by the names that its text has."""
+    joints = constraint.get("joints", [])
+    named = joints if isinstance(joints, dict) else {name: name for name in joints}
+    return {"joints": {letter: f"{name}_too" for letter, name in named.items()}} if named else {}
 
 
 def doubled(value: Any) -> Any:
