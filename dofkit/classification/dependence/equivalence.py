@@ -26,6 +26,7 @@ from dofkit.exact.points.balls import precise_for
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.half_lines import UNDONE_NOTE
 from dofkit.relations.normal.normal_form import Finite, Normal, Pfaffian
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -220,6 +221,8 @@ class Equivalence:
             return Sameness.STRONGER
         if all(r.constraint.facts.half_turns for r in self._wanted):
             return Sameness.SAME
+        if any(UNDONE_NOTE in note for n in self._answer for note in n.notes):
+            return Sameness.UNDECIDED  # theta = atan(dy/dx) is meant for every theta, as it may be
         sides = bounds(self._all_wanted, self._rest)
         lost = unsound(self._given, self._sound) if sides else []
         whole = [loses_nothing(e, self._all_wanted, self._others, sides, self.setting) for e in lost]
