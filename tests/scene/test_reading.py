@@ -330,5 +330,5 @@ def test_a_misspelt_body_where_a_point_is_needed_is_named() -> None:
 def test_a_length_that_cannot_be_read_is_a_fault_of_every_link() -> None:
     text = "particles: [A, B, C]\nconstraints:\n- {type: link, between: [A, B], length: 2 +}\n"
     with pytest.raises(SceneError) as caught:
-        loads(text + "- {type: link, between: [B, C], length: nosuch}\n- {type: link, between: [A, C], length: nosuch}\n")
+        loads(text + "".join(f"- {{type: link, between: [{a}, C], length: nosuch}}\n" for a in "AB"))
     assert len(caught.value.faults) == 3
