@@ -34,6 +34,8 @@ from dofkit.system import System
 
 #: The share of the time that is left in which an answer may be found impossible.
 POSSIBLE = 0.3
+#: Functions whose values are angles.
+ANGLES = frozenset({"asin", "acos", "atan", "atan2"})
 
 
 class Sameness(Enum):
@@ -221,8 +223,8 @@ class Equivalence:
             return Sameness.STRONGER
         if all(r.constraint.facts.half_turns for r in self._wanted):
             return Sameness.SAME
-        if any(UNDONE_NOTE in note for n in self._answer for note in n.notes):
-            return Sameness.UNDECIDED  # theta = atan(dy/dx) is meant for every theta, as it may be
+        if _turned(self._given, self._answer):
+            return Sameness.UNDECIDED
         sides = bounds(self._all_wanted, self._rest)
         lost = unsound(self._given, self._sound) if sides else []
         whole = [loses_nothing(e, self._all_wanted, self._others, sides, self.setting) for e in lost]
@@ -324,3 +326,10 @@ def _differential(g: Expr) -> Normal:
     moving = sorted((s for s in g.symbols if s.args[0] == "coordinate"), key=repr)
     slopes = {str(s.args[1]): diff(g, s) for s in moving}
     return Normal(((Pfaffian({n: e for n, e in slopes.items() if not e.is_zero}, diff(g, ex.TIME)),),))
+
+
+def _turned(given: Sequence[Reduced], answer: Sequence[Normal]) -> bool:
+    """Was an angle of velocities undone? theta = atan(dy/dx) may be meant for every theta, not for half of them."""
+    written = (relation.expr for r in given for relation in r.constraint.relations)
+    undone = any(UNDONE_NOTE in note for n in answer for note in n.notes)
+    return undone and any(not e.functions.isdisjoint(ANGLES) for e in written)
