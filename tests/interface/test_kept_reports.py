@@ -298,7 +298,7 @@ def test_a_killed_run_goes_on_where_it_stopped(tmp_path: Path) -> None:
 
 
 @pytest.mark.sweep
-@pytest.mark.skipif(find_spec("distributed") is None, reason="a cluster needs the extra `cluster`")
+@pytest.mark.skipif(find_spec("distributed") is None, reason="a cluster: pip install 'dofkit[sweep]'")
 def test_a_cluster_gives_the_same_reports(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     import distributed
 

@@ -6,7 +6,6 @@ import math
 import random
 import re
 from fractions import Fraction
-from importlib.util import find_spec
 from typing import Any
 
 import pytest
@@ -121,7 +120,6 @@ def chain(n: int, seed: int) -> str:
     return f"<mujoco><option gravity='0 0 -9.81'/><worldbody>{inner}</worldbody></mujoco>"
 
 
-@pytest.mark.skipif(find_spec("mujoco") is None, reason="MuJoCo is not installed: pip install 'dofkit[models]'")
 @pytest.mark.parametrize(("n", "seed"), [(2, 1), *(swept(n, seed) for n in (2, 3) for seed in range(2, 6))])
 def test_equations_are_those_of_mujocos_inverse_dynamics(n: int, seed: int) -> None:
     import mujoco

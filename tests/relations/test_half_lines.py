@@ -11,6 +11,7 @@ import dofkit
 ALONG = "sqrt(xdot^2 + ydot^2) = xdot"
 HEADING = "th = atan2(ydot, xdot)"
 BY_ANGLE = "xdot^2 - 2 cos(z) xdot ydot + ydot^2 = 0"
+TWO_PLACES = "z xdot^2 + 2 xdot ydot + w ydot^2 = 0"
 BY_PLACE = "xdot^2 - 2 z xdot ydot + ydot^2 = 0"
 
 #: Coordinates, constraints, (dof, velocity_dof), whether each constraint is holonomic, and why.
@@ -47,6 +48,17 @@ DECIDED: list[tuple[str, list[str], tuple[int, int], list[bool | None], str]] = 
         [True],
         "x, y, w constant: three squares",
     ),
+    ("x y z w", [TWO_PLACES], (4, 3), [False], "where z w < 1 two lines"),
+    ("x y z w", [TWO_PLACES, "z = 0"], (3, 2), [False, True], "ydot = 0, or 2 xdot + w ydot = 0: a skate in x, y, w"),
+    ("x y z w", [TWO_PLACES, "w = 0"], (3, 2), [False, True], "xdot = 0, or a skate in x, y, z"),
+    ("x y z w", [TWO_PLACES, "z = 0", "w = 0"], (1, 1), [True] * 3, "xdot ydot = 0"),
+    ("x y z w", [TWO_PLACES, "z = 0", "w = 1"], (1, 1), [True] * 3, "ydot = 0 or 2 xdot + ydot = 0"),
+    ("x y z w", [TWO_PLACES, "z = 1", "w = 2"], (0, 0), [True] * 3, "definite: at rest"),
+    ("x y z w", ["z xdot^2 = w ydot^2", "z = 0", "w = 1"], (1, 1), [True] * 3, "ydot = 0"),
+    ("x y z w", ["z xdot^2 = w ydot^2", "z = 0", "w = 0"], (2, 2), [True] * 3, "0 = 0"),
+    ("x y z w", ["z xdot^2 + 2 w xdot ydot = ydot^2", "z = 0"], (3, 2), [False, True], "ydot = 0 or 2 w xdot"),
+    ("x y z", ["z xdot^2 + z ydot^2 = 0", "z = 0"], (2, 2), [True, True], "0 = 0"),
+    ("x y z", ["z xdot^2 = ydot^2", "z = 0"], (1, 1), [True, True], "ydot = 0"),
 ]
 
 
@@ -123,6 +135,27 @@ def test_at_a_configuration(constraint: str, at: dict[str, Any], expected: tuple
     report = report_of("x y z", [constraint], at)
     assert (report.dof, report.velocity_dof, report.instantaneous_dof) == expected
     assert report.singular is (expected[1] != expected[2])
+
+
+@pytest.mark.parametrize(
+    ("constraints", "at", "expected"),
+    [
+        ([TWO_PLACES], (0, 1), (4, 3, 3)),
+        ([TWO_PLACES], (0, 0), (4, 3, 3)),
+        ([TWO_PLACES], (1, 1), (4, 3, 3)),
+        ([TWO_PLACES], (-2, 1), (4, 3, 3)),
+        ([TWO_PLACES], (2, 1), (2, 2, 2)),
+        ([TWO_PLACES, "z = 0"], (0, 1), (3, 2, 2)),
+        ([TWO_PLACES, "w = 0"], (0, 0), (3, 2, 2)),
+        ([TWO_PLACES, "z = 0", "w = 1"], (0, 1), (1, 1, 1)),
+    ],
+)
+def test_where_a_coefficient_of_a_square_vanishes(
+    constraints: list[str], at: tuple[int, int], expected: tuple[int, int, int]
+) -> None:
+    """There one of the two lines is 0 = 0: what holds is the product of the other two factors."""
+    report = report_of("x y z w", constraints, {"x": 0, "y": 0, "z": at[0], "w": at[1]})
+    assert (report.dof, report.velocity_dof, report.instantaneous_dof) == expected
 
 
 @pytest.mark.parametrize(

@@ -28,7 +28,7 @@ from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block
+from dofkit.relations.blocks import Block, Row
 from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.normal.domain import DomainCondition, holds_at
@@ -55,7 +55,7 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
             told = in_motion_at(block, result.hidden, setting, known) if regular else None
             holds.append(told or None)
         if all(holds):
-            return result
+            return _beside_edge(block, result, setting)
         if None in holds and False not in holds:
             return _open(result, block.conditions)
         elsewhere = replace(setting, reference=None, pose={})
@@ -63,6 +63,25 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
         result.reasons.append(OFF_REFERENCE)
         return result
     return _while_moving(block, result, setting) if moving else _somewhere(block, result, setting)
+
+
+def _beside_edge(block: Block, result: Answer, setting: Setting) -> Answer:
+    """The answer at a reference where conditions are 0 and yet hold: is the branch one that goes on from there?
+
+    It is where the differential of each depends on none of those of the finite relations; z != 0 beside z = 0 is none.
+    """
+    known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
+    strictly = [(c, replace(c, adjoining=False)) for c in still_conditions(block.conditions) if c.adjoining]
+    edges = [c for c, strict in strictly if not holds_at(strict, known, setting.positive)]
+    if not edges:
+        return result
+    finite = replace(block, rows=block.finite, conditions=())
+    free = answer(finite, setting).instantaneous if finite.rows else len(block.coordinates)
+    for number, c in enumerate(edges):
+        row = Row(-1 - number, Finite(c.expr))
+        if answer(replace(finite, rows=(*finite.rows, row)), setting).instantaneous != (free or 0) - 1:
+            return _nowhere(result, edges, "proved") if _empty(block, result, setting) else _open(result, edges)
+    return result
 
 
 def _empty(block: Block, result: Answer, setting: Setting) -> bool:

@@ -29,7 +29,7 @@ Sense = Literal[">=", ">", "!="]
 class DomainCondition:
     """``expr`` >= 0, > 0 or != 0: no relation, but a part of the space outside of which the relation says nothing.
 
-    ``adjoining``: > 0, and where it is 0 the branch goes on into another, which says what holds there.
+    ``adjoining``: > 0 or != 0, and where it is 0 the branch goes on into another, which says what holds there.
     """
 
     expr: Expr
@@ -117,7 +117,9 @@ def holds_at(c: DomainCondition, known: Mapping[Expr, Expr], positive: frozenset
         return False
     if sign is None:
         return None
-    return sign != 0 if c.sense == "!=" else sign > 0 or (sign == 0 and (c.adjoining or c.sense == ">="))
+    if sign == 0:
+        return c.adjoining or c.sense == ">="
+    return sign > 0 or c.sense == "!="
 
 
 def constantly(c: DomainCondition, positive: frozenset[Expr]) -> bool | None:
