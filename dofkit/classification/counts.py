@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property, partial
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from dofkit.base.deadline import part, unless_late
+from dofkit.base.libraries import LateLibrary
 from dofkit.base.wording import many, verb
 from dofkit.classification.study import Study
 from dofkit.exact.errors import raising_no_value
@@ -15,9 +16,13 @@ from dofkit.mobility.general_position import General, has_geometry, in_general_p
 from dofkit.mobility.kutzbach import kutzbach_count
 from dofkit.mobility.near_dependence import MOST, nearly_dependent
 from dofkit.mobility.placement import Placement, drawn_placement, measured_placement
-from dofkit.mobility.special_position import special_facts
 from dofkit.relations.normal.normal_form import Finite
 from dofkit.report import Generic, Mobility
+
+if TYPE_CHECKING:
+    from dofkit.mobility import special_position
+else:
+    special_position = LateLibrary("dofkit.mobility.special_position")
 
 #: Dependent sets of rows that are looked at, and sentences about them that are told.
 MOST_SETS, MOST_TOLD = 40, 6
@@ -64,7 +69,11 @@ class CountsBeside:
         more = here - dof
         start = f"at the drawing {many(more, 'further equation')} {verb(more, 'depends', 'depend')} on the others"
         placement = self._placement
-        told = [] if placement is None else special_facts(self.system, placement, self._dependent_sets(), self._slack())
+        told = (
+            []
+            if placement is None
+            else special_position.special_facts(self.system, placement, self._dependent_sets(), self._slack())
+        )
         return "; ".join([start, *told[:MOST_TOLD]])
 
     def _slack(self) -> float:

@@ -17,12 +17,12 @@ from dataclasses import replace
 from functools import partial
 from itertools import product as cartesian
 from math import prod
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from dofkit.base.components import components
 from dofkit.base.deadline import check
+from dofkit.base.libraries import LateLibrary
 from dofkit.base.verdicts import ArgumentKey, weakest
-from dofkit.configuration.cases import BoundedCase, cases_of
 from dofkit.configuration.generic_points import field_jacobian, on_variety
 from dofkit.configuration.reality import most_near
 from dofkit.configuration.variety import Variety
@@ -36,6 +36,11 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
 from dofkit.relations.normal.zero_set import never_vanishes
 from dofkit.relations.reductions import ReductionName
+
+if TYPE_CHECKING:
+    from dofkit.configuration import cases as all_cases
+else:
+    all_cases = LateLibrary("dofkit.configuration.cases")
 
 #: Relations that are looked at; nodes of an expression past which no coordinate is put into it; cases of all parts
 #: together that are looked at, and that are listed.
@@ -156,7 +161,7 @@ def _near_its_point(chart: Chart, case: Variety) -> Variety:
     return replace(case, dimension=None, verdict="undecided", reasons=[*case.reasons, OTHERS])
 
 
-def _most(choice: Iterable[BoundedCase]) -> int:
+def _most(choice: Iterable[all_cases.BoundedCase]) -> int:
     return sum(case.most for case in choice)
 
 
@@ -284,13 +289,13 @@ def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[Relatio
     return parts
 
 
-def _cases(part: RelationPart, chart: Chart) -> list[BoundedCase] | None:
+def _cases(part: RelationPart, chart: Chart) -> list[all_cases.BoundedCase] | None:
     """The cases of a part with the bounds of their dimensions."""
     if _is_fibre(part, chart.positive):
-        return [BoundedCase(part.relations, len(part.unknowns) - len(part.relations), True)]
+        return [all_cases.BoundedCase(part.relations, len(part.unknowns) - len(part.relations), True)]
     try:
         own = [g for g in part.relations if is_identically_zero(g, chart.positive) is not True]
-        return cases_of(own, part.unknowns, chart.positive)
+        return all_cases.cases_of(own, part.unknowns, chart.positive)
     except NoValueError:
         return None
 

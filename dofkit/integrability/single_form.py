@@ -4,16 +4,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import combinations
+from typing import TYPE_CHECKING
 
+from dofkit.base.libraries import LateLibrary
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import zero_and_verdict
 from dofkit.exact.zero.independence import odd_constants
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.integrals.search import integrate
 from dofkit.integrability.traits import exact
 from dofkit.relations.normal.normal_form import Pfaffian
+
+if TYPE_CHECKING:
+    from dofkit.integrability.integrals import search
+else:
+    search = LateLibrary("dofkit.integrability.integrals.search")
 
 
 @dataclass(frozen=True)
@@ -32,7 +38,7 @@ def integrability(form: Pfaffian, positive: frozenset[Expr], alone: bool | None)
         return Integrability(False)
     reason = proof(form, positive)
     plain = not odd_constants(_ring(form, positive))
-    found = integrate(form, positive) if plain and (reason or alone) else None
+    found = search.integrate(form, positive) if plain and (reason or alone) else None
     if found is not None:
         return Integrability(True, "an integral was found and checked", found.factor, found.integral)
     return Integrability(reason is not None, reason or "")

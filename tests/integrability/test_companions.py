@@ -19,6 +19,7 @@ from dofkit.expressions.calculus import diff
 from dofkit.expressions.differentials import in_velocities
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.tree import Expr
+from dofkit.integrability import first_integrals
 from dofkit.integrability.first_integrals import FirstIntegral
 from dofkit.integrability.pfaffian_system import Codistribution
 from dofkit.relations.normal.normal_form import linear_form
@@ -214,12 +215,12 @@ def test_as_many_integrals_are_sought_as_there_are(
 ) -> None:
     """Three coordinates less the freedom, 1, and the finite relations."""
     sought: list[int] = []
-    search = companions.first_integrals
+    search = first_integrals.first_integrals
 
     def counted(forms: Codistribution, wanted: int) -> list[FirstIntegral]:
         sought.append(wanted)
         return search(forms, wanted)
 
-    monkeypatch.setattr(companions, "first_integrals", counted)
+    monkeypatch.setattr(companions.first_integrals, "first_integrals", counted)
     assert dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": constraints}).dof == 1
     assert set(sought) == {many}

@@ -6,14 +6,14 @@ from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 from dofkit.base.components import components
 from dofkit.base.deadline import unless_late
+from dofkit.base.libraries import LateLibrary
 from dofkit.classification.dependence.by_implication import MAX_CHOICES, implied
-from dofkit.classification.dependence.by_leaving_out import by_leaving_out, owners_of
 from dofkit.classification.dependence.by_rank import analysed, at_a_point, holds_where, joined_parts, without_hidden
 from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse, left_open
-from dofkit.classification.dependence.implications import implication_of
 from dofkit.classification.dependence.regions import is_region, of_regions
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.through_reference import through_reference
@@ -23,6 +23,12 @@ from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
+
+if TYPE_CHECKING:
+    from dofkit.classification.dependence import by_leaving_out, implications
+else:
+    by_leaving_out = LateLibrary("dofkit.classification.dependence.by_leaving_out")
+    implications = LateLibrary("dofkit.classification.dependence.implications")
 
 #: The blocks that hold rows of a constraint, with their answers, by its number.
 BlocksOf = dict[int, list[tuple[Block, Answer]]]
@@ -137,7 +143,7 @@ def _as_free(found: Redundancies, blocks: Sequence[tuple[Block, Answer]]) -> Red
     taken = sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
     if sum(found.independent.values()) <= taken:
         return found
-    parts = [OwnedRows(a.matrix, owners_of(b), _finite_rows(b), a.modulus) for b, a in blocks]
+    parts = [OwnedRows(a.matrix, by_leaving_out.owners_of(b), _finite_rows(b), a.modulus) for b, a in blocks]
     known = all(len(part.matrix) == len(part.owners) for part in parts)
     by_rank = analyse(parts) if known else Redundancies({}, [], [], {})
     members = {i for _, group in by_rank.groups for i in group}
@@ -173,7 +179,7 @@ def _of_block(
 ) -> Iterator[Redundancies | OwnedRows]:
     """What is settled of a block at once, or its rows where their rank tells."""
     nullity = len(block.rows) - (len(block.coordinates) - (a.velocity_dof or 0))
-    owners = owners_of(block)
+    owners = by_leaving_out.owners_of(block)
     equations = [numbered.get(id(r.piece), -1) for r in block.rows]
     matrix = without_hidden(block, a)
     if nullity <= 0 and a.hidden and not a.degenerate:
@@ -181,10 +187,12 @@ def _of_block(
     elif a.degenerate and "balls" not in setting.engines:
         yield left_open(owners)
     elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
-        yield unless_late(partial(by_leaving_out, block, setting, a, nullity, equations), left_open(owners))
+        yield unless_late(
+            partial(by_leaving_out.by_leaving_out, block, setting, a, nullity, equations), left_open(owners)
+        )
     else:
         finite = _finite_rows(block)
-        implied = None if a.supports is not None or nullity <= 0 else implication_of(block, a, setting)
+        implied = None if a.supports is not None or nullity <= 0 else implications.implication_of(block, a, setting)
         yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied)
 
 

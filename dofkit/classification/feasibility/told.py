@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
+from dofkit.base.libraries import LateLibrary
 from dofkit.base.verdicts import ArgumentKey, Claim, weakest
-from dofkit.classification.feasibility.feasibility import Feasibility, feasibility
-from dofkit.classification.feasibility.witness import Values
 from dofkit.classification.study import Study
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
@@ -17,6 +16,13 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, GAP
 from dofkit.report import FieldVerdict
 from dofkit.system import System
+
+if TYPE_CHECKING:
+    from dofkit.classification.feasibility import feasibility
+    from dofkit.classification.feasibility.feasibility import Feasibility
+    from dofkit.classification.feasibility.witness import Values
+else:
+    feasibility = LateLibrary("dofkit.classification.feasibility.feasibility")
 
 #: Decimals of a number that is known as a ball.
 DIGITS = 15
@@ -26,7 +32,7 @@ def inequalities_together(study: Study, told: Mapping[str, Any]) -> Mapping[str,
     """The report's fields, beside what is ``told`` already; nothing where there are no inequalities."""
     if not any(r.inequalities for r in study.reduced):
         return {}
-    found = feasibility(study.reduced, study.setting, study.outcome, study.dependence.conflicting.members)
+    found = feasibility.feasibility(study.reduced, study.setting, study.outcome, study.dependence.conflicting.members)
     at = _texts(study.system, found.at) if found.feasible else None
     claims = {} if found.feasible is None else _claims(found)
     return {

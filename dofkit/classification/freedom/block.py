@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
+from dofkit.base.libraries import LateLibrary
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.agreement import agreed, numeric
 from dofkit.classification.freedom.bridged_blocks import bridged_answer
 from dofkit.configuration.components import is_graph, is_irreducible
-from dofkit.configuration.distance_geometry import lengths_unmet
 from dofkit.configuration.drawing.at_reference import at_reference
 from dofkit.configuration.drawing.measured_blocks import is_measured
 from dofkit.configuration.finite_blocks import finite_answer
@@ -27,7 +28,6 @@ from dofkit.expressions.tree import Expr
 from dofkit.integrability.labels_by_balls import ball_labels
 from dofkit.integrability.labels_by_field import field_labels
 from dofkit.integrability.lie_algebra_at_points import SampledSpan, span_at
-from dofkit.integrability.measured_forms import measured_answer
 from dofkit.integrability.nonlinear_velocities import set_velocity_freedom
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution, first_order_freedom
 from dofkit.integrability.prolongation import confinements, prolong
@@ -36,6 +36,13 @@ from dofkit.mobility.frameworks import framework_answer
 from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.setting import Setting
+
+if TYPE_CHECKING:
+    from dofkit.configuration import distance_geometry
+    from dofkit.integrability import measured_forms
+else:
+    distance_geometry = LateLibrary("dofkit.configuration.distance_geometry")
+    measured_forms = LateLibrary("dofkit.integrability.measured_forms")
 
 #: Rounds of prolongation: each finds one hidden finite relation.
 MAX_ROUNDS = 12
@@ -72,7 +79,7 @@ def _engines(block: Block, setting: Setting) -> Answer:
         if framework is not None:
             return framework
     if setting.distances and setting.engines == BOTH:
-        unmet = lengths_unmet(block, setting)
+        unmet = distance_geometry.lengths_unmet(block, setting)
         if unmet is not None:
             return unmet
     alone = replace(setting, engines=BALLS, grows=False, flag=False)
@@ -107,7 +114,7 @@ def _tested(block: Block, setting: Setting, finite: Answer) -> Answer:
 
 def _mixed_answer(block: Block, setting: Setting) -> Answer:
     if block.finite and is_measured(block, setting):
-        return measured_answer(block, setting)
+        return measured_forms.measured_answer(block, setting)
     result = _prolonged(block, setting, Answer())
     if setting.reference is not None:
         result.instantaneous, result.first_order_sure = first_order_freedom(block, setting, setting.reference)

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator
 from itertools import chain, count
+from typing import TYPE_CHECKING
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import Fault, SceneError, TextError
+from dofkit.base.libraries import LateLibrary
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.renaming import shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.unwritten import Unwritten
-from dofkit.integrability.accelerations import without_accelerations
 from dofkit.mobility.bridges import Bridges, bridges
 from dofkit.mobility.rows_at_drawing import RowsAtDrawing
 from dofkit.relations.joint_equations import unwritten
@@ -23,6 +24,11 @@ from dofkit.relations.reduced import Reduced
 from dofkit.relations.reductions import ALL, Reductions
 from dofkit.relations.setting import Setting, TurnedBody
 from dofkit.system import System
+
+if TYPE_CHECKING:
+    from dofkit.integrability import accelerations
+else:
+    accelerations = LateLibrary("dofkit.integrability.accelerations")
 
 #: The kinds of symbols that no finite relation holds.
 RATES = frozenset({"velocity", "acceleration", "differential", "dt"})
@@ -140,7 +146,7 @@ class _Normals:
         if not written and kinds.isdisjoint(RATES):
             return Normal(((Finite(e),),))
         if "acceleration" in kinds:
-            return without_accelerations(e, self._positive, self._fresh)
+            return accelerations.without_accelerations(e, self._positive, self._fresh)
         if not written:
             return without_instants(normalise(e, self._positive, written))
         shape = shape_of(e)

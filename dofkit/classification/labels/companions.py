@@ -5,15 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import chain, count, islice
+from typing import TYPE_CHECKING
 
 from dofkit.base.deadline import OutOfTimeError, check
+from dofkit.base.libraries import LateLibrary
 from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.expressions.text import to_text
-from dofkit.integrability.first_integrals import FirstIntegral, first_integrals, integral_by_row, is_first_integral
 from dofkit.integrability.pfaffian_system import codistribution
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.normal.normal_form import Pfaffian
+
+if TYPE_CHECKING:
+    from dofkit.integrability import first_integrals
+    from dofkit.integrability.first_integrals import FirstIntegral
+else:
+    first_integrals = LateLibrary("dofkit.integrability.first_integrals")
 
 #: Blocks up to this many constraints and coordinates are searched for companions and integrals.
 MAX_CONSTRAINTS, MAX_COORDINATES = 10, 12
@@ -97,7 +104,7 @@ class Companionship:
         What some of its rows integrate to need not be: where y = 0, dx = y dz says nothing of z, though it makes z
         constant beside x = 0 alone.
         """
-        return is_first_integral(codistribution(block, self.parts.plain, a.hidden, [f.expr]), f.expr)
+        return first_integrals.is_first_integral(codistribution(block, self.parts.plain, a.hidden, [f.expr]), f.expr)
 
     def _holonomic(self, constraint: int, rows: Sequence[Row], block: Block) -> bool:
         for part in split(block.coordinates, rows)[0]:
@@ -141,9 +148,9 @@ class Companionship:
             return CompanionIntegrals({}, [])
         forms = self.parts.forms(part, whole.hidden)
         sought = len(part.coordinates) - whole.dof - len(part.finite) - len(whole.hidden)
-        integrals = first_integrals(forms, sought)
+        integrals = first_integrals.first_integrals(forms, sought)
         shift = forms.finite - len(part.finite)
-        by_row = integral_by_row(forms, integrals)
+        by_row = first_integrals.integral_by_row(forms, integrals)
         return CompanionIntegrals({numbers[row - shift]: f for row, f in by_row.items()}, integrals)
 
 

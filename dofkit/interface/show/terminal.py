@@ -37,6 +37,7 @@ def as_text(sheet: Sheet, screen: Screen) -> str:
         force_terminal=coloured,
         force_jupyter=False,
         color_system=screen.colours,
+        emoji=False,
         no_color=not coloured,
     )
     with console.capture() as captured:
