@@ -18,7 +18,7 @@ from dofkit.mobility.graph.pebbles import FREE, Board, leader
 
 
 class Neighbours(NamedTuple):
-    """``at[start[v] : start[v + 1]]``: links of joint v; ``across``: their other ends; ``degree``: how many are left."""
+    """``at[start[v] : start[v + 1]]``: those of joint v; ``across``: their other ends; ``degree``: how many left."""
 
     start: list[int]
     at: list[int]
