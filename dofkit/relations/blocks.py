@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import NamedTuple
 
 from dofkit.base.components import components
 from dofkit.expressions import tree as ex
@@ -16,8 +17,7 @@ from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, P
 from dofkit.relations.reductions import Reductions
 
 
-@dataclass(frozen=True)
-class Row:
+class Row(NamedTuple):
     """One scalar equation after reduction, or a condition: which constraint wrote it, and what it says."""
 
     constraint: int

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product as cartesian
+from typing import NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.exact.zero.identity import is_proved_zero, is_zero
@@ -108,8 +109,7 @@ Piece = Finite | Pfaffian | Nonlinear | Inequality | DomainCondition
 Branches = tuple[tuple[Piece, ...], ...]
 
 
-@dataclass(frozen=True)
-class Normal:
+class Normal(NamedTuple):
     """What a relation says, and what was done to see it.
 
     ``constants``: coordinates that stand for constants of an integration by time, which ``once`` tells.
@@ -283,7 +283,7 @@ def _by_signs_of_rates(e: Expr, folds: Sequence[Expr], positive: frozenset[Expr]
 
 
 def _with_note(normal: Normal, note: str) -> Normal:
-    return replace(normal, notes=tuple(dict.fromkeys((note, *normal.notes))))
+    return normal._replace(notes=tuple(dict.fromkeys((note, *normal.notes))))
 
 
 def _sided(
