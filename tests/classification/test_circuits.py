@@ -51,3 +51,4 @@ def test_a_coupling_of_a_joint_with_itself_says_nothing() -> None:
     report = dofkit.classify({"bodies": ["a"], "constraints": [*joints, coupling]})
     assert (report.dof, report.redundant) == (1, ["j1", "c"])
     assert [e.independent for e in report.constraints] == [5, 0, 0]
+    assert report.constraints[2].circuit == []
