@@ -266,7 +266,8 @@ def _scaled(piece: object) -> Hashable:
     if isinstance(piece, Finite):
         first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
         number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
-        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if number.op == "num" else piece.expr
+        numeric = number.op == "num" and not number.is_zero
+        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if numeric else piece.expr
     if isinstance(piece, Pfaffian):
         return type(piece), tuple(piece.coefficients.items()), piece.dt
     return piece
