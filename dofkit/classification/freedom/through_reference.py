@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from itertools import product as cartesian
 
 from dofkit.classification.freedom.velocity_domain import still_conditions

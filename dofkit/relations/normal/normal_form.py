@@ -176,7 +176,7 @@ def _defined(e: Expr, normal: Normal, positive: frozenset[Expr]) -> Normal:
     within = [c for c in conditions_of(e, positive) if not velocities_of(c.expr)]
     if within and no_solution((), positive, [c.expr for c in within if c.sense != "!="]):
         return Normal((), (NOWHERE_NOTE,))
-    return replace(normal, branches=tuple((*b, *(c for c in within if c not in b)) for b in normal.branches))
+    return normal._replace(branches=tuple((*b, *(c for c in within if c not in b)) for b in normal.branches))
 
 
 def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
