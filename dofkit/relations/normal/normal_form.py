@@ -16,7 +16,8 @@ from dofkit.base.errors import TextError
 from dofkit.exact.zero.identity import is_proved_zero, is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
-from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, in_velocities
+from dofkit.expressions.combinations import Combined, combined
+from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, cleared, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.exact_zeros import SOLE_NOTE, sole_zero
@@ -157,22 +158,6 @@ def linear_form(e: Expr) -> Pfaffian | None:
     return Pfaffian(coefficients, substitute(e, dict.fromkeys(velocities, ex.ZERO)))
 
 
-def cleared(e: Expr) -> Expr:
-    """``e`` times the denominators of its terms, so that dy/dx = f becomes dy - f dx = 0."""
-    denominators: dict[Expr, Expr] = {}
-    for term in e.args if e.op == "add" else (e,):
-        for factor in term.args if term.op == "mul" else (term,):
-            is_below = factor.op == "pow" and factor.args[1].op == "num" and factor.args[1].args[0] < 0
-            if is_below and velocities_of(factor):
-                base = factor.args[0]
-                old = denominators.get(base, ex.ONE)
-                denominators[base] = max(old, ex.power(factor, ex.MINUS_ONE), key=repr)
-    if not denominators:
-        return e
-    whole = ex.mul(*denominators.values())
-    return ex.add(*(ex.mul(whole, term) for term in (e.args if e.op == "add" else (e,))))
-
-
 def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     """What ``e = 0`` says; ``written`` equations are reduced over the reals, those of joints are regular as they are.
 
@@ -180,6 +165,14 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     """
     if accelerations_of(e):
         raise TextError("a second derivative is no constraint on positions or velocities", hint=SOLVE_FOR_IT)
+    fewer = combined(e) if written else Combined(e, {})
+    found = _normalised(fewer.expr, positive, written)
+    if not fewer.sums:
+        return found
+    return replace(found, branches=tuple(tuple(with_constants(p, fewer.sums) for p in b) for b in found.branches))
+
+
+def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     velocity_form, divided = in_velocities(e)
     if not velocities_of(velocity_form):
         if divided:
