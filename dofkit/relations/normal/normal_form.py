@@ -17,6 +17,7 @@ from dofkit.base.errors import TextError
 from dofkit.exact.zero.identity import is_proved_zero, is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
+from dofkit.expressions.combinations import Combined, combined
 from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, cleared, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
@@ -158,6 +159,14 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     """
     if accelerations_of(e):
         raise TextError("a second derivative is no constraint on positions or velocities", hint=SOLVE_FOR_IT)
+    fewer = combined(e) if written else Combined(e, {})
+    found = _normalised(fewer.expr, positive, written)
+    if not fewer.sums:
+        return found
+    return replace(found, branches=tuple(tuple(with_constants(p, fewer.sums) for p in b) for b in found.branches))
+
+
+def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     velocity_form, divided = in_velocities(e)
     if not velocities_of(velocity_form):
         if divided:
