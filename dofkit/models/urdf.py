@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from dofkit.base.errors import SceneError
-from dofkit.models.joint_relations import JointSum, bounds, relation
+from dofkit.models.joint_relations import OVER, JointSum, bounds, relation, whole_turns
 from dofkit.models.model_document import (
     ModelDocument,
     ModelFile,
@@ -159,8 +159,12 @@ class _UrdfScene:
             self.draft.leave_out(f"the ranges of joints ({listed(shown)}): with `--limits` they are inequalities")
             return
         for joint in ranged:
-            stands = self.drawn.get(joint.name, 0.0)
-            given = bounds(JointSum(((self.names[joint.name], 1.0),), stands), joint.range or ())
+            stands, between = self.drawn.get(joint.name, 0.0), joint.range or ()
+            turns = 0.0 if joint.kind == "prismatic" else whole_turns(stands, between)
+            if turns is None:
+                self.draft.leave_out(f"the range of {joint.name}: {OVER}")
+                continue
+            given = bounds(JointSum(((self.names[joint.name], 1.0),), stands + turns), between)
             self.draft.constraint(f"{joint.name} range", "coupling", joint.line, **given)
 
     def _rest(self) -> None:

@@ -194,6 +194,20 @@ def test_a_range_counts_from_where_a_closing_joint_is_drawn() -> None:
     assert ranged.written()["text"] == "-1.5 <= p <= 0.5"
 
 
+@pytest.mark.parametrize(("limits", "text"), [("3.5 5", "-2.78318530718 <= p <= -1.28318530718"), ("3 4", "")])
+def test_ranges_beyond_half_a_turn_are_counted_less_whole_turns(limits: str, text: str) -> None:
+    low, high = limits.split()
+    scene = load(
+        robot(
+            link("base"), link("a"), joint("j", "revolute", "base", "a", f"<limit lower='{low}' upper='{high}'/>{Z}")
+        ),
+        limits=True,
+    )
+    ranged = [c.written()["text"] for c in scene.constraints if c.kind() == "coupling"]
+    assert ranged == ([text] if text else [])
+    assert any("over half a turn" in told for told in scene.left_out) is not bool(text)
+
+
 FAULTS: dict[str, tuple[str, ...]] = {
     "line 3, column 1: there is no joint type 'revolut' (did you mean 'revolute'?)": (
         link("a") + link("b"), joint("j", "revolut", "a", "b")),
