@@ -7,10 +7,13 @@ was left out, whose parameters begin with ``_``. All other names are kept: param
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 from dofkit.expressions.tree import Expr, children, nodes
 
+#: Letters that are kept of a name that begins with ``_``.
+_STEM = 2
 #: The kinds of symbols that are called by a coordinate.
 MOVING = frozenset({"coordinate", "velocity", "acceleration", "differential"})
 
@@ -62,11 +65,39 @@ def shape_of(e: Expr) -> ExpressionShape:
         for symbol in _symbols_in_order(e):
             if is_name(symbol):
                 name = symbol.args[1]
-                stem = name[:2] if name[0] == "_" else ""
+                stem = name[:_STEM] if name[0] == "_" else ""
                 places.setdefault(name, f"{stem}{len(places)}")
         kept = sorted({s.args[1] for s in e.symbols if not is_name(s)})
         found = e.shape = ExpressionShape(renamed(e, places), tuple(places), tuple(kept))
     return found
+
+
+def kinds_in(e: Expr) -> frozenset[str]:
+    """The kinds of the symbols that occur."""
+    return frozenset([s.args[0] for s in e.symbols]) if e.shape is None else _occurring(e.shape.skeleton)[0]
+
+
+def coordinates_in(e: Expr) -> frozenset[str]:
+    """The coordinates of which the value or the velocity occurs.
+
+    >>> from dofkit.expressions.tree import coordinate, velocity
+    >>> sorted(coordinates_in(coordinate("y") * velocity("x")))
+    ['x', 'y']
+    """
+    shape = e.shape
+    if shape is None:
+        return frozenset([s.args[1] for s in e.symbols if s.args[0] in ("coordinate", "velocity")])
+    names = shape.names
+    return frozenset([names[k] for k in _occurring(shape.skeleton)[1]])
+
+
+@lru_cache(maxsize=1000)
+def _occurring(skeleton: Expr) -> tuple[frozenset[str], tuple[int, ...]]:
+    """The kinds of symbols of an expression without its names, and the numbers that stand for coordinates there."""
+    called = {s.args[1] for s in skeleton.symbols if s.args[0] in ("coordinate", "velocity")}
+    return frozenset([s.args[0] for s in skeleton.symbols]), tuple(
+        sorted(int(n[_STEM * (n[0] == "_") :]) for n in called)
+    )
 
 
 def _symbols_in_order(e: Expr) -> list[Expr]:

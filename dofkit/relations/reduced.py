@@ -22,4 +22,4 @@ class Reduced(NamedTuple):
     @property
     def constants(self) -> tuple[str, ...]:
         """What stands for constants of an integration by time."""
-        return tuple(c for normal in self.normals for c in normal.constants)
+        return tuple([c for normal in self.normals for c in normal.constants])

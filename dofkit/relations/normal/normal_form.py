@@ -120,6 +120,8 @@ class Normal(NamedTuple):
     @property
     def pieces(self) -> tuple[Piece, ...]:
         """Every piece of every branch that is a relation."""
+        if len(self.branches) == 1 and len(self.branches[0]) == 1:
+            return () if isinstance(self.branches[0][0], DomainCondition) else self.branches[0]
         return tuple(piece for branch in self.branches for piece in branch if not isinstance(piece, DomainCondition))
 
 
