@@ -75,7 +75,7 @@ class BlockReader:
             match = _KEY.match(self.text, self.at)
             if match is None:
                 raise UnusualError
-            key, key_at = next(part for part in match.groups() if part is not None), self.at
+            key, key_at = match[1] or next(part for part in match.groups() if part is not None), self.at
             if key in found:
                 self.faults.append((key_at, twice(key)))
                 places, self.flow.places = self.flow.places, None

@@ -31,6 +31,8 @@ _TOKEN = re.compile(
     )""",
     re.VERBOSE | re.ASCII,
 )
+#: Most keys, with their colon.
+_EASY_KEY = re.compile(r"[ \t\r\n]*([A-Za-z_][A-Za-z0-9_]{0,63}):(?=[ \t\r\n])", re.ASCII)
 _MARK, _DOUBLE, _SINGLE, _PLAIN = 1, 2, 3, 4
 _DOTS = re.compile(r"\.{3}|-\.{2}")
 
@@ -108,11 +110,15 @@ class FlowReader:
 
     def _mapping(self, path: Path, depth: int) -> dict[str, Any]:
         found: dict[str, Any] = {}
-        token = self._next()
-        if token[_MARK] == "}":
-            return found
         while True:
-            key, offset = self._key(token), _start(token)
+            easy = _EASY_KEY.match(self.text, self.position, self.stop)
+            if easy is not None:
+                key, offset, self.position = easy[1], easy.start(1), easy.end()
+            else:
+                token = self._next()
+                if token[_MARK] == "}" and not found:
+                    return found
+                key, offset = self._key(token), _start(token)
             if key in found:
                 self.faults.append((offset, twice(key)))
                 places, self.places = self.places, None
@@ -123,7 +129,6 @@ class FlowReader:
                 found[key] = self._value(self._next(), below, offset, depth)
             if self._ends("}"):
                 return found
-            token = self._next()
 
     def _key(self, token: re.Match[str]) -> str:
         if token.lastindex == _MARK or token.end() - _start(token) > _LONGEST_KEY:
@@ -138,6 +143,10 @@ class FlowReader:
         return key
 
     def _ends(self, close: str) -> bool:
+        mark = self.text[self.position] if self.position < self.stop else ""
+        if mark in (",", close):
+            self.position += 1
+            return mark == close
         mark = self._next()[_MARK]
         if mark not in (",", close):
             raise UnusualError
