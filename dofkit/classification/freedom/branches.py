@@ -17,7 +17,7 @@ from dofkit.classification.freedom.through_reference import crossing_at, through
 from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.modulo_others import with_reductions_checked
+from dofkit.integrability.modulo_others import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.relations.answer import Answer, AnsweredPart
 from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.relations.blocks import Block, Row, blocks_of, split, with_boundaries
@@ -40,7 +40,8 @@ class Outcome:
 
     ``reduced``: what was written nonlinear in the velocities and is not so beside the other rows; ``impossible``:
     constraints that hold nowhere, ``unsettled``: inequalities of which that is not known. ``crossing``: a relation has
-    several branches at the reference, or none there; then ``first_order`` is what its gradient allows.
+    several branches at the reference, or none there; then ``first_order`` is what its gradient allows. ``divided``: to
+    reduce a relation, what may vanish was divided by.
     """
 
     rows: list[Row]
@@ -54,6 +55,7 @@ class Outcome:
     copies: dict[int, int] = field(default_factory=dict)
     reduced: tuple[RewrittenRow, ...] = ()
     unsettled: list[int] = field(default_factory=list)
+    divided: bool = False
 
     @property
     def consistent(self) -> bool | None:
@@ -137,7 +139,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
         for way in ways:
             names = [*(c.name for c in system.coordinates), *names_in(way.rows, constants)]
             outcome = _answered(names, way.rows, impossible, setting, known)
-            outcome.reduced = way.reduced
+            outcome.reduced, outcome.divided = way.reduced, way.divided
             outcomes.append(outcome)
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], [c.name for c in system.coordinates])
     if len(outcomes) == 1:
@@ -172,6 +174,8 @@ def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> 
         best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
     elif best.consistent is not False:
         best.answers = with_reductions_checked(best.reduced, best.blocks, best.answers, setting)
+    elif not best.impossible and any(o.divided for o in outcomes):
+        best.answers = [Answer(None, verdict="undecided", reasons=[NOT_EQUIVALENT]) for _ in best.answers]
     return best
 
 
@@ -266,7 +270,8 @@ def _scaled(piece: object) -> Hashable:
     if isinstance(piece, Finite):
         first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
         number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
-        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if number.op == "num" else piece.expr
+        numeric = number.op == "num" and not number.is_zero
+        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if numeric else piece.expr
     if isinstance(piece, Pfaffian):
         return type(piece), tuple(piece.coefficients.items()), piece.dt
     return piece

@@ -139,7 +139,7 @@ class _Normals:
         """What ``e = 0`` says. Raises TextError where it can be no relation."""
         kinds = kinds_in(e)
         if not written and kinds.isdisjoint(RATES):
-            return Normal(((Finite(e),),))
+            return Normal(((),) if e.is_zero else ((Finite(e),),))
         if "acceleration" in kinds:
             return without_accelerations(e, self._positive, self._fresh)
         if not written:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from itertools import product as cartesian
 
 from dofkit.classification.freedom.velocity_domain import still_conditions
@@ -18,7 +19,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.joint_equations import JointEquation
-from dofkit.relations.normal.domain import DomainCondition, holds_at
+from dofkit.relations.normal.domain import DomainCondition, has_value, holds_at
 from dofkit.relations.normal.normal_form import Finite, Normal, Piece, normalise, velocities_of
 from dofkit.relations.normal.signs import arguments_of, by_signs
 from dofkit.relations.normal.zero_set import zero_set
@@ -102,7 +103,15 @@ def _holds(branch: Sequence[Piece], setting: Setting) -> bool:
     if point is None or not on_variety(chart, point):
         return False
     conditions = still_conditions([p for p in branch if isinstance(p, DomainCondition)])
-    return all(holds_at(c, known, setting.positive) is not False for c in conditions)
+    ends = any(c.adjoining and not holds_at(replace(c, adjoining=False), known, setting.positive) for c in conditions)
+    return all(_may_hold(c, known, ends, setting.positive) for c in conditions)
+
+
+def _may_hold(c: DomainCondition, known: Mapping[Expr, Expr], ends: bool, positive: frozenset[Expr]) -> bool:
+    """Is a condition not broken at a configuration? Where the branch ``ends`` there, one without a value is not."""
+    if holds_at(c, known, positive) is not False:
+        return True
+    return ends and not has_value(c, known, positive)
 
 
 def _block(pieces: Sequence[Finite]) -> Block:
