@@ -13,7 +13,6 @@ from dofkit.relations.blocks import Block
 from dofkit.relations.piece_shapes import piece_shape
 from dofkit.relations.setting import Setting
 
-
 #: Owner and role of what is no coordinate of the system.
 _FREE = (None, "")
 
