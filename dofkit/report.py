@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from typing import Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, PrivateAttr, model_validator
@@ -22,6 +23,19 @@ class ToldModel(BaseModel):
     """The base of what is told: frozen, with no keys beyond the fields."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
+
+    def with_values(self, **values: Any) -> Self:
+        """As ``model_copy(update=values)``, for values of fields that were given: which these are the copy shares.
+
+        >>> Redundancy(nullity=1, members=["A"]).with_values(nullity=2)
+        Redundancy(nullity=2, members=['A'])
+        """
+        made = type(self).__new__(type(self))
+        object.__setattr__(made, "__dict__", {**self.__dict__, **values})
+        object.__setattr__(made, "__pydantic_fields_set__", self.__pydantic_fields_set__)
+        object.__setattr__(made, "__pydantic_extra__", self.__pydantic_extra__)
+        object.__setattr__(made, "__pydantic_private__", copy(self.__pydantic_private__))
+        return made
 
 
 class FieldVerdict(ToldModel):

@@ -7,22 +7,29 @@ was left out, whose parameters begin with ``_``. All other names are kept: param
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 from dofkit.expressions.tree import Expr, children, nodes
 
-#: Letters that are kept of a name that begins with ``_``.
-_STEM = 2
 #: The kinds of symbols that are called by a coordinate.
 MOVING = frozenset({"coordinate", "velocity", "acceleration", "differential"})
+#: Of them those of a coordinate's own value and rate.
+VALUED = frozenset({"coordinate", "velocity"})
+
+
+class Occurring(NamedTuple):
+    """The ``kinds`` of symbols in an expression, and which of its names are those of ``coordinates``, by number."""
+
+    kinds: frozenset[str]
+    coordinates: tuple[int, ...]
 
 
 class ExpressionShape(NamedTuple):
     """An expression without its names.
 
     ``skeleton``: the expression with its names replaced by numbers, in the order in which they first occur; ``names``:
-    these, in that order; ``kept``: the names of symbols that are no such names, sorted.
+    these, in that order; ``kept``: the names of symbols that are no such names, sorted; ``occurring``: told by the
+    skeleton.
 
     >>> from dofkit.expressions.tree import coordinate, velocity
     >>> shape_of(coordinate("y") * velocity("x")).names
@@ -34,6 +41,7 @@ class ExpressionShape(NamedTuple):
     skeleton: Expr
     names: tuple[str, ...]
     kept: tuple[str, ...]
+    occurring: Occurring
 
     @property
     def order(self) -> tuple[int | str, ...]:
@@ -65,16 +73,18 @@ def shape_of(e: Expr) -> ExpressionShape:
         for symbol in _symbols_in_order(e):
             if is_name(symbol):
                 name = symbol.args[1]
-                stem = name[:_STEM] if name[0] == "_" else ""
+                stem = name[:2] if name[0] == "_" else ""
                 places.setdefault(name, f"{stem}{len(places)}")
         kept = sorted({s.args[1] for s in e.symbols if not is_name(s)})
-        found = e.shape = ExpressionShape(renamed(e, places), tuple(places), tuple(kept))
+        called = {s.args[1] for s in e.symbols if s.args[0] in VALUED}
+        occurring = Occurring(kinds_in(e), tuple([k for k, name in enumerate(places) if name in called]))
+        found = e.shape = ExpressionShape(renamed(e, places), tuple(places), tuple(kept), occurring)
     return found
 
 
 def kinds_in(e: Expr) -> frozenset[str]:
     """The kinds of the symbols that occur."""
-    return frozenset([s.args[0] for s in e.symbols]) if e.shape is None else _occurring(e.shape.skeleton)[0]
+    return frozenset([s.args[0] for s in e.symbols]) if e.shape is None else e.shape.occurring.kinds
 
 
 def coordinates_in(e: Expr) -> frozenset[str]:
@@ -86,18 +96,9 @@ def coordinates_in(e: Expr) -> frozenset[str]:
     """
     shape = e.shape
     if shape is None:
-        return frozenset([s.args[1] for s in e.symbols if s.args[0] in ("coordinate", "velocity")])
+        return frozenset([s.args[1] for s in e.symbols if s.args[0] in VALUED])
     names = shape.names
-    return frozenset([names[k] for k in _occurring(shape.skeleton)[1]])
-
-
-@lru_cache(maxsize=1000)
-def _occurring(skeleton: Expr) -> tuple[frozenset[str], tuple[int, ...]]:
-    """The kinds of symbols of an expression without its names, and the numbers that stand for coordinates there."""
-    called = {s.args[1] for s in skeleton.symbols if s.args[0] in ("coordinate", "velocity")}
-    return frozenset([s.args[0] for s in skeleton.symbols]), tuple(
-        sorted(int(n[_STEM * (n[0] == "_") :]) for n in called)
-    )
+    return frozenset([names[k] for k in shape.occurring.coordinates])
 
 
 def _symbols_in_order(e: Expr) -> list[Expr]:
@@ -235,9 +236,9 @@ class _Renamed(Expr):
     __slots__ = ("_own", "_template")
 
     def __init__(self, template: Template, symbols: Sequence[Expr], names: tuple[str, ...]) -> None:
-        skeleton, _, kept = template.shape
+        skeleton, _, kept, occurring = template.shape
         self.op = template.op
-        self.shape = ExpressionShape(skeleton, names, kept)
+        self.shape = ExpressionShape(skeleton, names, kept, occurring)
         self._symbols = frozenset(dict.fromkeys((*template.others, *symbols)))
         self._functions = template.functions
         self._template, self._own = template, symbols

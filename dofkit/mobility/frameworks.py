@@ -14,6 +14,7 @@ from collections.abc import Iterable, Sequence
 from dofkit.exact.matrices.sparse import SparseRow, last_columns
 from dofkit.exact.points.field import prime_for
 from dofkit.expressions import tree as ex
+from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.graph.answers import linkage
 from dofkit.relations.answer import Answer
@@ -85,8 +86,7 @@ def _pairs(block: Block, setting: Setting) -> list[Pair] | None:
         pair = next(given[row.constraint], None)
         if pair is None or not isinstance(row.piece, Finite) or not {*pair} <= places.keys():
             return None
-        ends = {s for end in pair for s in places[end]}
-        length = _only(row.piece.expr.symbols, ends)
+        length = _only(row.piece.expr, {*places[pair[0]], *places[pair[1]]})
         if length is None or length in lengths or not (length in free or _is_length(length, row, setting)):
             return None
         lengths.add(length)
@@ -103,10 +103,12 @@ def _unprescribed(setting: Setting) -> frozenset[Expr]:
     return frozenset(setting.generic) - setting.pose.keys()
 
 
-def _only(symbols: frozenset[Expr], ends: set[Expr]) -> Expr | None:
-    """The one symbol beside all of some others."""
-    own = symbols - ends
-    return next(iter(own)) if len(own) == 1 and ends <= symbols else None
+def _only(e: Expr, ends: set[str]) -> Expr | None:
+    """The one symbol beside some coordinates, which are all that occur."""
+    if len(e.symbols) != len(ends) + 1 or coordinates_in(e) != ends:
+        return None
+    others = [s for s in e.symbols if s.args[0] != "coordinate"]
+    return others[0] if len(others) == 1 else None
 
 
 def _is_length(symbol: Expr, row: Row, setting: Setting) -> bool:
@@ -114,14 +116,14 @@ def _is_length(symbol: Expr, row: Row, setting: Setting) -> bool:
     return [d.squared for d in setting.distances.get(row.constraint, ())] == [ex.power(symbol, ex.TWO)]
 
 
-def _places(coordinates: Iterable[str], setting: Setting) -> tuple[dict[str, str | None], dict[str, list[Expr]]]:
+def _places(coordinates: Iterable[str], setting: Setting) -> tuple[dict[str, str | None], dict[str, list[str]]]:
     """(the particle of every coordinate, the coordinates of every particle that has all of them)."""
     owner = {c.name: c.owner for c in setting.roles if c.role in ("x", "y", "z")}
     of = {name: owner.get(name) for name in coordinates}
-    found: dict[str, list[Expr]] = {}
+    found: dict[str, list[str]] = {}
     for name, particle in of.items():
         if particle is not None:
-            found.setdefault(particle, []).append(ex.coordinate(name))
+            found.setdefault(particle, []).append(name)
     return of, {particle: own for particle, own in found.items() if len(own) == setting.dimension}
 
 
@@ -129,12 +131,12 @@ def _rows(pairs: Sequence[Pair], coordinates: Sequence[str], setting: Setting, p
     """The rigidity matrix at random positions modulo p."""
     number = {name: k for k, name in enumerate(coordinates)}
     _, places = _places(coordinates, setting)
-    columns = {particle: [number[str(s.args[1])] for s in own] for particle, own in places.items()}
+    columns = {particle: [number[name] for name in own] for particle, own in places.items()}
     rng = random.Random("dofkit framework")
     at = {particle: [rng.randrange(p) for _ in own] for particle, own in columns.items()}
     rows = []
     for a, b in pairs:
         arm = [(x - y) % p for x, y in zip(at[a], at[b], strict=True)]
         row = dict(zip(columns[a], arm, strict=True)) | {c: -v % p for c, v in zip(columns[b], arm, strict=True)}
-        rows.append({c: v for c, v in row.items() if v})
+        rows.append({c: v for c, v in row.items() if v} if 0 in arm else row)
     return rows

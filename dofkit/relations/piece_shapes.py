@@ -33,8 +33,8 @@ def piece_shape(piece: Piece) -> PieceShape:
 
 
 def _shape(piece: Finite | Nonlinear | Inequality | DomainCondition) -> PieceShape:
-    skeleton, names, kept = shape_of(piece.expr)
-    return PieceShape((type(piece).__name__, _sense(piece), skeleton), names, kept)
+    shape = shape_of(piece.expr)
+    return PieceShape((type(piece).__name__, _sense(piece), shape.skeleton), shape.names, shape.kept)
 
 
 def _sense(piece: Finite | Nonlinear | Inequality | DomainCondition) -> str | bool | None:
@@ -48,7 +48,7 @@ def _form_shape(form: Pfaffian) -> PieceShape:
     kept: set[str] = set()
     parts: list[Hashable] = [type(form).__name__]
     for name, e in _coefficients(form):
-        skeleton, names, others = shape_of(e)
+        skeleton, names, others, _ = shape_of(e)
         own = -1 if name is None else places.setdefault(name, len(places))
         parts.append((own, skeleton, tuple(places.setdefault(n, len(places)) for n in names)))
         kept.update(others)

@@ -226,9 +226,9 @@ def _owned(scene: Declared, table: NameTable) -> Iterator[Entry]:
                 continue
             told.add(owner.name)
             renamed = owner.coordinates is not None and owner.coordinates == owned[owner.name]
+            what = f"a coordinate of {one} '{owner.name}'"
             for j, name in enumerate(owned[owner.name]):
-                where = (key, i, "coordinates", j) if renamed else (key, i, "name")
-                yield name, f"a coordinate of {one} '{owner.name}'", where
+                yield name, what, (key, i, "coordinates", j) if renamed else (key, i, "name")
 
 
 def _further(scene: Declared) -> Iterator[Entry]:

@@ -8,10 +8,10 @@ import random
 import pytest
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.renaming import Renaming, Template, order_of, renamed, shape_of
+from dofkit.expressions.renaming import Renaming, Template, coordinates_in, kinds_in, order_of, renamed, shape_of
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.text.patterns import pattern_of
-from dofkit.expressions.tree import Expr, coordinate, fn, parameter, velocity
+from dofkit.expressions.tree import TIME, Expr, coordinate, differential, fn, parameter, velocity
 
 NAMES = Names(
     coordinates=frozenset({"x", "y", "z", "u", "v", "w", "d", "e5", "x1", "theta", "phi", "x0"}),
@@ -71,6 +71,17 @@ def test_a_template_tells_what_is_asked_before_it_is_looked_into() -> None:
     assert made - written == template.with_symbols([u, v]) * 0
     assert pickle.loads(pickle.dumps(template.of(("u", "v")))) == written
     assert template.of(("v", "u")) != written
+
+
+def test_what_occurs_is_told_by_the_shape_too() -> None:
+    """Of the names _s and x are those of coordinates, whose value or rate occurs; z occurs as a differential only."""
+    e = coordinate("_s") * velocity("x") + differential("z") * parameter("_L1") + TIME * parameter("R")
+    kinds = {"coordinate", "velocity", "differential", "parameter", "time"}
+    assert (coordinates_in(e), kinds_in(e)) == ({"_s", "x"}, kinds)
+    shape_of(e)
+    assert (coordinates_in(e), kinds_in(e)) == ({"_s", "x"}, kinds)
+    made = Template(e).of(["u", "v", "w", "_L7"] if e.shape.names[3] == "_L1" else ["u", "v", "_L7", "w"])
+    assert (coordinates_in(made), kinds_in(made)) == ({"u", "v"}, kinds)
 
 
 def test_a_template_of_one_symbol_is_that_symbol() -> None:

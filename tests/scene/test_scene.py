@@ -259,6 +259,8 @@ BAD: list[tuple[Any, tuple[str | int, ...], int | None, str, str]] = [
     ({"bodies": ["ground"]}, ("bodies", 0, "name"), None, "fixed world", "another name"),
     ({"coordinates": ["sin"]}, ("coordinates", 0), None, "reserved", "another name"),
     ({"coordinates": ["x", "xdot"]}, ("coordinates", 1), None, "the velocity of 'x'", "rename"),
+    ({"coordinates": ["x", "xd", "xddot"]}, ("coordinates", 2), None, "the velocity of 'xd'", "rename"),
+    ({"coordinates": ["xd", "x", "xddot"]}, ("coordinates", 2), None, "the acceleration of 'x'", "rename"),
     ({"coordinates": ["x"], "parameters": ["dx"]}, ("parameters", "dx"), None, "the differential of 'x'", "rename"),
     ({"functions": {"x": ["x"]}, "coordinates": ["x"]}, ("functions", "x"), None, "given twice", "rename"),
     ({"functions": {"h": ["s t"]}}, ("functions", "h", 0), None, "s t", "names"),

@@ -13,6 +13,9 @@ from dofkit.relations.blocks import Block
 from dofkit.relations.piece_shapes import piece_shape
 from dofkit.relations.setting import Setting
 
+#: Owner and role of what is no coordinate of the system.
+_FREE = (None, "")
+
 
 class Likeness(NamedTuple):
     """``key``: equal for blocks that are the same up to ``names``: of coordinates, and of generic geometry after them.
@@ -41,15 +44,16 @@ class Likenesses:
     def of(self, block: Block) -> Likeness:
         """What one block is compared by."""
         shapes = [piece_shape(p) for p in (*(row.piece for row in block.rows), *block.conditions)]
-        mentioned = {n for shape in shapes for n in shape.names if n in self._generic}
-        generic = sorted(mentioned, key=self._generic.__getitem__)
+        known = self._generic
+        mentioned = {n for shape in shapes for n in shape.names if n in known}
+        generic = sorted(mentioned, key=known.__getitem__)
         names = (*block.coordinates, *generic)
         places: dict[str, int] = {name: k for k, name in enumerate(names)}
         measured = self._setting.geometric if self._setting.tolerance is not None else frozenset[int]()
         key = (
             len(block.coordinates),
             len(block.rows),
-            tuple((shape.key, tuple([places.get(n, n) for n in shape.names])) for shape in shapes),
+            tuple([(shape.key, tuple([places.get(n, n) for n in shape.names])) for shape in shapes]),
             tuple([self._pose.get(n) for n in names]) if self._pose else (),
             None if self._reference is None else tuple([self._reference.get(n) for n in names]),
             self._roles_of(block),
@@ -60,10 +64,10 @@ class Likenesses:
 
     def _roles_of(self, block: Block) -> Hashable:
         owners: dict[str | None, int] = {None: -1}
-        found = []
+        roles, tilts, found = self._roles, self._setting.tilts, []
         for name in block.coordinates:
-            owner, role = self._roles.get(name, (None, ""))
-            found.append((owners.setdefault(owner, len(owners)), role, name in self._setting.tilts))
+            owner, role = roles.get(name, _FREE)
+            found.append((owners.setdefault(owner, len(owners)), role, name in tilts))
         return tuple(found)
 
 

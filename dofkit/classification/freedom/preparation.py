@@ -38,12 +38,13 @@ INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
 def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced], Setting]:
     """Each relation as what it says, and what may be assumed of the symbols."""
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
-    positive |= frozenset(ex.parameter(p) for p in system.generic if p.startswith("_L"))
+    generic = tuple([ex.parameter(p) for p in system.generic])
+    positive |= frozenset([p for p in generic if p.args[1].startswith("_L")])
     apart = bridges(system) if "bridges" in reductions and system.tolerance is None else Bridges()
     reduced = reduce_all(system, positive, apart.joints)
     setting = Setting(
         positive,
-        tuple(ex.parameter(p) for p in system.generic),
+        generic,
         system.pose,
         system.reference,
         system.coordinates,

@@ -80,7 +80,7 @@ class SharedEntries:
         found = None if kind is None else self._entries.get(kind)
         if found is None:
             return None
-        return found.model_copy(update={"name": r.constraint.name, "text": r.constraint.text})
+        return found.with_values(name=r.constraint.name, text=r.constraint.text)
 
     def keep(self, kind: Hashable, made: ConstraintEntry) -> None:
         """Tell the same of others of that kind, where all of it is decided and nothing in it has a name."""
