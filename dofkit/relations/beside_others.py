@@ -137,21 +137,15 @@ def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewritin
         sound = [
             b for b in found if not any(isinstance(r.piece, Finite) and _divides(r.piece.expr, divisors) for r in b)
         ]
-        ways, divided = _generic(sound or found), not all(never_vanishes(d, positive) for d in divisors)
+        ways, divided = _one_that_holds(sound or found), not all(never_vanishes(d, positive) for d in divisors)
         if not (divided and any(isinstance(r.piece, Nonlinear) for w in ways for r in w)):
             return _Rewriting(ways, divided)
     return _Rewriting([(row,)] if there == row.piece.expr else _branches(row, there, positive))
 
 
-def _generic(ways: list[tuple[Row, ...]]) -> list[tuple[Row, ...]]:
-    """Without branches of positions only beside others: there rows are dependent, and the answer is the generic one.
-
-    y^2 (zdot - 3 xdot)^2 = 0 beside another constraint says zdot = 3 xdot, as y (zdot - 3 xdot) = 0 would.
-    """
-    if () in ways:
-        return [()]
-    moving = [b for b in ways if any(isinstance(r.piece, (Pfaffian, Nonlinear)) for r in b)]
-    return moving or ways
+def _one_that_holds(ways: list[tuple[Row, ...]]) -> list[tuple[Row, ...]]:
+    """The branches, or the one that says nothing, which holds the others."""
+    return [()] if () in ways else ways
 
 
 def _branches(row: Row, changed: Expr, positive: frozenset[Expr]) -> list[tuple[Row, ...]]:
@@ -181,7 +175,7 @@ def _combined(rows: Sequence[Row], positive: frozenset[Expr]) -> dict[int, list[
         return {}
     expressions = [r.piece.expr for r in rows if isinstance(r.piece, Nonlinear)]
     found = combinations_of(expressions, positive)
-    said = {id(rows[i]): _generic(_branches(rows[i], e, positive)) for i, e in found.items()}
+    said = {id(rows[i]): _one_that_holds(_branches(rows[i], e, positive)) for i, e in found.items()}
     return {i: ways for i, ways in said.items() if not any(isinstance(r.piece, Nonlinear) for w in ways for r in w)}
 
 

@@ -85,6 +85,14 @@ DECIDED: list[tuple[str, list[str], tuple[int, int], list[bool], list[bool], str
         [True, False, False],
         "the last says what the second does",
     ),
+    (
+        "x y z",
+        ["zdot^2 + (xdot + 3 ydot)^2 = 0", "z (t ydot + sin(z) xdot)^2 = zdot^2"],
+        (1, 1),
+        [True, True],
+        [True, False],
+        "z = 0 and x + 3 y constant; elsewhere all is at rest",
+    ),
 ]
 
 

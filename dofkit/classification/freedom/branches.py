@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product as cartesian
 from math import prod
@@ -102,6 +102,15 @@ class Outcome:
         return len(self.untouched) + sum(_most(b, a) for b, a in zip(self.blocks, self.answers, strict=True))
 
     @property
+    def unseen(self) -> int:
+        """No part of this branch has more freedom than this, those that were not looked at among them."""
+        known = (
+            len(b.coordinates) - bool(b.finite) if a.about == "component" else a.dof or 0
+            for b, a in zip(self.blocks, self.answers, strict=True)
+        )
+        return len(self.untouched) + sum(known)
+
+    @property
     def size(self) -> tuple[int, int, int]:
         """What makes one choice of branches larger than another."""
         return (int(self.consistent is not False), -1 if self.dof is None else self.dof, self.velocity_dof or 0)
@@ -173,10 +182,18 @@ def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> 
     if why or (len(outcomes) > 1 and any(a.late for o in outcomes for a in o.answers)):
         best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
     elif best.consistent is not False:
+        best.answers = _of_its_part(best, [o for o in left if o is not best])
         best.answers = with_reductions_checked(best.reduced, best.blocks, best.answers, setting)
     elif not best.impossible and any(o.divided for o in outcomes):
         best.answers = [Answer(None, verdict="undecided", reasons=[NOT_EQUIVALENT]) for _ in best.answers]
     return best
+
+
+def _of_its_part(best: Outcome, others: Sequence[Outcome]) -> list[Answer]:
+    """The answers, told of their own part only where a part that was not seen of another branch may be larger."""
+    if best.dof is None or all(o.unseen <= best.dof for o in others):
+        return best.answers
+    return [replace(a, about="component") if a.about == "everywhere" else a for a in best.answers]
 
 
 def _confirmed(only: Outcome, setting: Setting) -> list[Answer]:
