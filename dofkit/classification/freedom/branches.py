@@ -23,7 +23,7 @@ from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.relations.blocks import Block, Row, blocks_of, split, with_boundaries
 from dofkit.relations.integration_constants import names_in, with_rows
 from dofkit.relations.joint_equations import JointEquation
-from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Pfaffian, Still
+from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Pfaffian, Piece, Still
 from dofkit.relations.normal.one_sided import holds_somewhere
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -238,20 +238,38 @@ def _first_order(
 
 
 def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
-    """Constraints all of whose relations an earlier one wrote already, up to a number: copy -> original."""
-    seen: dict[Hashable, int] = {}
-    found = {}
+    """Constraints all of whose relations an earlier one wrote already, up to a number: copy -> original.
+
+    Only those are compared that mention the same symbols.
+    """
+    alike: dict[Hashable, list[int]] = {}
     for i, r in enumerate(reduced):
         check()
-        if not r.normals or r.inequalities or any(_says_nothing(normal) for normal in r.normals):
-            continue
-        keys = [_up_to_a_number(normal) for normal in r.normals]
+        if r.normals and not r.inequalities and not any(_says_nothing(normal) for normal in r.normals):
+            alike.setdefault(_mentioned(r.normals), []).append(i)
+    seen: dict[Hashable, int] = {}
+    found = {}
+    for i in sorted(i for numbers in alike.values() if len(numbers) > 1 for i in numbers):
+        keys = [_up_to_a_number(normal) for normal in reduced[i].normals]
         key: Hashable = keys[0] if len(keys) == 1 else frozenset(Counter(keys).items())
         if key in seen:
             found[i] = seen[key]
         else:
             seen[key] = i
     return found
+
+
+def _mentioned(normals: Sequence[Normal]) -> Hashable:
+    """The same for relations that are each other's up to a number: what their first pieces mention, in any order."""
+    first = [_symbols_of(normal.branches[0]) for normal in normals]
+    return first[0] if len(first) == 1 else frozenset(first)
+
+
+def _symbols_of(branch: Sequence[Piece]) -> Hashable:
+    piece = branch[0] if branch else None
+    if isinstance(piece, Pfaffian):
+        return frozenset(piece.coefficients)
+    return piece if piece is None else piece.expr.symbols
 
 
 def _says_nothing(normal: Normal) -> bool:
@@ -269,7 +287,8 @@ def _scaled(piece: object) -> Hashable:
     if isinstance(piece, Finite):
         first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
         number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
-        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if number.op == "num" else piece.expr
+        numeric = number.op == "num" and not number.is_zero
+        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if numeric else piece.expr
     if isinstance(piece, Pfaffian):
         return type(piece), tuple(piece.coefficients.items()), piece.dt
     return piece

@@ -35,7 +35,7 @@ def through_reference(normal: Normal, setting: Setting) -> Normal:
     if len(normal.branches) < 2:
         return normal
     kept = tuple(b for b in normal.branches if _holds(b, setting))
-    return replace(normal, branches=kept) if kept else normal
+    return normal._replace(branches=kept) if kept else normal
 
 
 def crossing_at(normal: Normal, written: Expr, setting: Setting) -> tuple[tuple[Piece, ...], ...] | None:
@@ -72,7 +72,7 @@ def _at_kinks(normal: Normal, known: Mapping[Expr, Expr], positive: frozenset[Ex
             kinked = kinked or bool(folded)
             options.append(_by_signs(p.expr, folded, positive) if folded and isinstance(p, Finite) else [(p,)])
         branches += [tuple(q for part in choice for q in part) for choice in cartesian(*options)]
-    return replace(normal, branches=tuple(branches), kinked=True) if kinked else normal
+    return normal._replace(branches=tuple(branches), kinked=True) if kinked else normal
 
 
 def _folded(e: Expr, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> list[Expr]:

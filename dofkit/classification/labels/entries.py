@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.verdicts import OPEN as UNDECIDED
-from dofkit.base.verdicts import Verdict, weakest
+from dofkit.base.verdicts import Claim, Verdict, weakest
 from dofkit.base.wording import verb
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.freedom.branches import Outcome
@@ -21,6 +21,7 @@ from dofkit.classification.labels.one_sided import kept_in_system, with_a_side, 
 from dofkit.classification.labels.reasons import Others
 from dofkit.classification.labels.shared_entries import SharedEntries
 from dofkit.integrability.modulo_others import label_modulo_others
+from dofkit.relations.answer import GAP
 from dofkit.relations.blocks import Row
 from dofkit.relations.integration_constants import fixed_constants
 from dofkit.relations.normal.normal_form import Nonlinear
@@ -75,7 +76,7 @@ def entries_of(
 
 class _Dependence(NamedTuple):
     """What is known of all constraints, by number: independent equations, circuits that were written before, what can
-    go and how surely, what is open, and which equations follow.
+    go and how surely, what is open, which equations follow, and of which constraints that was seen in numbers.
     """
 
     independent: Mapping[int, int]
@@ -83,6 +84,7 @@ class _Dependence(NamedTuple):
     gone: Mapping[int, Verdict]
     open: Mapping[int, str]
     following: Mapping[int, set[int]]
+    seen: frozenset[int]
 
     def says_more_of(self, i: int) -> bool:
         """Is anything known of a constraint beyond how many of its equations are independent: all of them?"""
@@ -102,6 +104,7 @@ def _dependence(dependent: Sequence[Redundancies], outcome: Outcome) -> _Depende
         {i: found.verdict for found in dependent for i in found.redundant},
         dict.fromkeys(uncounted, UNCOUNTED) | {i: OPEN for found in dependent for i in found.undecided},
         _following(dependent),
+        frozenset(i for found in dependent for i in found.seen),
     )
 
 
@@ -110,6 +113,10 @@ def _with_dependence(made: ConstraintEntry, i: int, r: Reduced, known: _Dependen
     if i in known.gone:
         reason = made.reason if i in known.circuits else f"{made.reason} {REDUNDANT}"
         made = made.model_copy(update={"verdict": weakest(made.verdict, known.gone[i]), "reason": reason})
+    if i in known.seen and made.verdict != "undecided":
+        claim = FieldVerdict.of(Claim("numeric", "leaving out", gap=GAP, about="reference"))
+        sure = {"verdict": "numeric", "verdicts": {**made.verdicts, "independent": claim}}
+        made = made.model_copy(update=sure)
     if i not in known.open:
         return _with_equations(made, r, known.following.get(i))
     reason = f"{made.reason} {known.open[i]}"

@@ -31,8 +31,7 @@ from dofkit.relations.setting import Setting
 from dofkit.report import FORMS, ConstraintEntry, FieldVerdict, Form
 
 
-@dataclass(frozen=True)
-class LabelledRow:
+class LabelledRow(NamedTuple):
     """A row, its label in the system (None: finite or nonlinear), and its block's answer.
 
     ``reduced``: a nonlinear row that the others make linear, or imply.

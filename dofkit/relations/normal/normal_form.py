@@ -11,11 +11,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product as cartesian
+from typing import NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.exact.zero.identity import is_proved_zero, is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
+from dofkit.expressions.combinations import Combined, combined
 from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, cleared, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
@@ -102,8 +104,7 @@ Piece = Finite | Pfaffian | Nonlinear | Inequality | DomainCondition
 Branches = tuple[tuple[Piece, ...], ...]
 
 
-@dataclass(frozen=True)
-class Normal:
+class Normal(NamedTuple):
     """What a relation says, and what was done to see it.
 
     ``constants``: coordinates that stand for constants of an integration by time, which ``once`` tells.
@@ -119,6 +120,8 @@ class Normal:
     @property
     def pieces(self) -> tuple[Piece, ...]:
         """Every piece of every branch that is a relation."""
+        if len(self.branches) == 1 and len(self.branches[0]) == 1:
+            return () if isinstance(self.branches[0][0], DomainCondition) else self.branches[0]
         return tuple(piece for branch in self.branches for piece in branch if not isinstance(piece, DomainCondition))
 
 
@@ -158,6 +161,14 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     """
     if accelerations_of(e):
         raise TextError("a second derivative is no constraint on positions or velocities", hint=SOLVE_FOR_IT)
+    fewer = combined(e) if written else Combined(e, {})
+    found = _normalised(fewer.expr, positive, written)
+    if not fewer.sums:
+        return found
+    return replace(found, branches=tuple(tuple(with_constants(p, fewer.sums) for p in b) for b in found.branches))
+
+
+def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     velocity_form, divided = in_velocities(e)
     if not velocities_of(velocity_form):
         if divided:
@@ -176,7 +187,7 @@ def _defined(e: Expr, normal: Normal, positive: frozenset[Expr]) -> Normal:
     within = [c for c in conditions_of(e, positive) if not velocities_of(c.expr)]
     if within and no_solution((), positive, [c.expr for c in within if c.sense != "!="]):
         return Normal((), (NOWHERE_NOTE,))
-    return replace(normal, branches=tuple((*b, *(c for c in within if c not in b)) for b in normal.branches))
+    return normal._replace(branches=tuple((*b, *(c for c in within if c not in b)) for b in normal.branches))
 
 
 def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
@@ -271,7 +282,7 @@ def _by_signs_of_rates(e: Expr, folds: Sequence[Expr], positive: frozenset[Expr]
 
 
 def _with_note(normal: Normal, note: str) -> Normal:
-    return replace(normal, notes=tuple(dict.fromkeys((note, *normal.notes))))
+    return normal._replace(notes=tuple(dict.fromkeys((note, *normal.notes))))
 
 
 def _sided(
