@@ -142,6 +142,15 @@ def test_at_an_edge_a_motion_leaves_it(constraint: str, at: dict[str, Any], numb
     assert (report.dof, report.velocity_dof, report.instantaneous_dof) == numbers
 
 
+def test_a_branch_beside_others_that_misses_the_reference_is_none_of_it() -> None:
+    """At z = 1 both constraints say xdot = 0 and x zdot + y ydot = 0, however the first is written."""
+    sliding = "x zdot + t xdot + y ydot"
+    for first in ("z^2 xdot^2 = 0", f"z^2 xdot^2 + y ({sliding}) = 0"):
+        scene = {"coordinates": ["x", "y", "z"], "constraints": [first, f"{sliding} = 0"]}
+        report = dofkit.classify(scene | {"configuration": {"x": 0, "y": 0, "z": 1}})
+        assert (report.dof, report.velocity_dof) == (1, 1)
+
+
 def test_the_integral_is_of_the_branch_in_use() -> None:
     """At z = 0 only y is constant; where z < 0 x would be so too."""
     report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": ["z xdot^4 = ydot^4", "z = 0"]})

@@ -165,7 +165,7 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     found = _normalised(fewer.expr, positive, written)
     if not fewer.sums:
         return found
-    return replace(found, branches=tuple(tuple(with_constants(p, fewer.sums) for p in b) for b in found.branches))
+    return found._replace(branches=tuple(tuple(with_constants(p, fewer.sums) for p in b) for b in found.branches))
 
 
 def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
