@@ -33,13 +33,7 @@ from dofkit.relations.normal.half_lines import (
     settled,
 )
 from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.notes import (
-    NOWHERE_NOTE,
-    REGION_NOTE,
-    ROOTS_NOTE,
-    SIGNS_NOTE,
-    SQUARED_NOTE,
-)
+from dofkit.relations.normal.notes import NOWHERE_NOTE, REGION_NOTE, ROOTS_NOTE, SIGNS_NOTE, SQUARED_NOTE
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE, Conjunction
 from dofkit.relations.normal.signs import (
     MAX_ARGUMENTS,
