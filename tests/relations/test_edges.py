@@ -151,6 +151,15 @@ def test_a_branch_beside_others_that_misses_the_reference_is_none_of_it() -> Non
         assert (report.dof, report.velocity_dof) == (1, 1)
 
 
+@pytest.mark.parametrize(
+    "constraint",
+    ["z xddot = 0", "z exp(xdot) = y", "xdot (ydot - z wdot) = 0", "z (xdot^2 - w^2 ydot^2) = 0", "z xdot^2 = ydot^2"],
+)
+def test_in_a_system_of_its_own_a_constraint_is_what_it_is_alone(constraint: str) -> None:
+    report = dofkit.classify({"coordinates": list("xyzw"), "constraints": [constraint]})
+    assert report.constraints[0].holonomic_alone == report.constraints[0].holonomic == report.holonomic
+
+
 def test_the_integral_is_of_the_branch_in_use() -> None:
     """At z = 0 only y is constant; where z < 0 x would be so too."""
     report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": ["z xdot^4 = ydot^4", "z = 0"]})
