@@ -6,7 +6,7 @@ velocities, all in the unknowns (q, qdot): a generic state is a point of the set
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -25,11 +25,12 @@ from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.solving.unknowns import Unit, unit_of
 from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.beside_others import form_rate, rate
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.chart_of_block import aliases
-from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
+from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian, linear_form, velocities_of
 from dofkit.relations.setting import Setting
 
 #: Draws of one state from which the one that is taken has to come.
@@ -218,6 +219,23 @@ class States:
             _rank(jacobian(self.ring, at, point, self.moving, known, zero), point),
             _rank(jacobian(self.ring, at, point, self.finite, places, zero), point),
         )
+
+
+def state_relations(rows: Sequence[Row], hidden: Sequence[Expr]) -> list[Expr]:
+    """Finite relations, their rates, forms on velocities and nonlinear relations."""
+    finite = [*(r.piece.expr for r in rows if isinstance(r.piece, Finite)), *hidden]
+    forms = [form_rate(r.piece) for r in rows if isinstance(r.piece, Pfaffian)]
+    return [*finite, *map(rate, finite), *forms, *(r.piece.expr for r in rows if isinstance(r.piece, Nonlinear))]
+
+
+def rows_at(relations: Sequence[Expr], known: Mapping[Expr, Expr]) -> tuple[Row, ...]:
+    """What relations say of velocities at one configuration: rows with constant coefficients. Raises NoValueError."""
+    found = []
+    for e in (substitute(e, known) for e in relations if velocities_of(e)):
+        form = linear_form(e)
+        if not e.is_zero:
+            found.append(Row(0, Nonlinear(e) if form is None else form))
+    return tuple(found)
 
 
 def moves(ring: Ring, index: int) -> bool:

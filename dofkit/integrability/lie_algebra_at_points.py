@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
 from flint import arb
 
+from dofkit.configuration.reality import real_point
+from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots, field_frame
+from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.integrability.lie_algebra import Span, lie_span
 from dofkit.integrability.pfaffian_system import Codistribution
+
+#: Searches for a real point on the part of the set that points over GF(p) are on.
+SEEDS = 6
 
 
 @dataclass(frozen=True)
@@ -52,3 +59,18 @@ def ball_span(
         return lie_span(forms.rows, Pivots(tuple(part.rows), tuple(part.columns), free), point, drawn), matrix
     except NoValueError:
         return None
+
+
+def on_the_same_part(forms: Codistribution, found: Variety, largest: SampledSpan) -> RealPoint | None:
+    """A real point at which the Lie algebra is as large as at the points over GF(p): of a part of the set like theirs.
+
+    Where sin(z) = 0, z ydot = 0 says nothing at z = 0, and ydot = 0 at all other configurations.
+    """
+    seeds = (real_point(forms.chart, seed, forms.chart.nodes) for seed in range(1, SEEDS))
+    for real in chain((found.real,), seeds):
+        if real is None or not real.certified or not real.consistent:
+            continue
+        span = ball_span(forms, len(largest.frame.rows), real.point)
+        if span is not None and span[0].dimension == largest.span.dimension:
+            return real
+    return None

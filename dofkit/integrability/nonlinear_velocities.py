@@ -7,19 +7,25 @@ tells what integrates, and no relation in use is linear in disguise, because C w
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from flint import arb
 
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.local.manifold import Manifold
-from dofkit.configuration.states import States
+from dofkit.configuration.states import States, rows_at, state_relations
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots, certified_rank, kernel
 from dofkit.exact.points.real_search import RealPoint
+from dofkit.exact.zero.identity import is_zero
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
+from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.setting import Setting
 
 #: Derivatives of curves are taken up to this order.
@@ -31,6 +37,7 @@ NO_VELOCITIES = "no velocities were found that satisfy the constraints"
 SINGULAR = "the velocities that satisfy the constraints are singular"
 PARTS = "real velocities and those over GF(p) disagree about the rank: the set of them has several parts"
 HIDDEN = "the constraints that are nonlinear in the velocities force a relation that could not be written down"
+AT_REFERENCE = "at the reference no velocities were found that are allowed and regular, as there are elsewhere"
 FLAT = "the velocities that are allowed form flat pieces, which were not written as linear forms"
 
 
@@ -52,7 +59,9 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
         _undecided(result, FLAT)
         return
     whole, moving, finite = states.ranks(sample)
-    if not real.certified or not real.consistent:
+    if not _moves_at_reference(block, setting, result, moving):
+        _undecided(result, AT_REFERENCE)
+    elif not real.certified or not real.consistent:
         _undecided(result, SINGULAR)
     elif states.ranks(real.point) != (whole, moving, finite):
         _undecided(result, PARTS)
@@ -65,6 +74,24 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
         result.velocity_dof = len(block.coordinates) - moving
         full = certified_rank(states.by_velocity(real.point, states.moving)) == len(block.rows)
         result.verdict = weakest(result.verdict, "numeric" if point is None else "proved" if full else "probable")
+
+
+def _moves_at_reference(block: Block, setting: Setting, result: Answer, moving: int) -> bool:
+    """Are there real velocities at the reference, regular as those are elsewhere? True where none is given or is met.
+
+    xdot^2 + ydot^2 = z zdot^2 has them where z > 0, and leaves all at rest where z < 0.
+    """
+    if setting.reference is None:
+        return True
+    known = {**setting.reference, ex.TIME: ex.ZERO}
+    relations = state_relations(block.rows, result.hidden)
+    try:
+        if any(not is_zero(substitute(g, known), setting.positive) for g in relations if not velocities_of(g)):
+            return True
+        there = States(block.coordinates, rows_at(relations, known), (), replace(setting, reference=None))
+    except NoValueError:
+        return False
+    return any(there.ranks(point)[1] == moving for point in there.certain(SEEDS))
 
 
 def _real(states: States, point: FieldPoint | None, result: Answer) -> RealPoint | None:

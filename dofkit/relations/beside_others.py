@@ -16,6 +16,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, coordinates_of
+from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.edges import given_by
 from dofkit.relations.normal.elimination import combinations_of
 from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Pfaffian, normalise, velocities_of
@@ -133,31 +134,45 @@ def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewritin
     except NoValueError:
         return _Rewriting([(row,)])
     if changed != there:
-        found = _branches(row, changed, positive)
+        found = _branches(row, *_without_divisors(row.piece.expr, changed, divisors, positive), positive)
         sound = [
             b for b in found if not any(isinstance(r.piece, Finite) and _divides(r.piece.expr, divisors) for r in b)
         ]
-        ways, divided = _generic(sound or found), not all(never_vanishes(d, positive) for d in divisors)
+        ways, divided = _one_that_holds(sound or found), not all(never_vanishes(d, positive) for d in divisors)
         if not (divided and any(isinstance(r.piece, Nonlinear) for w in ways for r in w)):
             return _Rewriting(ways, divided)
-    return _Rewriting([(row,)] if there == row.piece.expr else _branches(row, there, positive))
+    return _Rewriting([(row,)] if there == row.piece.expr else _branches(row, there, (), positive))
 
 
-def _generic(ways: list[tuple[Row, ...]]) -> list[tuple[Row, ...]]:
-    """Without branches of positions only beside others: there rows are dependent, and the answer is the generic one.
-
-    y^2 (zdot - 3 xdot)^2 = 0 beside another constraint says zdot = 3 xdot, as y (zdot - 3 xdot) = 0 would.
-    """
-    if () in ways:
-        return [()]
-    moving = [b for b in ways if any(isinstance(r.piece, (Pfaffian, Nonlinear)) for r in b)]
-    return moving or ways
+def _one_that_holds(ways: list[tuple[Row, ...]]) -> list[tuple[Row, ...]]:
+    """The branches, or the one that says nothing, which holds the others."""
+    return [()] if () in ways else ways
 
 
-def _branches(row: Row, changed: Expr, positive: frozenset[Expr]) -> list[tuple[Row, ...]]:
+def _without_divisors(
+    written: Expr, changed: Expr, divisors: Sequence[Expr], positive: frozenset[Expr]
+) -> tuple[Expr, tuple[DomainCondition, ...]]:
+    """What a row reads as without what an elimination divided by, and where the row as it was written has a value."""
+    if not divisors:
+        return changed, ()
+    ring = Ring([changed], positive)
+    node = ring.node(changed)
+    try:
+        canon = Canon(ring)
+        top = canon.to_expr(canon.quotient(node)[0])
+    except NoValueError:
+        return changed, ()
+    return top, tuple(c for c in conditions_of(written, positive) if not velocities_of(c.expr))
+
+
+def _branches(
+    row: Row, changed: Expr, within: Sequence[DomainCondition], positive: frozenset[Expr]
+) -> list[tuple[Row, ...]]:
     """What a row says that now reads ``changed`` = 0."""
     normal = normalise(changed, positive, True)
-    ways = [tuple(Row(row.constraint, p) for p in b if not isinstance(p, Inequality)) for b in normal.branches]
+    ways = [
+        tuple(Row(row.constraint, p) for p in (*b, *within) if not isinstance(p, Inequality)) for b in normal.branches
+    ]
     return ways or [(Row(row.constraint, Finite(ex.ONE)),)]
 
 
@@ -181,7 +196,7 @@ def _combined(rows: Sequence[Row], positive: frozenset[Expr]) -> dict[int, list[
         return {}
     expressions = [r.piece.expr for r in rows if isinstance(r.piece, Nonlinear)]
     found = combinations_of(expressions, positive)
-    said = {id(rows[i]): _generic(_branches(rows[i], e, positive)) for i, e in found.items()}
+    said = {id(rows[i]): _one_that_holds(_branches(rows[i], e, (), positive)) for i, e in found.items()}
     return {i: ways for i, ways in said.items() if not any(isinstance(r.piece, Nonlinear) for w in ways for r in w)}
 
 

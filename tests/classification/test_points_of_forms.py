@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
+from fractions import Fraction
 
 import pytest
 
@@ -40,3 +42,58 @@ def test_beside_a_curve_the_freedom_of_forms_is_proved(constraints: list[str], d
     names = [name for name in "xyzwu" if any(name in text for text in constraints)]
     report = dofkit.classify({"coordinates": names, "constraints": constraints})
     assert (report.dof, report.verdicts["dof"].verdict) == (dof, "proved")
+
+
+@pytest.mark.parametrize(
+    ("names", "constraints", "degenerate", "special", "generic"),
+    [
+        ("y z", ["sin(z) = 0", "z ydot = 0"], "z", 1, 0),
+        ("x y z", ["sin(z) = 0", "(z - pi) ydot = 0"], "z - pi", 2, 1),
+        ("x y z", ["tan(x) = 0", "x ydot = 0"], "x", 2, 1),
+        ("x y z", ["sin(x y) = 0", "x y zdot = 0"], "x y", 2, 1),
+        ("x y z", ["sin(x) = x y", "x zdot = 0"], "x", 2, 1),
+        ("x y z u", ["sin(z) = 0", "udot = z x ydot"], "z", 2, 3),
+    ],
+)
+def test_the_numbers_are_those_of_the_part_that_the_witness_is_on(
+    names: str, constraints: list[str], degenerate: str, special: int, generic: int
+) -> None:
+    """Of z = 0, pi, 2 pi, ... the form z ydot leaves out the first; whichever part is told of, the witness is on it."""
+    report = dofkit.classify({"coordinates": names.split(), "constraints": constraints})
+    if report.dof is None:
+        return
+    assert report.witness is not None
+    assert report.verdicts["dof"].about == "component"
+    place = {name: float(Fraction(text)) for name, text in report.witness.items()}
+    size = {
+        "z": place.get("z", 0),
+        "x": place.get("x", 0),
+        "z - pi": place.get("z", 0) - math.pi,
+        "x y": place.get("x", 0) * place.get("y", 0),
+    }[degenerate]
+    assert report.dof == (special if abs(size) < 1e-9 else generic)
+
+
+def test_a_branch_of_which_a_larger_part_may_be_unseen_is_named() -> None:
+    """x = 0 leaves one freedom, and so do sin(z) = 0 where z is not 0; z = 0 leaves two."""
+    report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": ["z ydot = 0", "x sin(z) = 0"]})
+    assert report.dof in (None, 2) or report.verdicts["dof"].about == "component"
+
+
+def test_a_part_outside_the_domain_does_not_count() -> None:
+    """Where x = 10, y = 0 the other relations leave u, v and w free; as written x is at most 9, so x and u are free."""
+    relations = ["(x - 10) v = y w", "(x - 10) w = y u"]
+    free = dofkit.classify({"coordinates": list("xyuvw"), "constraints": ["y = (x - 10) u^7", *relations]})
+    bounded = ["(y - (x - 10) u^7) exp(sqrt(9 - x)) = 0", *relations]
+    kept = dofkit.classify({"coordinates": list("xyuvw"), "constraints": bounded})
+    assert free.dof == 3
+    assert kept.dof in (None, 2)
+
+
+def test_a_part_outside_the_domain_contradicts_nothing() -> None:
+    """1/(x - 10) has no value where x = 10, y = 0; y = (x - 10) u^7, w = u^8, v = u^15 holds beside that part."""
+    third = "((x - 10) w - y u) (2 + sin(1/(x - 10))) = 0"
+    scene = {"coordinates": list("xyuvw"), "constraints": ["y = (x - 10) u^7", "(x - 10) v = y w", third]}
+    report = dofkit.classify(scene)
+    assert report.consistent is not False
+    assert report.dof in (None, 2)

@@ -117,3 +117,11 @@ def test_a_number_that_no_ball_tells_from_0_is_no_identity() -> None:
     for text in ("x + abs(x) + 1 - tanh(1000) = 0", "x + abs(x) = 1 - tanh(1000)"):
         report = dofkit.classify({"coordinates": ["x", "y"], "constraints": [text]})
         assert report.dof is None or report.dof == 1
+
+
+def test_what_has_a_value_nowhere_that_was_tried_is_not_taken_for_zero() -> None:
+    """log(-1 - x^2) has none at all, and sqrt(1 - 10^6 (x - 1/3)^2) has one in a narrow band only."""
+    x = ex.coordinate("x")
+    narrow = ex.sqrt(1 - 10**6 * (x - ex.num(Fraction(1, 3))) ** 2)
+    for e in (ex.fn("log", -1 - x * x), ex.fn("log", narrow) + 1):
+        assert zero_and_verdict(e, frozenset()) == (None, "undecided")

@@ -340,3 +340,29 @@ def test_more_constraints_than_are_tried_one_by_one_are_left_open(monkeypatch: p
     report = report_of(scene("x y z u", "zdot = y xdot", "udot = x ydot", "zdot^2 = y^2 xdot^2"))
     assert (report["redundant_equations"], report["redundant"], report["verdict"]) == (1, None, "undecided")
     assert all("was not decided" in e["reason"] for e in report["constraints"])
+
+
+@pytest.mark.parametrize(
+    ("constraint", "height", "freedom"),
+    [
+        ("xdot^2 + ydot^2 = z zdot^2", 1, {(3, 2)}),
+        ("xdot^2 + ydot^2 = z zdot^2", -1, {(None, None), (0, 0)}),
+        ("xdot^2 + ydot^2 = z zdot^2", 0, {(None, None), (3, 2)}),
+        ("xdot^2 + ydot^2 = z", 1, {(3, 2)}),
+        ("xdot^2 + ydot^2 = z", -1, {(None, None)}),
+    ],
+)
+def test_at_a_reference_velocities_are_those_that_it_allows(
+    constraint: str, height: int, freedom: set[tuple[int | None, int | None]]
+) -> None:
+    """Where z < 0 the first leaves all at rest, and the second holds nowhere."""
+    at = {"x": 0, "y": 0, "z": height}
+    report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": [constraint], "configuration": at})
+    assert (report.dof, report.velocity_dof) in freedom
+
+
+@pytest.mark.parametrize("constraint", ["exp(xdot) = y", "log(y) (xdot^2 + zdot^2 - 1) = 0", "xdot^2 = y"])
+def test_a_reference_outside_the_domain_is_told(constraint: str) -> None:
+    at = {"x": 0, "y": -1, "z": 0}
+    report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": [constraint], "configuration": at})
+    assert report.dof is None or any("nothing is said of the reference itself" in told for told in report.warnings)

@@ -85,6 +85,14 @@ DECIDED: list[tuple[str, list[str], tuple[int, int], list[bool], list[bool], str
         [True, False, False],
         "the last says what the second does",
     ),
+    (
+        "x y z",
+        ["zdot^2 + (xdot + 3 ydot)^2 = 0", "z (t ydot + sin(z) xdot)^2 = zdot^2"],
+        (1, 1),
+        [True, True],
+        [True, False],
+        "z = 0 and x + 3 y constant; elsewhere all is at rest",
+    ),
 ]
 
 
@@ -132,6 +140,24 @@ def test_at_an_edge_a_motion_leaves_it(constraint: str, at: dict[str, Any], numb
     scene = {"coordinates": ["x", "y", "z"], "constraints": [constraint], "configuration": {"x": 0, **at}}
     report = dofkit.classify(scene)
     assert (report.dof, report.velocity_dof, report.instantaneous_dof) == numbers
+
+
+def test_a_branch_beside_others_that_misses_the_reference_is_none_of_it() -> None:
+    """At z = 1 both constraints say xdot = 0 and x zdot + y ydot = 0, however the first is written."""
+    sliding = "x zdot + t xdot + y ydot"
+    for first in ("z^2 xdot^2 = 0", f"z^2 xdot^2 + y ({sliding}) = 0"):
+        scene = {"coordinates": ["x", "y", "z"], "constraints": [first, f"{sliding} = 0"]}
+        report = dofkit.classify(scene | {"configuration": {"x": 0, "y": 0, "z": 1}})
+        assert (report.dof, report.velocity_dof) == (1, 1)
+
+
+@pytest.mark.parametrize(
+    "constraint",
+    ["z xddot = 0", "z exp(xdot) = y", "xdot (ydot - z wdot) = 0", "z (xdot^2 - w^2 ydot^2) = 0", "z xdot^2 = ydot^2"],
+)
+def test_in_a_system_of_its_own_a_constraint_is_what_it_is_alone(constraint: str) -> None:
+    report = dofkit.classify({"coordinates": list("xyzw"), "constraints": [constraint]})
+    assert report.constraints[0].holonomic_alone == report.constraints[0].holonomic == report.holonomic
 
 
 def test_the_integral_is_of_the_branch_in_use() -> None:

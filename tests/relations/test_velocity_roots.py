@@ -27,3 +27,10 @@ def test_a_denominator_may_have_any_value_but_zero(more: str) -> None:
     identity = "y + atan(x) + atan(1/x) - pi x/(2 abs(x)) = 0"
     report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": [identity, more]})
     assert (report.consistent, report.dof) == (True, 1)
+
+
+def test_a_root_that_is_real_nowhere_is_left_out() -> None:
+    """tanh(xdot) = y says exp(xdot)^2 = (1 + y)/(1 - y): of the two roots for exp(xdot) one is below 0."""
+    report = dofkit.classify({"coordinates": ["x", "y"], "constraints": ["tanh(xdot) = y"]})
+    assert not any("branches" in warning for warning in report.warnings)
+    assert report.scleronomic is False

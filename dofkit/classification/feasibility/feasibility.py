@@ -16,7 +16,8 @@ from dofkit.classification.feasibility.parts import Part, parts_of
 from dofkit.classification.feasibility.refutation import contradictory, refuted
 from dofkit.classification.feasibility.state_problem import StateProblem, problems_of
 from dofkit.classification.feasibility.witness import Values, value_of, witness
-from dofkit.classification.freedom.branches import Outcome, copies
+from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.freedom.copies import copies
 from dofkit.exact.engines import BOTH
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer

@@ -27,7 +27,7 @@ from dofkit.exact.zero.independence import doubt, independent_generators
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.labels_by_balls import ball_labels
 from dofkit.integrability.labels_by_field import field_labels
-from dofkit.integrability.lie_algebra_at_points import SampledSpan, span_at
+from dofkit.integrability.lie_algebra_at_points import SampledSpan, on_the_same_part, span_at
 from dofkit.integrability.nonlinear_velocities import set_velocity_freedom
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution, first_order_freedom
 from dofkit.integrability.prolongation import confinements, prolong
@@ -54,6 +54,8 @@ IRREGULAR = (
     "the reference is no regular point of the forms, and other configurations may lie on another part of the set that "
     "the finite relations leave"
 )
+
+APART = "real configurations were found on other parts of the set only than the points over GF(p)"
 
 
 def answer(block: Block, setting: Setting) -> Answer:
@@ -195,6 +197,12 @@ def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list
     if found.samples:
         good = _spans(forms, found)
         if good:
+            if found.about == "component" and found.real is not None and found.real.certified:
+                largest = max((sampled for _, sampled in good), key=lambda sampled: sampled.span.dimension)
+                real = on_the_same_part(forms, found, largest)
+                if real is None:
+                    return replace(result, consistent=None, verdict="undecided", reasons=[*found.reasons, APART])
+                found.real, result.witness = real, of_real_point(forms.chart, real)
             field_labels(block, forms, found, good, result, setting)
             set_velocity_freedom(block, setting, result)
             return result

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product as cartesian
 from math import prod
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
 from dofkit.classification.freedom.block import answer
+from dofkit.classification.freedom.copies import copies
 from dofkit.classification.freedom.domain import restricted_to_domain
 from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses
-from dofkit.classification.freedom.through_reference import crossing_at, through_reference
+from dofkit.classification.freedom.through_reference import crossing_at, through_reference, ways_through_reference
 from dofkit.configuration.linear_blocks import confirmed
-from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.modulo_others import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.relations.answer import Answer, AnsweredPart
@@ -23,7 +23,7 @@ from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.relations.blocks import Block, Row, blocks_of, split, with_boundaries
 from dofkit.relations.integration_constants import names_in, with_rows
 from dofkit.relations.joint_equations import JointEquation
-from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Pfaffian, Piece, Still
+from dofkit.relations.normal.normal_form import Inequality, Normal, Still
 from dofkit.relations.normal.one_sided import holds_somewhere
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -102,6 +102,15 @@ class Outcome:
         return len(self.untouched) + sum(_most(b, a) for b, a in zip(self.blocks, self.answers, strict=True))
 
     @property
+    def unseen(self) -> int:
+        """No part of this branch has more freedom than this, those that were not looked at among them."""
+        known = (
+            len(b.coordinates) - bool(b.finite) if a.about == "component" else a.dof or 0
+            for b, a in zip(self.blocks, self.answers, strict=True)
+        )
+        return len(self.untouched) + sum(known)
+
+    @property
     def size(self) -> tuple[int, int, int]:
         """What makes one choice of branches larger than another."""
         return (int(self.consistent is not False), -1 if self.dof is None else self.dof, self.velocity_dof or 0)
@@ -136,7 +145,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
                 rows += [Row(i, p) for p in normal.branches[branch] if not isinstance(p, Inequality)]
         ways = ways_of(with_boundaries(with_rows(rows, constants)), positive)
         why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
-        for way in ways:
+        for way in ways_through_reference(ways, setting):
             names = [*(c.name for c in system.coordinates), *names_in(way.rows, constants)]
             outcome = _answered(names, way.rows, impossible, setting, known)
             outcome.reduced, outcome.divided = way.reduced, way.divided
@@ -173,10 +182,18 @@ def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> 
     if why or (len(outcomes) > 1 and any(a.late for o in outcomes for a in o.answers)):
         best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
     elif best.consistent is not False:
+        best.answers = _of_its_part(best, [o for o in left if o is not best])
         best.answers = with_reductions_checked(best.reduced, best.blocks, best.answers, setting)
     elif not best.impossible and any(o.divided for o in outcomes):
         best.answers = [Answer(None, verdict="undecided", reasons=[NOT_EQUIVALENT]) for _ in best.answers]
     return best
+
+
+def _of_its_part(best: Outcome, others: Sequence[Outcome]) -> list[Answer]:
+    """The answers, told of their own part only where a part that was not seen of another branch may be larger."""
+    if best.dof is None or all(o.unseen <= best.dof for o in others):
+        return best.answers
+    return [replace(a, about="component") if a.about == "everywhere" else a for a in best.answers]
 
 
 def _confirmed(only: Outcome, setting: Setting) -> list[Answer]:
@@ -218,63 +235,6 @@ def _first_order(
         parts = [in_time(b, setting).instantaneous for b in blocks]
         told.append(None if any(p is None for p in parts) else len(untouched) + sum(p for p in parts if p is not None))
     return None if None in told else max((t for t in told if t is not None), default=None)
-
-
-def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
-    """Constraints all of whose relations an earlier one wrote already, up to a number: copy -> original.
-
-    Only those are compared that mention the same symbols.
-    """
-    alike: dict[Hashable, list[int]] = {}
-    for i, r in enumerate(reduced):
-        check()
-        if r.normals and not r.inequalities and not any(_says_nothing(normal) for normal in r.normals):
-            alike.setdefault(_mentioned(r.normals), []).append(i)
-    seen: dict[Hashable, int] = {}
-    found = {}
-    for i in sorted(i for numbers in alike.values() if len(numbers) > 1 for i in numbers):
-        keys = [_up_to_a_number(normal) for normal in reduced[i].normals]
-        key: Hashable = keys[0] if len(keys) == 1 else frozenset(Counter(keys).items())
-        if key in seen:
-            found[i] = seen[key]
-        else:
-            seen[key] = i
-    return found
-
-
-def _mentioned(normals: Sequence[Normal]) -> Hashable:
-    """The same for relations that are each other's up to a number: what their first pieces mention, in any order."""
-    first = [_symbols_of(normal.branches[0]) for normal in normals]
-    return first[0] if len(first) == 1 else frozenset(first)
-
-
-def _symbols_of(branch: Sequence[Piece]) -> Hashable:
-    piece = branch[0] if branch else None
-    if isinstance(piece, Pfaffian):
-        return frozenset(piece.coefficients)
-    return piece if piece is None else piece.expr.symbols
-
-
-def _says_nothing(normal: Normal) -> bool:
-    """Is there nothing to compare: it holds always or never, or is not written out, as no other joint is the same?"""
-    branches = normal.branches
-    return branches in ((), ((),)) or any(isinstance(p, JointEquation) for p in branches[0])
-
-
-def _up_to_a_number(normal: Normal) -> Hashable:
-    return tuple(tuple(_scaled(p) for p in branch) for branch in normal.branches)
-
-
-def _scaled(piece: object) -> Hashable:
-    """A piece with the first coefficient made 1."""
-    if isinstance(piece, Finite):
-        first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
-        number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
-        numeric = number.op == "num" and not number.is_zero
-        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if numeric else piece.expr
-    if isinstance(piece, Pfaffian):
-        return type(piece), tuple(piece.coefficients.items()), piece.dt
-    return piece
 
 
 def _answered(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import Literal
 
 from flint import arb
@@ -20,13 +21,16 @@ from dofkit.classification.freedom.velocity_domain import (
     on_velocities,
     still_conditions,
 )
+from dofkit.configuration.components import is_irreducible
 from dofkit.configuration.finite_blocks import OFF_REFERENCE
 from dofkit.configuration.search import find
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
+from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.text import to_text
+from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.chart import Chart
@@ -62,6 +66,10 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
         result = restricted_to_domain(block, answer(block, elsewhere), elsewhere)
         result.reasons.append(OFF_REFERENCE)
         return result
+    if setting.reference is not None:
+        known = {**setting.reference, ex.TIME: ex.ZERO}
+        if any(holds_at(c, known, setting.positive) is False for c in still_conditions(block.conditions)):
+            result.reasons.append(OFF_REFERENCE)
     return _while_moving(block, result, setting) if moving else _somewhere(block, result, setting)
 
 
@@ -106,14 +114,26 @@ def _somewhere(block: Block, result: Answer, setting: Setting) -> Answer:
     zero = _identically_zero(chart, nodes)
     dead = [c for c, z in zip(block.conditions, zero, strict=True) if z and c.sense != ">="]
     if dead:
-        return _nowhere(result, dead, "probable" if relations else "proved")
+        return _where_some_vanish(chart, result, relations, dead, setting)
     left = [(n, c) for n, c, z in zip(nodes, block.conditions, zero, strict=True) if not z]
-    if _point_within(chart, left):
+    dof = result.dof if not block.forms and not block.nonlinear else None
+    if _point_within(chart, left, dof) and _witness_within(block, result):
         return result
     wanted = [c.expr for c in block.conditions if c.sense != "!="]
     if no_solution(relations, setting.positive, wanted):
         return _nowhere(result, block.conditions, "proved")
     return _open(result, block.conditions)
+
+
+def _where_some_vanish(
+    chart: Chart, result: Answer, relations: Sequence[Expr], dead: Sequence[DomainCondition], setting: Setting
+) -> Answer:
+    """The answer where conditions are 0 at the points that were drawn: on all of the set, or on a part of it only."""
+    if not relations:
+        return _nowhere(result, dead, "proved")
+    if is_irreducible(chart):
+        return _nowhere(result, dead, "probable")
+    return _nowhere(result, dead, "proved") if none_holds(relations, dead, setting.positive) else _open(result, dead)
 
 
 def _identically_zero(chart: Chart, nodes: Sequence[int]) -> list[bool]:
@@ -129,8 +149,11 @@ def _identically_zero(chart: Chart, nodes: Sequence[int]) -> list[bool]:
     return found
 
 
-def _point_within(chart: Chart, left: Sequence[tuple[int, DomainCondition]]) -> bool:
-    """Is there a certified regular point, of the largest rank that was seen, at which all conditions hold strictly?"""
+def _point_within(chart: Chart, left: Sequence[tuple[int, DomainCondition]], dof: int | None) -> bool:
+    """Is there a certified regular point, of the largest rank that was seen, at which all conditions hold strictly?
+
+    Of finite relations alone the rank there has to say the ``dof``: other parts of the set may be larger or smaller.
+    """
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
     points = []
     for seed in range(SEEDS):
@@ -140,8 +163,19 @@ def _point_within(chart: Chart, left: Sequence[tuple[int, DomainCondition]]) -> 
             continue
         if point is not None and point.certified and point.consistent:
             points.append(point)
-    rank = max((p.rank for p in points), default=0)
-    return any(p.rank == rank and _strictly(chart, p, left) for p in points)
+    wanted = max((p.rank for p in points), default=0) if dof is None else chart.coordinates - dof
+    return any(p.rank == wanted and _strictly(chart, p, left) for p in points)
+
+
+def _witness_within(block: Block, result: Answer) -> bool:
+    """Of what is told of one part of the set only: do the conditions hold at its witness?"""
+    if result.about != "component" or not (block.forms or block.nonlinear):
+        return True
+    if result.witness is None:
+        return False
+    known = {s: Fraction(text) for s, text in result.witness.items()}
+    there = [(c, interval_of(c.expr, known)) for c in block.conditions]
+    return all(v is not None and not v.contains(0) and (c.sense == "!=" or bool(v > 0)) for c, v in there)
 
 
 def _strictly(chart: Chart, found: RealPoint, left: Sequence[tuple[int, DomainCondition]]) -> bool:

@@ -16,6 +16,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.differentials import accelerations_of, in_velocities
 from dofkit.expressions.tree import Expr
+from dofkit.relations.beside_others import Way
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.joint_equations import JointEquation
@@ -36,6 +37,14 @@ def through_reference(normal: Normal, setting: Setting) -> Normal:
         return normal
     kept = tuple(b for b in normal.branches if _holds(b, setting))
     return normal._replace(branches=kept) if kept else normal
+
+
+def ways_through_reference(ways: Sequence[Way], setting: Setting) -> Sequence[Way]:
+    """The ways in which rows read beside others that hold at the reference; all where none is given, or none does."""
+    if setting.reference is None or len(ways) < 2:
+        return ways
+    kept = [way for way in ways if all(s.unchanged or _holds([r.piece for r in s.rows], setting) for s in way.slots)]
+    return kept or ways
 
 
 def crossing_at(normal: Normal, written: Expr, setting: Setting) -> tuple[tuple[Piece, ...], ...] | None:

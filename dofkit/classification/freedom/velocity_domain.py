@@ -8,19 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from dofkit.configuration.states import States, value_at, vanishes
+from dofkit.configuration.states import States, rows_at, state_relations, value_at, vanishes
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.relations.beside_others import form_rate, rate
-from dofkit.relations.blocks import Block, Row
+from dofkit.relations.blocks import Block
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.half_lines import freed
 from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian, linear_form, velocities_of
+from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.setting import Setting
 
@@ -69,24 +68,12 @@ def none_holds(relations: Sequence[Expr], conditions: Sequence[DomainCondition],
 def in_motion_at(block: Block, hidden: Sequence[Expr], setting: Setting, known: Mapping[Expr, Expr]) -> bool | None:
     """The same at one configuration, where all rows are relations of velocities with constant coefficients."""
     try:
-        fixed = [substitute(e, known) for e in state_relations(block.rows, hidden) if velocities_of(e)]
+        rows = rows_at(state_relations(block.rows, hidden), known)
         conditions = tuple(DomainCondition(substitute(c.expr, known), c.sense) for c in block.conditions)
     except NoValueError:
         return None
-    rows = []
-    for e in fixed:
-        form = linear_form(e)
-        if not e.is_zero:
-            rows.append(Row(0, Nonlinear(e) if form is None else form))
-    there = Block(block.coordinates, tuple(rows), tuple(c for c in conditions if velocities_of(c.expr)))
+    there = Block(block.coordinates, rows, tuple(c for c in conditions if velocities_of(c.expr)))
     return in_motion(there, (), setting)
-
-
-def state_relations(rows: Sequence[Row], hidden: Sequence[Expr]) -> list[Expr]:
-    """Finite relations, their rates, forms on velocities and nonlinear relations."""
-    finite = [*(r.piece.expr for r in rows if isinstance(r.piece, Finite)), *hidden]
-    forms = [form_rate(r.piece) for r in rows if isinstance(r.piece, Pfaffian)]
-    return [*finite, *map(rate, finite), *forms, *(r.piece.expr for r in rows if isinstance(r.piece, Nonlinear))]
 
 
 def _regular(states: States, drawn: Sequence[FieldPoint]) -> Iterator[BallPoint]:

@@ -15,6 +15,7 @@ from dofkit.classification.freedom.through_reference import through_reference
 from dofkit.classification.labels.entry import LabelledRow
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, coordinates_of
+from dofkit.relations.integration_constants import with_rows
 from dofkit.relations.normal.normal_form import Inequality, Nonlinear, Pfaffian, Still
 from dofkit.relations.reduced import Reduced
 
@@ -42,6 +43,8 @@ def by_itself(i: int, r: Reduced, told: Sequence[LabelledRow], parts: AnsweredPa
 def _largest(i: int, r: Reduced, parts: AnsweredParts) -> Answer | None:
     """The answer of the largest branch; None where that is finite, undecided where it is not known which is."""
     mentioned = {name for n in r.normals for b in n.branches for p in b for name in coordinates_of(p)}
+    mentioned -= {*r.constants}
+    constants = {c: Row(i, Still(c)) for c in r.constants}
     normals = [through_reference(normal, parts.setting) for normal in r.normals]
     best: tuple[tuple[int, int, int], Answer, bool] | None = None
     seen_all = True
@@ -50,7 +53,7 @@ def _largest(i: int, r: Reduced, parts: AnsweredParts) -> Answer | None:
         if number == MAX_CHOICES:
             seen_all = False
             break
-        found = _in_time(rows, parts, mentioned)
+        found = _in_time(with_rows(rows, constants), parts, mentioned)
         seen_all = seen_all and (found.consistent is False or found.dof is not None)
         size = int(found.consistent is not False), found.dof or 0, found.velocity_dof or 0
         if best is None or size > best[0]:

@@ -13,8 +13,8 @@ from typing import NamedTuple
 from dofkit.base.deadline import OutOfTimeError
 from dofkit.base.verdicts import OPEN, VERDICTS, Claim, Verdict, weakest
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.velocity_domain import DRAWN, none_holds, state_relations
-from dofkit.configuration.states import States, value_at
+from dofkit.classification.freedom.velocity_domain import DRAWN, none_holds
+from dofkit.configuration.states import States, state_relations, value_at
 from dofkit.exact.points.frames import certified_rank
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr

@@ -22,6 +22,8 @@ from dofkit.expressions.tree import Expr
 
 #: Bits of the balls that must hold 0 before anything is taken for 0.
 PRECISIONS = (256, 1024)
+#: Random places at which balls are taken.
+STARTS = 8
 
 
 def is_zero(e: Expr, positive: frozenset[Expr]) -> bool:
@@ -35,7 +37,7 @@ def is_proved_zero(e: Expr, positive: frozenset[Expr]) -> bool:
 
 
 def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH) -> tuple[bool | None, Verdict]:
-    """(zero?, how sure); None only where one engine alone cannot tell.
+    """(zero?, how sure); None where one engine alone cannot tell, or it has a value nowhere that was tried.
 
     Zero in the canonical ring is a proof, and so is zero of every coefficient there (`proved_zero`); so is not zero
     there or at a point over GF(p) where the generators are independent, or where a ball at some real point excludes
@@ -63,7 +65,23 @@ def zero_and_verdict(e: Expr, positive: frozenset[Expr], engines: Engines = BOTH
         return False, "proved"
     if _coefficients_vanish(canon, node):
         return True, "proved"
-    return True, "probable" if _zero_at_points(ring, node) else "numeric"
+    if _zero_at_points(ring, node):
+        return True, "probable"
+    return (True, "numeric") if _has_value(ring, node, positive) else (None, "undecided")
+
+
+def _has_value(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
+    """Was there a real point at which a ball could be taken? What has a value nowhere that was tried is not 0."""
+    search = RealSearch(ring, (), (), positive)
+    with ctx.workprec(fixed_bits() or PRECISIONS[0]):
+        return any(_value_at(ring, node, BallPoint(search.start(seed, {}), seed)) for seed in range(STARTS))
+
+
+def _value_at(ring: Ring, node: int, point: BallPoint) -> bool:
+    try:
+        return bool(values(ring, point)[node].is_finite())
+    except NoValueError:
+        return False
 
 
 def _coefficients_vanish(canon: Canon, node: int) -> bool:
@@ -83,7 +101,9 @@ def _coefficients_vanish(canon: Canon, node: int) -> bool:
 def _by_one_engine(ring: Ring, node: int, positive: frozenset[Expr], engines: Engines) -> tuple[bool | None, Verdict]:
     """Zero over GF(p) is probable, non-zero only for independent generators; a ball proves non-zero only."""
     if "balls" in engines:
-        return (False, "proved") if excludes_zero(ring, node, positive) else (True, "numeric")
+        if excludes_zero(ring, node, positive):
+            return False, "proved"
+        return (True, "numeric") if _has_value(ring, node, positive) else (None, "undecided")
     zero = _zero_at_points(ring, node)
     if zero:
         return True, "probable"
@@ -102,7 +122,7 @@ def excludes_zero(ring: Ring, node: int, positive: frozenset[Expr]) -> bool:
     bits = fixed_bits()
     for precision in PRECISIONS if bits is None else (bits,):
         with ctx.workprec(precision):
-            if any(_excluded_at(ring, node, BallPoint(search.start(seed, {}), seed)) for seed in range(8)):
+            if any(_excluded_at(ring, node, BallPoint(search.start(seed, {}), seed)) for seed in range(STARTS)):
                 return True
     return False
 

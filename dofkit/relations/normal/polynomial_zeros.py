@@ -72,7 +72,7 @@ def vanishes(constant: Expr, positive: frozenset[Expr]) -> bool:
     if constant.op == "sym":
         return False
     zero, sure = zero_and_verdict(constant, positive)
-    if zero and sure != "proved":
+    if zero is None or (zero and sure != "proved"):
         raise HiddenZeroError
     return bool(zero)
 

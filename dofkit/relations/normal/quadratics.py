@@ -130,11 +130,13 @@ def _two_lines(
     else:
         lines = [first.line * root - second.line, first.line * root + second.line]
         apart = [_off_edge(SidedLines((line,), ()), second) for line in lines]
-    if second.sign == -1 or not _moving(second.square) or not rates(second.line):
+    if second.sign == -1 or not _moving(second.square):
         return apart
-    zeros = second.zeros(positive) if first.firm and second.single else []
+    zeros = second.zeros(positive) if first.firm and second.single and rates(second.line) else []
     edge = DomainCondition(-second.square, ">" if zeros else ">=", bool(zeros))
     apart = [SidedLines(one.relations, (edge, *one.conditions)) for one in apart]
+    if not rates(second.line):
+        return apart
     point = SidedLines(_point((first, second), velocities).relations, (DomainCondition(second.square, ">"),))
     return [*apart, point, *(SidedLines((*zero, first.line), ()) for zero in zeros)]
 

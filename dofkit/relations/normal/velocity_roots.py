@@ -20,6 +20,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, constantly
+from dofkit.relations.normal.semidefinite import never_holds
 
 #: The combination of velocities, while it is solved for; no scene declares such a name.
 RATE = ex.sym("parameter", "the rate")
@@ -61,7 +62,7 @@ def velocity_branches(e: Expr, positive: frozenset[Expr]) -> list[tuple[Expr, tu
         told = {c: constantly(c, positive) for c in root.conditions}
         if any(t is None and not _moves(c.expr) for c, t in told.items()):
             return None
-        if False not in told.values():
+        if False not in told.values() and not any(never_holds(c.expr, c.strict, positive) for c in told):
             branches.append((combination - root.value, tuple(c for c, t in told.items() if t is None)))
     return branches
 
