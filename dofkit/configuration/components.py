@@ -130,7 +130,7 @@ def by_cases(chart: Chart, found: Variety, look: Callable[[Chart], Variety]) -> 
     if None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS:
         return found
     together = sorted(cartesian(*(c for c in cases if c is not None)), key=lambda choice: -_most(choice))
-    for choice in together[:MAX_TOGETHER] if len(together) > 1 else ():
+    for choice in together[:MAX_TOGETHER] if len(together) > 1 or found.parted else ():
         seen = _found(chart, [*given, *(g for case in choice for g in case.relations)], look)
         samples = [p for p in seen.samples if on_variety(chart, p)]
         if seen.consistent and samples:

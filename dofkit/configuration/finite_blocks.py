@@ -160,7 +160,9 @@ def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answ
     result.argument, result.gap, result.about = "singular values", told.gap, "reference"
     result.method = "singular values within the tolerance at the given configuration"
     result.instantaneous = told.instantaneous
-    if told.dimension is None and (chart.time is not None or told.reason == MISSED):
+    if told.still:
+        result.consistent, result.verdict, result.argument = False, "numeric", "time fixed"
+    elif told.dimension is None and (chart.time is not None or told.reason == MISSED):
         result.consistent = None
     exact = "no singular value but 0 itself is taken for 0"
     gap = f"the gap between singular values is {told.gap:.1e}" if isfinite(told.gap) else exact

@@ -53,7 +53,7 @@ def with_reality(chart: Chart, found: Variety, rank: int) -> Variety:
         found.verdict, found.gap = weakest(found.verdict, "numeric"), real.gap
         found.reasons.append(NEARLY)
     if real.rank != rank:
-        found.verdict, found.dimension = "undecided", None
+        found.verdict, found.dimension, found.parted = "undecided", None, True
         found.reasons.append("real points and points over GF(p) disagree about the rank: the set has several parts")
     elif any(map(_hangs_on_a_function, chart.relations)):
         found.verdict = weakest(found.verdict, "probable")

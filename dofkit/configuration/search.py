@@ -46,7 +46,7 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
     if alone is not None:
         return alone
     look = partial(_variety, pose={}, seed=seed)
-    by_case = found.consistent is None and found.dimension is None and "field" in chart.engines
+    by_case = found.dimension is None and "field" in chart.engines and (found.consistent is None or found.parted)
     if by_case:
         found = by_cases(chart, found, look)
     return of_largest_part(chart, found, look, by_case)

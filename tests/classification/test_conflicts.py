@@ -228,7 +228,7 @@ def distance(pair: frozenset[int], squared: Fraction) -> Distance:
 # Drives that fight each other
 
 
-def four_bar(first: str, last: str) -> dofkit.Report:
+def four_bar(first: str, last: str, **more: Any) -> dofkit.Report:
     """A parallelogram, both of whose cranks are driven; on it the two cranks turn alike."""
     joints: list[dict[str, Any]] = [
         {"name": "A", "type": "revolute", "between": ["ground", "crank"], "at": [0, 0], "drive": first},
@@ -236,8 +236,17 @@ def four_bar(first: str, last: str) -> dofkit.Report:
         {"name": "C", "type": "revolute", "between": ["rod", "rocker"], "at": [2, 1]},
         {"name": "D", "type": "revolute", "between": ["ground", "rocker"], "at": [2, 0], "drive": last},
     ]
-    scene = {"dimension": 2, "bodies": ["crank", "rod", "rocker"], "constraints": joints}
+    scene = {"dimension": 2, "bodies": ["crank", "rod", "rocker"], "constraints": joints, **more}
     return dofkit.classify(dofkit.load(scene))
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6])
+def test_two_cranks_of_a_measured_parallelogram(tolerance: float) -> None:
+    """Turning by t and by 2 t they part at once, far beyond the tolerance."""
+    apart = four_bar("t", "2 t", tolerance=tolerance)
+    assert (apart.consistent, apart.conflicting) == (False, ["A", "B", "C", "D"])
+    assert (apart.dof, apart.verdicts["consistent"].verdict) == (None, "numeric")
+    assert four_bar("t", "t", tolerance=tolerance).consistent is True
 
 
 def test_two_cranks_that_are_driven_apart() -> None:

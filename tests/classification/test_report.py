@@ -24,12 +24,13 @@ def governor(*, drawn: bool) -> dict[str, Any]:
 
 
 def test_what_is_undecided_for_want_of_a_drawing_says_so() -> None:
-    tangent = {"dimension": 2, "particles": ["A"], "constraints": ["exp(x_A + y_A) = 1 + x_A + y_A"]}
+    """exp(x) >= 1 + x, so both are equal and A is at the origin."""
+    tangent = {"dimension": 2, "particles": ["A"], "constraints": ["exp(x_A) + exp(y_A) = 2 + x_A + y_A"]}
     blind = dofkit.classify(tangent)
     assert blind.dof is None
     assert any("give `at` for A" in warning for warning in blind.warnings)
     seen = dofkit.classify(tangent | {"particles": [{"name": "A", "at": [0, 0]}]})
-    assert seen.dof == 1
+    assert seen.dof == 0
     assert not any("give `at`" in warning for warning in seen.warnings)
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
@@ -178,12 +180,13 @@ def test_loops_on_one_tree_are_each_looked_at_with_their_own_joints(bodies: int,
     assert {len(group.members) for group in report.redundancies} == {4}
 
 
-def governor(*more: str) -> dict[str, Any]:
-    """Landau and Lifshitz, Mechanics, section 5: two masses and a collar on the axis, joined by links of length a."""
-    ends = [("O", "A"), ("O", "B"), ("A", "M"), ("B", "M")]
-    links = [{"type": "link", "between": [[0, 0, 0] if p == "O" else p, q], "length": "a"} for p, q in ends]
-    axis = {"type": "on", "members": ["M"], "curve": ["x = 0", "y = 0"]}
-    return {"particles": ["A", "B", "M"], "parameters": {"a": "positive"}, "constraints": [*links, axis, *more]}
+def governor(*more: str, upper: str = "a", lower: str = "a", pivot: Sequence[int] = (0, 0, 0)) -> dict[str, Any]:
+    """Landau and Lifshitz, Mechanics, section 5: two masses and a collar on the axis, joined by links."""
+    ends = [("O", "A", upper), ("O", "B", upper), ("A", "M", lower), ("B", "M", lower)]
+    links = [{"type": "link", "between": [[*pivot] if p == "O" else p, q], "length": a} for p, q, a in ends]
+    axis = {"type": "on", "members": ["M"], "curve": [f"x = {pivot[0]}", f"y = {pivot[1]}"]}
+    named = {name: "positive" for name in (upper, lower) if name.isalpha()}
+    return {"particles": ["A", "B", "M"], "parameters": named, "constraints": [*links, axis, *more]}
 
 
 def test_the_governor_without_a_drawing() -> None:
@@ -194,3 +197,77 @@ def test_the_governor_without_a_drawing() -> None:
     assert told(governor("x_A = 0", "x_B = 0")) == moves(2, None, None)
     # Where the collar is not at the pivot the larger part is left out.
     assert told(governor("z_M = a")) == moves(2, None, None)
+
+
+@pytest.mark.parametrize("order", [None, [4, 2, 0, 3, 1], [3, 2, 1, 0, 4]])
+@pytest.mark.parametrize(("length", "pivot"), [("a", (1, 2, 3)), ("3/2", (0, 0, 0))])
+def test_the_governor_elsewhere_of_any_size_and_in_any_order(
+    order: list[int] | None, length: str, pivot: Sequence[int]
+) -> None:
+    scene = governor(upper=length, lower=length, pivot=pivot)
+    constraints = scene["constraints"]
+    assert told({**scene, "constraints": [constraints[k] for k in order or range(5)]}) == moves(4, None, None)
+
+
+def test_the_governor_whose_arms_have_two_lengths() -> None:
+    """z_M^2 - 2 z_A z_M = b^2 - a^2 keeps the collar from the pivot: its height and two angles."""
+    assert told(governor(upper="a", lower="b")) == moves(3, None, None)
+
+
+#: Columns of a rotation with rational entries.
+TURN = [[Fraction(n, 3) for n in row] for row in ([2, -1, 2], [2, 2, -1], [-1, 2, 2])]
+
+
+def vertex(creases: Sequence[tuple[int, int]], turned: bool, shift: Sequence[int], order: int | None) -> Document:
+    """Panels around a point, flat, with creases in these directions: turned in space, moved, in any order."""
+    names = ["ground", *(f"panel{k}" for k in range(1, len(creases)))]
+    joints = []
+    for k, (x, y) in enumerate(creases):
+        axis = [row[0] * x + row[1] * y for row in TURN] if turned else [Fraction(x), Fraction(y), Fraction(0)]
+        place = [str((k + 1) * v + s) for v, s in zip(axis, shift, strict=True)]
+        between = [names[k], names[(k + 1) % len(names)]]
+        joints.append({"type": "revolute", "between": between, "at": place, "axis": [str(v) for v in axis]})
+    if order is not None:
+        random.Random(order).shuffle(joints)
+    return {"bodies": names[1:], "constraints": joints}
+
+
+FIVE = [(1, 0), (3, 4), (-5, 12), (-4, -3), (5, -12)]
+#: Creases of a flat vertex: of n of them n - 2 velocities, and n - 3 motions.
+VERTICES = [FIVE, [(1, 0), (3, 4), (-3, 4), (-5, -12), (5, -12)], [*FIVE[:4], (-1, -7), FIVE[4]]]
+
+
+@pytest.mark.parametrize(
+    ("turned", "shift", "order"), [(False, (0, 0, 0), None), (True, (7, -3, 2), 1), (False, (70, -30, 20), 2)]
+)
+@pytest.mark.parametrize("creases", VERTICES)
+def test_flat_vertices_of_creases_moved_and_shuffled(
+    creases: list[tuple[int, int]], turned: bool, shift: Sequence[int], order: int | None
+) -> None:
+    """The fold angles close a loop of turns by 3 conditions; flat, one of them is of the second order.
+
+    A crease that closes the loop has 5 equations, of which the ways of two of them, in and out of the plane, are left.
+    """
+    n = len(creases)
+    scene = vertex(creases, turned, shift, order)
+    report = dofkit.classify(dofkit.load(scene))
+    assert (report.dof, report.instantaneous_dof, report.singular) == (n - 3, n - 2, True)
+    assert (report.redundant_equations, report.redundant) == (3, [])
+    assert [e.independent for e in report.constraints] == [5] * (n - 1) + [2]
+    assert report.verdict == "numeric"
+
+
+@pytest.mark.parametrize(
+    ("names", "written", "dof", "why"),
+    [
+        ("x y", "exp(x - y) = 1 + x - y", 1, "x = y"),
+        ("x y", "x - y = sin(x - y)", 1, "x = y"),
+        ("x y", "exp(2 x - y + 1) = 2 x - y + 2", 1, "y = 2 x + 1"),
+        ("x y z", "x - 2 y + z = sin(x - 2 y + z)", 2, "a plane"),
+        ("x y z w", "xdot^2 - 2 cos(z - w) xdot ydot + ydot^2 = 0", 2, "x and y are constant: z and w are free"),
+        ("x y z", "xdot^2 - 2 cos(z - t) xdot ydot + ydot^2 = 0", 1, "z is free"),
+    ],
+)
+def test_coordinates_that_occur_in_one_sum_only(names: str, written: str, dof: int, why: str) -> None:
+    report = dofkit.classify(dofkit.load({"coordinates": names.split(), "constraints": [written]}))
+    assert (report.consistent, report.dof, report.holonomic) == (True, dof, True), why

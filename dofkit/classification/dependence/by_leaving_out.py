@@ -42,7 +42,8 @@ def by_leaving_out(block: Block, setting: Setting, a: Answer, nullity: int, numb
     count = counted(block, setting, a, numbered) if is_drawn(block, a, setting) else None
     if count is not None:
         groups = groups or count.groups
-        return replace(told, independent=count.independent, equations=count.equations, groups=groups)
+        counts = replace(told, independent=count.independent, equations=count.equations, seen=count.seen)
+        return replace(counts, groups=groups, verdict=weakest(told.verdict, "numeric" if count.seen else "proved"))
     independent = {o: 0 for o, circuit in circuits.items() if circuit and max(circuit) < o}
     independent |= {o: 1 for o in order if owners.count(o) == 1 and o not in (*found.redundant, *found.undecided)}
     uncounted = tuple(o for o in order if o not in independent and o not in found.undecided)

@@ -29,8 +29,9 @@ class Redundancies:
     """What was found, constraints by their numbers; of those in ``undecided`` it is not known whether they can go.
 
     ``equations``: which scalar equations of a constraint follow from those before them, where that is known.
-    ``uncounted``: constraints of which it is not known how many of their equations do. ``about``: of which points this
-    speaks: those near the ``reference``, near the point that was found (its ``component``), or ``everywhere``.
+    ``uncounted``: constraints of which it is not known how many of their equations do; ``seen``: of which some were
+    seen in numbers to do. ``about``: of which points this speaks: those near the ``reference``, near the point that was
+    found (its ``component``), or ``everywhere``.
     ``verdict``: how sure it is that what is redundant is, at the best.
     """
 
@@ -41,6 +42,7 @@ class Redundancies:
     undecided: tuple[int, ...] = ()
     equations: Mapping[int, tuple[int, ...]] = field(default_factory=dict)
     uncounted: tuple[int, ...] = ()
+    seen: tuple[int, ...] = ()
     about: About = "everywhere"
     verdict: Verdict = "proved"
 

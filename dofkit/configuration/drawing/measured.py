@@ -39,15 +39,20 @@ WAYS = 3
 
 FOLLOWED = "the motion was followed for a finite step within the tolerance"
 MISSED = "the relations do not hold at the measured drawing within the tolerance, and it says nothing elsewhere"
+FIXED = "the relations allow neither a motion nor another moment within the tolerance: they fix the time"
 OPEN = "some of the motions to first order are no finite motions; which was not decided"
 
 
 class Decided(NamedTuple):
-    """A dimension, None where it is open, and why; ``confined``: time, if it is a column, may be constant."""
+    """A dimension, None where it is open, and why; ``confined``: time, if it is a column, may be constant.
+
+    ``still``: time does stand still.
+    """
 
     dimension: int | None
     reason: str
     confined: bool = False
+    still: bool = False
 
 
 @dataclass(frozen=True)
@@ -56,7 +61,7 @@ class Measured:
 
     ``dependencies``: a matrix over GF(2) with the pattern of dependent rows that the Jacobian has within the
     tolerance: independent rows are unit vectors, the others sums of those they depend on. ``columns`` are
-    dependent coordinates.
+    dependent coordinates. ``still``: the relations fix the time.
     """
 
     instantaneous: int | None
@@ -65,6 +70,7 @@ class Measured:
     columns: tuple[int, ...]
     gap: float
     reason: str
+    still: bool = False
 
 
 def measure(chart: Chart, at: Mapping[Expr, float], setting: Setting, rigid: int) -> Measured:
@@ -92,12 +98,14 @@ def measure(chart: Chart, at: Mapping[Expr, float], setting: Setting, rigid: int
     found = _finite(drawing, rigid, lever > LEVER or relations.blurs(at) > tolerance)
     if chart.time is not None:
         found = _at_fixed_time(drawing, found)
-    return Measured(n - rank, found.dimension, pattern, columns, gap, found.reason)
+    return Measured(n - rank, found.dimension, pattern, columns, gap, found.reason, found.still)
 
 
 def _at_fixed_time(drawing: MeasuredDrawing, found: Decided) -> Decided:
     """The dimension without that of time; open where time may stand still on the set, as far as the tolerance tells."""
     rank, (full, columns) = clear_rank(drawing.j, drawing.tolerance), drawing.j.shape
+    if rank == columns:
+        return Decided(None, FIXED, still=True)
     if rank is not None and rank == full > drawing.rank and _time_moves(replace(drawing, rank=rank)):
         return Decided(columns - full - 1, "all relations are independent within the tolerance, time counted")
     if rank != drawing.rank or (found.dimension is not None and found.confined):

@@ -11,14 +11,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product as cartesian
+from typing import NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.exact.zero.identity import is_proved_zero, is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
-from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, in_velocities
+from dofkit.expressions.combinations import Combined, combined
+from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, cleared, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
+from dofkit.relations.normal.edges import at_edge, edges_of, lines_of
 from dofkit.relations.normal.exact_zeros import SOLE_NOTE, sole_zero
 from dofkit.relations.normal.half_lines import (
     ONE_SIDE_NOTE,
@@ -30,8 +33,14 @@ from dofkit.relations.normal.half_lines import (
     settled,
 )
 from dofkit.relations.normal.no_solution import no_solution
+from dofkit.relations.normal.notes import (
+    NOWHERE_NOTE,
+    REGION_NOTE,
+    ROOTS_NOTE,
+    SIGNS_NOTE,
+    SQUARED_NOTE,
+)
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE, Conjunction
-from dofkit.relations.normal.quadratics import split_power, split_quadratic
 from dofkit.relations.normal.signs import (
     MAX_ARGUMENTS,
     arguments_of,
@@ -90,26 +99,12 @@ class Inequality:
     strict: bool = False
 
 
-REGION_NOTE = (
-    "for one sign of what stands in abs() or under the root it holds on a whole region, and takes no freedom away there"
-)
-NOWHERE_NOTE = "no real configuration satisfies it: it has no real value anywhere"
-SQUARED_NOTE = "the root was squared away, with the sign of the other side as a condition"
-RATE_NOTE = "it holds one combination of velocities only and was solved for that: each root is linear in the velocities"
-ROOTS_NOTE = (
-    "it holds one combination of velocities only, which takes one of its roots: each would be a branch linear in the "
-    "velocities, but they were not written down, because there are infinitely many or no formula gives them"
-)
-SIGNS_NOTE = "what stands in abs() may have either sign"
-QUADRATIC_NOTE = "over the reals the relation between velocities splits into linear ones"
-
 Piece = Finite | Pfaffian | Nonlinear | Inequality | DomainCondition
 #: All pieces of a branch hold together; one of the branches holds. No branch: nothing satisfies it.
 Branches = tuple[tuple[Piece, ...], ...]
 
 
-@dataclass(frozen=True)
-class Normal:
+class Normal(NamedTuple):
     """What a relation says, and what was done to see it.
 
     ``constants``: coordinates that stand for constants of an integration by time, which ``once`` tells.
@@ -125,6 +120,8 @@ class Normal:
     @property
     def pieces(self) -> tuple[Piece, ...]:
         """Every piece of every branch that is a relation."""
+        if len(self.branches) == 1 and len(self.branches[0]) == 1:
+            return () if isinstance(self.branches[0][0], DomainCondition) else self.branches[0]
         return tuple(piece for branch in self.branches for piece in branch if not isinstance(piece, DomainCondition))
 
 
@@ -157,22 +154,6 @@ def linear_form(e: Expr) -> Pfaffian | None:
     return Pfaffian(coefficients, substitute(e, dict.fromkeys(velocities, ex.ZERO)))
 
 
-def cleared(e: Expr) -> Expr:
-    """``e`` times the denominators of its terms, so that dy/dx = f becomes dy - f dx = 0."""
-    denominators: dict[Expr, Expr] = {}
-    for term in e.args if e.op == "add" else (e,):
-        for factor in term.args if term.op == "mul" else (term,):
-            is_below = factor.op == "pow" and factor.args[1].op == "num" and factor.args[1].args[0] < 0
-            if is_below and velocities_of(factor):
-                base = factor.args[0]
-                old = denominators.get(base, ex.ONE)
-                denominators[base] = max(old, ex.power(factor, ex.MINUS_ONE), key=repr)
-    if not denominators:
-        return e
-    whole = ex.mul(*denominators.values())
-    return ex.add(*(ex.mul(whole, term) for term in (e.args if e.op == "add" else (e,))))
-
-
 def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     """What ``e = 0`` says; ``written`` equations are reduced over the reals, those of joints are regular as they are.
 
@@ -180,6 +161,14 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     """
     if accelerations_of(e):
         raise TextError("a second derivative is no constraint on positions or velocities", hint=SOLVE_FOR_IT)
+    fewer = combined(e) if written else Combined(e, {})
+    found = _normalised(fewer.expr, positive, written)
+    if not fewer.sums:
+        return found
+    return replace(found, branches=tuple(tuple(with_constants(p, fewer.sums) for p in b) for b in found.branches))
+
+
+def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     velocity_form, divided = in_velocities(e)
     if not velocities_of(velocity_form):
         if divided:
@@ -188,7 +177,17 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     form = linear_form(cleared(velocity_form))
     if form is not None and (form.coefficients or not form.dt.is_zero):
         return Normal(((form,),))
-    return _nonlinear(velocity_form, positive)
+    return _defined(velocity_form, _nonlinear(velocity_form, positive), positive)
+
+
+def _defined(e: Expr, normal: Normal, positive: frozenset[Expr]) -> Normal:
+    """What a relation in velocities says where, as it was written, it has a value at a configuration."""
+    if normal.branches == ((Nonlinear(e),),):
+        return normal
+    within = [c for c in conditions_of(e, positive) if not velocities_of(c.expr)]
+    if within and no_solution((), positive, [c.expr for c in within if c.sense != "!="]):
+        return Normal((), (NOWHERE_NOTE,))
+    return normal._replace(branches=tuple((*b, *(c for c in within if c not in b)) for b in normal.branches))
 
 
 def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
@@ -283,7 +282,7 @@ def _by_signs_of_rates(e: Expr, folds: Sequence[Expr], positive: frozenset[Expr]
 
 
 def _with_note(normal: Normal, note: str) -> Normal:
-    return replace(normal, notes=tuple(dict.fromkeys((note, *normal.notes))))
+    return normal._replace(notes=tuple(dict.fromkeys((note, *normal.notes))))
 
 
 def _sided(
@@ -331,15 +330,23 @@ def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Pie
     form = linear_form(e)
     if form is not None:
         return [(form,)], ""
-    split = split_quadratic(e, velocities_of(e), positive)
-    split = split_power(e, positive) if split is None else split
-    if split is not None:
-        return [_pieces_of(one) for one in split], QUADRATIC_NOTE
-    found = velocity_branches(e, positive)
-    if found is not None:
-        return [_pieces_of(SidedLines((relation,), conditions)) for relation, conditions in found], RATE_NOTE
-    other = rewritten(e, positive)
-    sided = None if other is None else _sided(e, other, positive)
-    if sided is not None:
-        return list(sided.branches), "; ".join((UNDONE_NOTE, *sided.notes))
-    return [(Nonlinear(e),)], ROOTS_NOTE if in_one_rate(e, positive) else ""
+    lines, note = lines_of(e, positive)
+    if lines is None:
+        other = rewritten(e, positive)
+        sided = None if other is None else _sided(e, other, positive)
+        if sided is not None:
+            return list(sided.branches), "; ".join((UNDONE_NOTE, *sided.notes))
+        return [(Nonlinear(e),)], ROOTS_NOTE if in_one_rate(e, positive) else ""
+    edges = edges_of(lines, positive)
+    if edges is None:
+        return [(Nonlinear(e),)], ""
+    return [*map(_pieces_of, lines), *(b for zero in edges for b in _at_edge(e, zero, positive))], note
+
+
+def _at_edge(e: Expr, zero: Conjunction, positive: frozenset[Expr]) -> Iterable[tuple[Piece, ...]]:
+    """What ``e = 0`` says beside what vanishes at an edge of its lines; nothing where it has no value."""
+    there = at_edge(e, zero)
+    if there is None:
+        return ()
+    beside = ((Nonlinear(e),),) if there == e else normalise(there, positive, True).branches
+    return ((*map(Finite, zero), *b) for b in beside)
