@@ -93,21 +93,5 @@ def linear_in_accelerations(e: Expr, sense: str) -> None:
         raise TextError(NOT_LINEAR, hint=SOLVE_FOR_IT)
 
 
-def cleared(e: Expr) -> Expr:
-    """``e`` times the denominators of its terms, so that dy/dx = f becomes dy - f dx = 0."""
-    denominators: dict[Expr, Expr] = {}
-    for term in e.args if e.op == "add" else (e,):
-        for factor in term.args if term.op == "mul" else (term,):
-            is_below = factor.op == "pow" and factor.args[1].op == "num" and factor.args[1].args[0] < 0
-            if is_below and _moves(factor):
-                base = factor.args[0]
-                old = denominators.get(base, ex.ONE)
-                denominators[base] = max(old, ex.power(factor, ex.MINUS_ONE), key=repr)
-    if not denominators:
-        return e
-    whole = ex.mul(*denominators.values())
-    return ex.add(*(ex.mul(whole, term) for term in (e.args if e.op == "add" else (e,))))
-
-
 def _moves(e: Expr) -> bool:
     return any(s.args[0] == "velocity" for s in e.symbols)

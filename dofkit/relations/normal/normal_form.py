@@ -33,13 +33,7 @@ from dofkit.relations.normal.half_lines import (
     settled,
 )
 from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.notes import (
-    NOWHERE_NOTE,
-    REGION_NOTE,
-    ROOTS_NOTE,
-    SIGNS_NOTE,
-    SQUARED_NOTE,
-)
+from dofkit.relations.normal.notes import NOWHERE_NOTE, REGION_NOTE, ROOTS_NOTE, SIGNS_NOTE, SQUARED_NOTE
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE, Conjunction
 from dofkit.relations.normal.signs import (
     MAX_ARGUMENTS,
@@ -165,7 +159,7 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     found = _normalised(fewer.expr, positive, written)
     if not fewer.sums:
         return found
-    return replace(found, branches=tuple(tuple(with_constants(p, fewer.sums) for p in b) for b in found.branches))
+    return found._replace(branches=tuple(tuple(with_constants(p, fewer.sums) for p in b) for b in found.branches))
 
 
 def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
