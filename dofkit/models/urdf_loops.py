@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dofkit.base.errors import Fault
-from dofkit.models.model_document import vector
+from dofkit.models.model_document import FINEST, vector
 from dofkit.models.urdf_elements import FIXED, Array, Poses, Robot, Transform
 
 #: What the joints of a chain may add up to, in tolerances.
@@ -37,14 +37,16 @@ class Closure(NamedTuple):
     def moved(self, size: float, tolerance: float) -> float | None:
         """How far the joint has moved where it is drawn, 0 where no one number tells; None where it cannot be there.
 
-        The drawing is right to within ``tolerance``, a fraction of its ``size``.
+        The drawing is right to within ``tolerance``, a fraction of its ``size``: lengths and angles to the last digit
+        that is written, and places to what such angles move them by.
         """
         arm = self.first.turn.T @ (self.second.at - self.first.at)
         turn = self.first.turn.T @ self.second.turn if self.turned else np.eye(3)
         n = np.array(self.axis) / (np.linalg.norm(self.axis) or 1.0)
         along = float(arm @ n)
         off = abs(along) if self.kind == "planar" else float(np.linalg.norm(arm - n * along * (self.kind in _SLIDING)))
-        if off > SLACK * tolerance * max(size, 1e-9) or self._twist(turn, n) > SLACK * max(tolerance, 1e-9):
+        digit = SLACK * max(tolerance * size, FINEST)
+        if off > digit * max(size, 1.0) or self._twist(turn, n) > digit:
             return None
         if self.kind in _TURNING[:2]:
             return _angle_about(turn, n)
@@ -91,7 +93,7 @@ def drawn_joints(robot: Robot, poses: Poses, size: float, tolerance: float) -> t
             faults.append(Fault(message, line=closure.line, column=1, hint="change the origins so that its ends meet"))
         else:
             drawn[closure.name] = moved
-    return drawn, faults or [*_open_mimics(robot, poses, drawn, SLACK * max(tolerance, 1e-9))]
+    return drawn, faults or [*_open_mimics(robot, poses, drawn, SLACK * max(tolerance * size, FINEST))]
 
 
 def _short(values: Array) -> list[float | int]:

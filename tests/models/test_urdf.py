@@ -143,6 +143,20 @@ def test_a_joint_that_closes_a_loop_may_stand_elsewhere_than_at_0() -> None:
     assert dofkit.classify(load(robot(*turned, f"<loop_joint name='C' type='continuous'>{loop}</loop_joint>"))).dof == 1
 
 
+def test_a_loop_of_rounded_angles_is_closed_to_their_last_digit() -> None:
+    """Links of length 10 at right angles that are written as 1.5708: the ends are some 4e-5 apart."""
+    corner = "<origin xyz='{} 0 0' rpy='0 0 {}'/>" + Z
+    square = (
+        link("base"), link("a"), link("b"), link("c"),
+        joint("A", "continuous", "base", "a", corner.format(0, 0)),
+        joint("B", "continuous", "a", "b", corner.format(10, 1.5708)),
+        joint("C", "continuous", "b", "c", corner.format(10, 1.5708)),
+        f"<loop_joint name='D' type='continuous'><link1 link='c' xyz='10 0 0'/><link2 link='base' xyz='0 10 0'/>{Z}"
+        "</loop_joint>",
+    )  # fmt: skip
+    assert dofkit.classify(load(robot(*square))).dof == 1
+
+
 Z = "<axis xyz='0 0 1'/>"
 #: The rod's end stands at (1, 2, 0); a crank of length 1 and a rocker pivoted at (3, 0, 0).
 RODS = (

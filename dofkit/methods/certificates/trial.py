@@ -29,9 +29,21 @@ class ClaimTrial:
 
     def outcome(self, claim: dict[str, Any]) -> Outcome:
         """Whether a claim is shown; ``contradicted`` where the evidence gives another value."""
+        known = {cayley: len(one.consequences) for cayley, one in self.verifier.evidences.items()}
         try:
             self.verifier.check(claim)
         except FAULTS as error:
             self.reasons[claim["path"]] = told(error)
+            self._forget(known)
             return "contradicted" if told(error).startswith("the evidence gives") else "open"
         return "shown"
+
+    def _forget(self, known: Mapping[bool, int]) -> None:
+        """Leave out what follows by covers of a claim that is not written down: who reads the others has it not."""
+        for cayley, one in self.verifier.evidences.items():
+            number = known.get(cayley, len(one.consequences))
+            if number < len(one.consequences):
+                del one.consequences[number:]
+                gone = [key for key in one.seen if key[0] == "covers" or (key[0] == "met" and key[1] >= number)]
+                for key in gone:
+                    del one.seen[key]

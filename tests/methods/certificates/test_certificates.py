@@ -129,3 +129,28 @@ def test_measured_scenes_have_nothing_to_show() -> None:
 def test_a_certificate_is_of_json() -> None:
     certificate, _ = certified("rolling-ball-euler-angles")
     assert json.loads(json.dumps(certificate)) == certificate
+
+
+def test_what_a_cover_of_another_claim_gives_is_not_counted_on() -> None:
+    """One of the ball's equations follows by a cover, of which a claim that was left out counted the rod's row."""
+    place = {"on": "plate", "at": [-1, 2, 1]}
+    scene = {
+        "bodies": ["plate", "sleeve"],
+        "particles": [{"name": "P", "at": [-1, 2, 1]}, {"name": "Q", "at": [1, -1, 0]}],
+        "constraints": [
+            {
+                "name": "shaft",
+                "type": "cylindrical",
+                "between": ["ground", "sleeve"],
+                "at": [0, 2, 1],
+                "axis": [0, 1, 0],
+            },
+            {"name": "ball", "type": "spherical", "between": ["ground", "sleeve"], "at": [1, 2, -1]},
+            {"name": "pin", "type": "coincident", "between": ["P", place]},
+            {"name": "rod", "type": "link", "between": ["Q", place]},
+        ],
+    }
+    report = dofkit.classify(scene, certificate=True)
+    assert [entry.independent for entry in report.constraints] == [4, 2, 3, 1]
+    assert report.certificate is not None
+    assert dofkit.verify(scene, report.certificate).failed == []
