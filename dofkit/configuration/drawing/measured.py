@@ -195,12 +195,39 @@ def _directions(ways: Any) -> list[Any]:
 
 
 def independent_rows(j: Any, rank: int, tolerance: float) -> list[int]:
-    """The first rows, in order, independent of those before them within the tolerance."""
-    kept: list[int] = []
+    """The first rows, in order, independent of those before them within the tolerance.
+
+    Rows are so as long as their least singular value is above it, which no row that is left out makes smaller. A row
+    that others come nearer to than that is none. So one look at those that stand apart from others is enough, unless
+    they are dependent together.
+    """
+    kept = _rows_apart(j, rank, tolerance)
+    if _are_independent(j[kept], tolerance):
+        return kept
+    kept = []
     for r in range(len(j)):
         if len(kept) == rank:
             break
         check()
-        if float(np.linalg.svd(j[[*kept, r]], compute_uv=False)[-1]) > tolerance * SLACK:
+        if _are_independent(j[[*kept, r]], tolerance):
             kept.append(r)
+    return kept
+
+
+def _are_independent(rows: Any, tolerance: float) -> bool:
+    return not len(rows) or float(np.linalg.svd(rows, compute_uv=False)[-1]) > tolerance * SLACK
+
+
+def _rows_apart(j: Any, rank: int, tolerance: float) -> list[int]:
+    """The first rows that are apart from the span of those before them, by more than the tolerance."""
+    kept, basis = list[int](), np.zeros((0, j.shape[1]))
+    for r, row in enumerate(j):
+        if len(kept) == rank:
+            break
+        for _ in range(2):
+            row = row - basis.T @ (basis @ row)
+        apart = float(np.linalg.norm(row))
+        if apart > tolerance * SLACK:
+            kept.append(r)
+            basis = np.vstack([basis, row / apart])
     return kept
