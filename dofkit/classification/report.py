@@ -82,7 +82,8 @@ def generalized_coordinates(study: Study) -> list[str] | None:
 
     Of an open tree where that is not known at the drawing, by the rows of its joints at another pose.
     """
-    return unless_late(partial(_generalized, study), None) or unless_late(partial(_on_tree, study), None)
+    found = unless_late(partial(_generalized, study), None)
+    return unless_late(partial(_on_tree, study), None) if found is None else found
 
 
 def _on_tree(study: Study) -> list[str] | None:
