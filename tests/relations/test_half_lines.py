@@ -30,6 +30,7 @@ DECIDED: list[tuple[str, list[str], tuple[int, int], list[bool | None], str]] = 
     ("x y", ["sqrt(xdot^2 + ydot^2) = 2 xdot"], (1, 1), [False], "ydot = +-sqrt(3) xdot, xdot >= 0"),
     ("x y th", [HEADING], (3, 2), [False], "rolling: xdot sin th = ydot cos th, and forward"),
     ("x y th", ["th = atan2(dy, dx)"], (3, 2), [False], "the same"),
+    ("x y th", ["2 th = atan2(ydot, xdot)"], (3, 2), [False], "the same with 2 th, for -pi/2 < th <= pi/2"),
     ("x y th", ["cos(th) = xdot/sqrt(xdot^2 + ydot^2)"], (3, 2), [False], "in the direction of th or -th"),
     ("x y th", [HEADING, "th = 0"], (1, 1), [False, True], "y = C, xdot > 0"),
     ("x y th", [HEADING, "xdot = cos(th)", "ydot = sin(th)"], (3, 1), [False] * 3, "forward with speed 1"),
