@@ -18,8 +18,7 @@ Sense = Literal["=", ">=", ">"]
 Sign = Literal["real", "positive", "nonzero"]
 
 
-@dataclass(frozen=True)
-class Coordinate:
+class Coordinate(NamedTuple):
     """A configuration coordinate q and what it belongs to.
 
     ``owner`` is a particle's or body's name, or None; ``role`` is ``x``, ``y``, ``z``, ``angle``
@@ -49,8 +48,7 @@ class Rotation:
     initial: tuple[Expr, Expr, Expr]
 
 
-@dataclass(frozen=True)
-class Relation:
+class Relation(NamedTuple):
     """One scalar relation ``expr sense 0``; ``part`` names it within its constraint (``point x``).
 
     ``vector`` is the place or direction in the drawing that it is about.
@@ -156,8 +154,7 @@ class TypeFacts:
         return self.velocities is not None and not self.written
 
 
-@dataclass(frozen=True)
-class Constraint:
+class Constraint(NamedTuple):
     """A constraint of the scene and the scalar relations that it yields.
 
     ``facts``: of its type. ``relations`` may be written out only when one of them is asked for. ``notes`` are sentences
@@ -198,8 +195,7 @@ class Distance(NamedTuple):
     at_most: bool = False
 
 
-@dataclass(frozen=True)
-class DrawnPoint:
+class DrawnPoint(NamedTuple):
     """A point that a constraint mentions, where it stands in the drawing (None: in general position).
 
     ``carrier`` is the body that carries it (``ground`` too) or, with ``particle``, the particle it is.
@@ -226,8 +222,7 @@ class JointRate(NamedTuple):
     slides: bool = False
 
 
-@dataclass(frozen=True)
-class Connection:
+class Connection(NamedTuple):
     """What the constraint number ``constraint`` connects, as given by its geometry and not by a text.
 
     ``facts``: of its type. ``members``: bodies (``ground`` too) and particles, in the order mentioned. ``points``

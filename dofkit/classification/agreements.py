@@ -98,17 +98,18 @@ def _within_groups(told: Values) -> bool | None:
     redundant = told.get("redundant")
     if redundant is None:
         return None
-    gone = sum(e.equations for e in told["constraints"] if e.name in redundant)
-    return members >= {*redundant} and gone <= _nullity(told["redundancies"])
+    known = {*redundant}
+    gone = sum(e.equations for e in told["constraints"] if e.name in known)
+    return members >= known and gone <= _nullity(told["redundancies"])
 
 
 def _circuits(told: Values) -> bool | None:
     redundant = told.get("redundant")
     if redundant is None:
         return None
-    seen = set[str]()
+    seen, known = set[str](), {*redundant}
     for e in told["constraints"]:
-        if e.circuit is not None and (e.name not in redundant or not seen >= {*e.circuit}):
+        if e.circuit is not None and (e.name not in known or not seen >= {*e.circuit}):
             return False
         seen.add(e.name)
     return True

@@ -107,7 +107,8 @@ def of_entries(entries: Sequence[ConstraintEntry], name: str, value: bool | None
     if value is None:
         return OPEN
     if value:
-        return together(*(_claim(e.verdicts[name]) for e in entries))
+        known = {id(e.verdicts): _claim(e.verdicts[name]) for e in {id(e.verdicts): e for e in entries}.values()}
+        return together(*[known[id(e.verdicts)] for e in entries])
     against = [e.verdicts[name] for e in entries if getattr(e, name) is False]
     return _claim(min(against, key=lambda v: VERDICTS.index(v.verdict)))
 

@@ -52,10 +52,17 @@ class _Reading:
 
 def _degrees(g: Expr) -> dict[str, int]:
     """Every coordinate of ``g`` with how it occurs."""
-    memo: dict[Expr, dict[str, int]] = {}
-    for node in ex.nodes(g):
-        memo[node] = _joined(node, [memo[child] for child in ex.children(node)])
-    return memo[g]
+    memo: dict[int, dict[str, int]] = {}
+    stack = [g]
+    while stack:
+        node = stack.pop()
+        parts = ex.children(node)
+        waiting = [part for part in parts if id(part) not in memo]
+        if waiting:
+            stack += [node, *waiting]
+        else:
+            memo[id(node)] = _joined(node, [memo[id(part)] for part in parts])
+    return memo[id(g)]
 
 
 def _joined(e: Expr, parts: Sequence[dict[str, int]]) -> dict[str, int]:

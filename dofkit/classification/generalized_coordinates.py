@@ -9,6 +9,7 @@ from typing import Any
 from dofkit.base.deadline import expired
 from dofkit.base.libraries import np
 from dofkit.classification.explicit_coordinates import PLAIN, QUADRATIC, explicit
+from dofkit.classification.freedom.bridged_blocks import with_still_parts
 from dofkit.classification.turned_coordinates import (
     ANYWHERE,
     TurnedGroup,
@@ -43,7 +44,7 @@ from dofkit.system import Rotation
 AWAY, ZERO = (0.05, 0.05, 0.05, 0.05, 0.3, 0.6, 0.6, 1.0), 1e-7
 #: The same where there are just as many relations as the freedom asks for: far from the origin they look nearly alike.
 FAINT = 1e-10
-#: The length of secants, and the least of those that count against it: the set is curved, and found to half its digits.
+#: The length of secants, and the least share of it that counts: the set is curved, and found to half its digits.
 SECANT, SPREAD, SETTLING = 1e-4, 3e-2, 60
 #: So many steps without half the error are the end: rounding, far from the origin, allows no less.
 STALLED = 8
@@ -83,6 +84,7 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
     orbit = None if turning else orbit_at_reference(block, a, setting)
     if orbit is not None:
         return orbit.chart_of()
+    block = with_still_parts(block, a, setting)
     found = _nearby(block, a.dof, setting, turning) or _rigid(block, a.dof, setting)
     return found if found is not None or turning else whole
 
@@ -167,7 +169,8 @@ def _nearby(
         regular = len(chart.nodes) == len(block.coordinates) - dof
         secants = None if regular or tangent.shape[0] < dof else _secants(chart, search, symbols, dof)
         if secants is not None:
-            return _columns(chart, _in_angles(chart, symbols, secants, turning))
+            chosen = _columns(chart, _in_angles(chart, symbols, secants, turning), SPREAD)
+            return chosen if len(chosen) == dof else None
     return None
 
 
@@ -198,8 +201,8 @@ def _regular_columns(chart: Chart, near: Any, drawn: Any, turning: Sequence[Rota
     return [names[i] for i in chosen] if complete else None
 
 
-def _rank(tangent: Any, columns: Sequence[int]) -> int:
-    return int(np.linalg.matrix_rank(tangent[:, columns], tol=ROUGH)) if columns else 0
+def _rank(tangent: Any, columns: Sequence[int], least: float = ROUGH) -> int:
+    return int(np.linalg.matrix_rank(tangent[:, columns], tol=least)) if columns else 0
 
 
 def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: int) -> Any:
@@ -324,12 +327,14 @@ def _rigid(block: Block, dof: int, setting: Setting) -> list[str] | None:
     return _columns(chart, fields) if rank == dof else None
 
 
-def _columns(chart: Chart, tangent: Any) -> list[str]:
-    """The first coordinates, in order, on which the tangent space projects regularly."""
+def _columns(chart: Chart, tangent: Any, least: float = ROUGH) -> list[str]:
+    """The first coordinates, in order, on which the tangent space projects regularly, by singular values of at least
+    that.
+    """
     names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
     chosen: list[int] = []
-    rank = int(np.linalg.matrix_rank(tangent, tol=ROUGH))
+    rank = int(np.linalg.matrix_rank(tangent, tol=least))
     for c in range(len(names)):
-        if len(chosen) < rank and _rank(tangent, [*chosen, c]) > len(chosen):
+        if len(chosen) < rank and _rank(tangent, [*chosen, c], least) > len(chosen):
             chosen.append(c)
     return [names[c] for c in chosen]

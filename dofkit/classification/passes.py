@@ -113,7 +113,10 @@ def _integrable(study: Study, told: Values) -> Values:
 def _sureness(study: Study, told: Values) -> Values:
     """How sure it is: every field by itself, and the weakest of all."""
     found = claims(study, told)
-    entries = [v.verdict for e in told["constraints"] for v in (*e.verdicts.values(), e)]
+    of_entries = {id(e.verdicts): e.verdicts for e in told["constraints"]}.values()
+    entries = {v.verdict for verdicts in of_entries for v in verdicts.values()} | {
+        e.verdict for e in told["constraints"]
+    }
     weak = weakest(*(c.verdict for c in found.values()), *entries)
     return {"verdicts": {name: FieldVerdict.of(c) for name, c in found.items()}, "verdict": weak}
 

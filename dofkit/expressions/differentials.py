@@ -91,3 +91,7 @@ def linear_in_accelerations(e: Expr, sense: str) -> None:
         )
     if any(accelerations_of(diff(e, s)) for s in moving):
         raise TextError(NOT_LINEAR, hint=SOLVE_FOR_IT)
+
+
+def _moves(e: Expr) -> bool:
+    return any(s.args[0] == "velocity" for s in e.symbols)

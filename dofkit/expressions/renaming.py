@@ -7,10 +7,13 @@ was left out, whose parameters begin with ``_``. All other names are kept: param
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 from dofkit.expressions.tree import Expr, children, nodes
 
+#: Letters that are kept of a name that begins with ``_``.
+_STEM = 2
 #: The kinds of symbols that are called by a coordinate.
 MOVING = frozenset({"coordinate", "velocity", "acceleration", "differential"})
 
@@ -62,11 +65,39 @@ def shape_of(e: Expr) -> ExpressionShape:
         for symbol in _symbols_in_order(e):
             if is_name(symbol):
                 name = symbol.args[1]
-                stem = name[:2] if name[0] == "_" else ""
+                stem = name[:_STEM] if name[0] == "_" else ""
                 places.setdefault(name, f"{stem}{len(places)}")
         kept = sorted({s.args[1] for s in e.symbols if not is_name(s)})
         found = e.shape = ExpressionShape(renamed(e, places), tuple(places), tuple(kept))
     return found
+
+
+def kinds_in(e: Expr) -> frozenset[str]:
+    """The kinds of the symbols that occur."""
+    return frozenset([s.args[0] for s in e.symbols]) if e.shape is None else _occurring(e.shape.skeleton)[0]
+
+
+def coordinates_in(e: Expr) -> frozenset[str]:
+    """The coordinates of which the value or the velocity occurs.
+
+    >>> from dofkit.expressions.tree import coordinate, velocity
+    >>> sorted(coordinates_in(coordinate("y") * velocity("x")))
+    ['x', 'y']
+    """
+    shape = e.shape
+    if shape is None:
+        return frozenset([s.args[1] for s in e.symbols if s.args[0] in ("coordinate", "velocity")])
+    names = shape.names
+    return frozenset([names[k] for k in _occurring(shape.skeleton)[1]])
+
+
+@lru_cache(maxsize=1000)
+def _occurring(skeleton: Expr) -> tuple[frozenset[str], tuple[int, ...]]:
+    """The kinds of symbols of an expression without its names, and the numbers that stand for coordinates there."""
+    called = {s.args[1] for s in skeleton.symbols if s.args[0] in ("coordinate", "velocity")}
+    return frozenset([s.args[0] for s in skeleton.symbols]), tuple(
+        sorted(int(n[_STEM * (n[0] == "_") :]) for n in called)
+    )
 
 
 def _symbols_in_order(e: Expr) -> list[Expr]:
@@ -145,6 +176,8 @@ class _Step(NamedTuple):
 class Template:
     """An expression, to be written in other names many times over.
 
+    ``symbols``: those that have such names, in the order in which they first occur; ``others``: all others.
+
     >>> from dofkit.expressions.tree import coordinate
     >>> product = Template(coordinate("x") * coordinate("y"))
     >>> product.names, product.of(("u", "v")) == coordinate("u") * coordinate("v")
@@ -152,34 +185,67 @@ class Template:
     """
 
     def __init__(self, e: Expr) -> None:
-        self.names = shape_of(e).names
-        self._number = {name: k for k, name in enumerate(self.names)}
-        symbols = [s for s in _symbols_in_order(e) if is_name(s)]
-        self._symbols = [(s.args[0], self._number[s.args[1]]) for s in symbols]
-        self._others = e.symbols - frozenset(symbols)
-        own = frozenset(symbols)
+        self.shape = shape_of(e)
+        self.names = self.shape.names
+        number = {name: k for k, name in enumerate(self.names)}
+        self.symbols = tuple([s for s in _symbols_in_order(e) if is_name(s)])
+        self.others = tuple(e.symbols - frozenset(self.symbols))
+        self.op, self.functions = e.op, e.functions
+        self._called = [(s.args[0], number[s.args[1]]) for s in self.symbols]
+        self._named = [next(i for i, s in enumerate(self.symbols) if s.args[1] == name) for name in self.names]
+        own = frozenset(self.symbols)
         self._kept = [node for node in nodes(e) if own.isdisjoint(node.symbols)]
-        places = {node: k for k, node in enumerate((*symbols, *self._kept))}
+        places = {node: k for k, node in enumerate((*self.symbols, *self._kept))}
         self._steps: list[_Step] = []
         for node in nodes(e):
             if node not in places:
                 places[node] = len(places)
                 parts = tuple([places[part] for part in children(node)])
                 before = node.args[:2] if node.op == "call" else node.args[:1] if node.op == "fn" else ()
-                self._steps.append(_Step(node.op, before, parts, node.shape))
+                shape = None if node is e else node.shape
+                self._steps.append(_Step(node.op, before, parts, shape))
         self._root = places[e]
 
     def of(self, names: Sequence[str]) -> Expr:
         """The expression in other names, all different, in the order of its own; its shape is known."""
-        symbols = [Expr("sym", (kind, names[k])) for kind, k in self._symbols]
+        return self.with_symbols([Expr("sym", (kind, names[k])) for kind, k in self._called])
+
+    def with_symbols(self, symbols: Sequence[Expr]) -> Expr:
+        """The expression with other symbols, each of the kind of its own and in their order; see `of`."""
+        if not self._steps:
+            return (*symbols, *self._kept)[self._root]
+        return _Renamed(self, symbols, tuple([symbols[k].args[1] for k in self._named]))
+
+    def written(self, symbols: Sequence[Expr]) -> Expr:
+        """The same with all its nodes."""
         found = [*symbols, *self._kept]
         for op, before, parts, shape in self._steps:
             below = tuple([found[k] for k in parts])
             made = Expr(op, (*before, below) if op == "call" else before + below)
             if shape is not None:
-                own = tuple([names[self._number[n]] for n in shape.names])
-                made.shape = ExpressionShape(shape.skeleton, own, shape.kept)
+                other = dict(zip(self.names, (symbols[k].args[1] for k in self._named), strict=True))
+                made.shape = shape._replace(names=tuple([other[n] for n in shape.names]))
             found.append(made)
-        if self._steps:
-            found[-1].remember(self._others.union(symbols))
         return found[self._root]
+
+
+class _Renamed(Expr):
+    """An expression of a template with other symbols: its nodes are written when it is looked into."""
+
+    __slots__ = ("_own", "_template")
+
+    def __init__(self, template: Template, symbols: Sequence[Expr], names: tuple[str, ...]) -> None:
+        skeleton, _, kept = template.shape
+        self.op = template.op
+        self.shape = ExpressionShape(skeleton, names, kept)
+        self._symbols = frozenset(dict.fromkeys((*template.others, *symbols)))
+        self._functions = template.functions
+        self._template, self._own = template, symbols
+
+    def __getattr__(self, name: str) -> Any:
+        """``args`` and the hash that they have: asked for while there are none yet."""
+        if name not in ("args", "_hash"):
+            raise AttributeError(f"an expression has no '{name}'")
+        written = self._template.written(self._own)
+        self.args, self._hash = written.args, hash(written)
+        return getattr(self, name)

@@ -115,10 +115,6 @@ class Expr:
                 self._symbols = found
         return self._symbols
 
-    def remember(self, symbols: frozenset[Expr]) -> None:
-        """Keep every ``sym`` node that occurs, where these are known."""
-        self._symbols = symbols
-
     @property
     def functions(self) -> frozenset[str]:
         """The names of the functions that occur; ``pow`` for powers but whole ones, ``call`` for unknown functions."""

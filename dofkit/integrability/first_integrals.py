@@ -50,11 +50,13 @@ def first_integrals(forms: Codistribution, number: int, seed: int = 0) -> list[F
         if len(monomials) > MAX_PRODUCTS or len(found) >= number:
             break
         for f in search.candidates(monomials):
-            if len(found) < number and search.adds(f, [k.expr for k in found]):
+            if search.adds(f, [k.expr for k in found]):
                 bordered = bordered or BorderedMinors(search.forms, search.points[0])
                 sure = _identically(bordered, f)
                 if sure or (sure is None and search.holds(f)):
                     found.append(FirstIntegral(readable(f), bool(sure)))
+                if len(found) == number:
+                    return found
     return found
 
 

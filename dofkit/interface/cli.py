@@ -8,10 +8,13 @@ import os
 import sys
 from collections.abc import Generator
 from contextlib import closing
+from copy import copy
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
+from typer.main import get_command_name
+from typer.models import CommandInfo
 
 from dofkit.base.version import __version__
 from dofkit.interface import options
@@ -269,13 +272,25 @@ def _print(printed: Generator[Printed]) -> None:
         raise typer.Exit(UNREADABLE)
 
 
+def _app_for(words: list[str]) -> typer.Typer:
+    """The command line; where its first word names a command, with no other: to make all ready takes longer."""
+    found = copy(app)
+    found.registered_commands = [one for one in app.registered_commands if [_name_of(one)] == words]
+    found.registered_groups = [one for one in app.registered_groups if [one.name] == words]
+    return found if found.registered_commands or found.registered_groups else app
+
+
+def _name_of(command: CommandInfo) -> str | None:
+    return command.name or (command.callback and get_command_name(command.callback.__name__))
+
+
 def main() -> None:
     """Run the command line; no exit is untidy."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
     try:
-        app()
+        _app_for(sys.argv[1:2])()
     except KeyboardInterrupt:
         sys.exit(INTERRUPTED)
     except BrokenPipeError:

@@ -16,7 +16,7 @@ from dofkit.homework.key.codes import CODES
 from dofkit.interface.field_meanings import OF_CONSTRAINT, OF_REPORT
 from dofkit.interface.show.assurance import VERDICT_MEANS
 from dofkit.scene.constraints import TYPES, ConstraintBase
-from dofkit.scene.synonyms import SYNONYMS
+from dofkit.scene.synonyms import synonyms
 
 _THEOREM = re.compile(r"^\| `(?P<key>\w+)` \| (?P<author>[^|]+) \| (?P<year>[^|]+) \| (?P<says>[^|]+) \|", re.MULTILINE)
 _WIDTH = 88
@@ -100,7 +100,7 @@ def all_explanations() -> tuple[Explanation, ...]:
         *(Explanation(name, "verdict", _sentence(meaning)) for name, meaning in VERDICT_MEANS.items()),
         *(Explanation(word, "word", meaning) for word, meaning in _WORDS.items()),
         *(_type(name, cls) for name, cls in TYPES.items()),
-        *(Explanation(word, "another word", f"In a scene: `{kind}`.") for word, kind in SYNONYMS.items()),
+        *(Explanation(word, "another word", f"In a scene: `{kind}`.") for word, kind in synonyms().items()),
         *_arguments(),
         *_theorems(),
     )

@@ -20,7 +20,7 @@ from dofkit.interface.show.sheet import SheetSection
 from dofkit.interface.show.terminal import Screen
 from dofkit.interface.supervised import STDIN, Cut, Given
 from dofkit.methods.classify import with_certificate
-from dofkit.methods.stages import stages
+from dofkit.methods.stages import classified, lowered, stages
 from dofkit.motion import lagrange
 from dofkit.report import Report
 from dofkit.scene.found_files import FoundFile, find
@@ -46,6 +46,11 @@ def _used(name: str) -> Any:
 def report_lines(given: Given) -> Iterator[Json]:
     """What is printed of the report on a file; before that a sketch of it as a ``report``."""
     return answer_lines(given, _report_stages)
+
+
+def lines_after_reading(given: Given) -> Iterator[Json]:
+    """The same where nobody would be told of a sketch: before it ``None``, as soon as the file is read."""
+    return answer_lines(given, _report_after_reading)
 
 
 def motion_lines(given: Given) -> Iterator[Json]:
@@ -88,12 +93,31 @@ def _place(file: str) -> Path | None:
 
 def _report_stages(scene: Scene, given: Given) -> Iterator[Json]:
     start = time.perf_counter()
-    whole, dropped = scene, given.telling.without
-    scene = _used("without")(scene, dropped) if dropped else scene
-    reports = stages(scene, given.budget, given.method)
+    part = _part_of(scene, given)
+    reports = stages(part, given.budget, given.method)
     first = next(reports)
     yield {"report": first.model_dump(mode="json"), "title": scene.title}
-    report = next(reports, first)
+    yield _told(scene, part, next(reports, first), given, start)
+
+
+def _report_after_reading(scene: Scene, given: Given) -> Iterator[Json]:
+    start = time.perf_counter()
+    part = _part_of(scene, given)
+    system = lowered(part, given.budget)
+    yield None
+    left = given.budget - (time.perf_counter() - start)
+    report = system if isinstance(system, Report) else classified(system, left, given.method)
+    yield _told(scene, part, report, given, start)
+
+
+def _part_of(scene: Scene, given: Given) -> Scene:
+    """What is asked about: the scene, or what is left of it without some constraints."""
+    dropped = given.telling.without
+    part: Scene = _used("without")(scene, dropped) if dropped else scene
+    return part
+
+
+def _told(whole: Scene, scene: Scene, report: Report, given: Given, start: float) -> Json:
     if given.certificate is not None:
         report = _written_certificate(scene, report, given.certificate)
     changes = () if whole is scene or given.telling.as_json else _changes(whole, report, given)
@@ -102,7 +126,7 @@ def _report_stages(scene: Scene, given: Given) -> Iterator[Json]:
     text = _report_text(report, scene.title, given, more)
     seconds = time.perf_counter() - start
     counted = {**outcome_of(report), "expects": bool(scene.expect), "unmet": missed, "seconds": seconds}
-    yield streams(text, outcome=counted)
+    return streams(text, outcome=counted)
 
 
 def _changes(scene: Scene, report: Report, given: Given) -> Sequence[SheetSection]:

@@ -31,7 +31,7 @@ def stages(scene: Scene | System, seconds: float, method: MethodName = "auto") -
     Raises SceneError where the scene cannot be read as mathematics.
     """
     until = time.monotonic() + seconds
-    system = _lowered(scene, seconds)
+    system = lowered(scene, seconds)
     if isinstance(system, Report):
         yield system
         return
@@ -43,11 +43,11 @@ def stages(scene: Scene | System, seconds: float, method: MethodName = "auto") -
 def classified(scene: Scene | System, seconds: float, method: MethodName = "auto") -> Report:
     """The last of the `stages`."""
     until = time.monotonic() + seconds
-    system = _lowered(scene, seconds)
+    system = lowered(scene, seconds)
     return system if isinstance(system, Report) else _classified(system, until - time.monotonic(), method)
 
 
-def _lowered(scene: Scene | System, seconds: float) -> System | Report:
+def lowered(scene: Scene | System, seconds: float) -> System | Report:
     """The scene's mathematics; where there is no time even for that, a report that says so."""
     if isinstance(scene, System):
         return scene

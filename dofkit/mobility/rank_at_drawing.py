@@ -79,12 +79,15 @@ def _drawn_throughout(system: System) -> bool:
 
 
 def _copies(system: System) -> list[int]:
-    """Constraints with the same members and geometry as an earlier one that say the same; links have lengths too."""
+    """Constraints with the same members and geometry as an earlier one that say the same.
+
+    Links have lengths too, and couplings texts, of which the rates at the drawing are not all.
+    """
     seen: set[object] = set()
     found = []
     for c in system.connections:
-        alike = (c.facts.velocities, c.members, c.points, c.places, c.directions, c.rates)
-        if alike in seen and c.facts.placed and not c.facts.bars:
+        alike = (c.facts.velocities, c.members, c.points, c.places, c.directions)
+        if alike in seen and c.facts.placed and not c.facts.bars and not c.rates:
             found.append(c.constraint)
         seen.add(alike)
     return found

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 from dofkit.models.model_document import DECIMALS
 
+#: Why a hinge's range is not read.
+OVER = "it reaches over half a turn from the drawing, where the angle of a hinge in space is counted anew"
 _LETTERS = "pqrsuvwabcdefgh"
 
 
@@ -55,6 +58,21 @@ def bounds(total: JointSum, between: Sequence[float]) -> dict[str, Any]:
     text = JointSum(total.terms).text(letters)
     low, high = (figures(b - total.drawn) for b in between)
     return {"joints": {letter: name for name, letter in letters.items()}, "text": f"{low} <= {text} <= {high}"}
+
+
+def whole_turns(drawn: float, between: Sequence[float]) -> float | None:
+    """The whole turns to count a hinge's range from, so that it lies within half a turn of the drawing.
+
+    None where it reaches over that, so that it is none of an angle between -pi and pi; 0 where it allows every angle.
+
+    >>> round(whole_turns(0.0, [3.5, 5.0]), 6), whole_turns(0.0, [-7.0, 7.0]), whole_turns(0.0, [3.0, 4.0])
+    (6.283185, 0.0, None)
+    """
+    low, high = (b - drawn for b in between)
+    if high - low >= math.tau:
+        return 0.0 if low <= -math.pi and high >= math.pi else None
+    turns = math.tau * round((low + high) / 2 / math.tau)
+    return turns if low - turns >= -math.pi and high - turns <= math.pi else None
 
 
 def figures(value: float) -> str:

@@ -12,7 +12,7 @@ from typing import Any
 
 from dofkit.base.errors import Fault, SceneError
 from dofkit.models.compiled_by_mujoco import CompiledModel, compiled
-from dofkit.models.joint_relations import JointSum, bounds, relation
+from dofkit.models.joint_relations import OVER, JointSum, bounds, relation, whole_turns
 from dofkit.models.model_document import (
     ModelDocument,
     ModelFile,
@@ -186,7 +186,11 @@ class _MjcfScene:
                 self.draft.leave_out(f"the ranges of tendons ({listed(t['name'] or str(i) for i, t in tendons)})")
             return
         for name, joint in plain.items():
-            given = bounds(JointSum(((name, 1.0),), joint["drawn"]), joint["range"])
+            turns = whole_turns(joint["drawn"], joint["range"]) if joint["kind"] == "hinge" else 0.0
+            if turns is None:
+                self.draft.leave_out(f"the range of {name}: {OVER}")
+                continue
+            given = bounds(JointSum(((name, 1.0),), joint["drawn"] + turns), joint["range"])
             self.draft.constraint(f"{name} range", "coupling", self.line.get(("joint", joint["name"])), **given)
         balls = [name for name in ranged if name not in plain]
         if balls:

@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from dofkit.models.joint_relations import JointSum, bounds, relation
+from dofkit.base.errors import SceneError
+from dofkit.models.joint_relations import OVER, JointSum, bounds, relation, whole_turns
 from dofkit.models.model_document import (
     ModelDocument,
     ModelFile,
@@ -22,7 +23,18 @@ from dofkit.models.model_document import (
     tolerance_of,
     vector,
 )
-from dofkit.models.urdf_elements import FIXED, SCALAR, WITH_AXIS, LoopJoint, Robot, RobotJoint, Transform, read_robot
+from dofkit.models.urdf_elements import (
+    FIXED,
+    SCALAR,
+    WITH_AXIS,
+    LoopJoint,
+    Poses,
+    Robot,
+    RobotJoint,
+    Transform,
+    read_robot,
+)
+from dofkit.models.urdf_loops import drawn_joints
 from dofkit.system import GROUND
 
 #: The joint of a scene for each kind; one that is free has none.
@@ -35,23 +47,34 @@ _KINDS = {
 def read(file: ModelFile) -> ModelDocument:
     """The scene of a URDF file. Raises SceneError with all that is at fault, each in its line."""
     robot = read_robot(file)
-    return _UrdfScene(robot, SceneDraft(robot.name or file.name), file.limits).document()
+    poses = robot.poses()
+    places = [at.at for at in poses.pose.values()]
+    size = float(max((max(c) - min(c) for c in zip(*places, strict=True)), default=1.0))
+    tolerance = tolerance_of(_written(robot), size)
+    drawn, faults = drawn_joints(robot, poses, size, tolerance)
+    if faults:
+        raise SceneError(tuple(faults), file.name)
+    return _UrdfScene(robot, poses, drawn, SceneDraft(robot.name or file.name), file.limits).document(tolerance)
 
 
 @dataclass
 class _UrdfScene:
-    """The scene as it grows: ``stands`` is the scene's body of each link, ``names`` the constraint of each joint."""
+    """The scene as it grows: ``stands`` is the scene's body of each link, ``names`` the constraint of each joint.
+
+    ``drawn``: how far joints have moved in the drawing.
+    """
 
     robot: Robot
+    poses: Poses
+    drawn: Mapping[str, float]
     draft: SceneDraft
     limits: bool
     stands: dict[str, str] = field(default_factory=dict)
     names: dict[str, str] = field(default_factory=dict)
 
-    def document(self) -> ModelDocument:
+    def document(self, tolerance: float) -> ModelDocument:
         """Everything, in the order of the tree."""
-        robot = self.robot
-        poses = robot.poses()
+        robot, poses = self.robot, self.poses
         parents = {joint.parent for joint in robot.joints} | {end for loop in robot.loops for end, _ in loop.ends}
         markers = []
         for name in poses.order:
@@ -78,7 +101,7 @@ class _UrdfScene:
         self._ranges()
         self._rest()
         loops = bool(robot.loops or poses.closing)
-        return self.draft.document(self._tolerance(poses.pose), loops)
+        return self.draft.document(tolerance, loops)
 
     def _link(self, name: str, pose: Transform, joint: RobotJoint | None) -> None:
         link = self.robot.links[name]
@@ -135,9 +158,13 @@ class _UrdfScene:
             shown = [f"{j.name} from {j.range[0]:.4g} to {j.range[1]:.4g}" for j in ranged if j.range]
             self.draft.leave_out(f"the ranges of joints ({listed(shown)}): with `--limits` they are inequalities")
             return
-        drawn = self.robot.drawn()
         for joint in ranged:
-            given = bounds(JointSum(((self.names[joint.name], 1.0),), drawn.get(joint.name, 0.0)), joint.range or ())
+            stands, between = self.drawn.get(joint.name, 0.0), joint.range or ()
+            turns = 0.0 if joint.kind == "prismatic" else whole_turns(stands, between)
+            if turns is None:
+                self.draft.leave_out(f"the range of {joint.name}: {OVER}")
+                continue
+            given = bounds(JointSum(((self.names[joint.name], 1.0),), stands + turns), between)
             self.draft.constraint(f"{joint.name} range", "coupling", joint.line, **given)
 
     def _rest(self) -> None:
@@ -146,11 +173,8 @@ class _UrdfScene:
         for told in self.robot.unread:
             self.draft.leave_out(told)
 
-    def _tolerance(self, pose: Mapping[str, Transform]) -> float:
-        places = [at.at for at in pose.values()]
-        size = max((max(c) - min(c) for c in zip(*places, strict=True)), default=1.0)
-        return tolerance_of(self._written(), float(size))
 
-    def _written(self) -> Iterator[str]:
-        for element in self.robot.root.every():
-            yield from (element.attributes[key] for key in ("xyz", "rpy") if key in element.attributes)
+def _written(robot: Robot) -> Iterator[str]:
+    """All that places something, as it is written."""
+    for element in robot.root.every():
+        yield from (element.attributes[key] for key in ("xyz", "rpy") if key in element.attributes)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import islice
 from itertools import product as cartesian
+from typing import NamedTuple
 
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
@@ -15,8 +16,10 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, coordinates_of
+from dofkit.relations.normal.edges import given_by
 from dofkit.relations.normal.elimination import combinations_of
 from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Pfaffian, normalise, velocities_of
+from dofkit.relations.normal.zero_set import never_vanishes
 
 #: Ways to split the nonlinear relations that are looked at, rounds of reduction, and relations that are combined.
 MAX_WAYS, MAX_ROUNDS, MAX_COMBINED = 16, 6, 8
@@ -48,9 +51,13 @@ class RewrittenRow:
 
 @dataclass(frozen=True)
 class Way:
-    """All rows on one choice of branches, in the order in which they were written."""
+    """All rows on one choice of branches, in the order in which they were written.
+
+    ``divided``: to rewrite one, what may vanish somewhere was divided by.
+    """
 
     slots: tuple[RewrittenRow, ...]
+    divided: bool = False
 
     @property
     def rows(self) -> list[Row]:
@@ -91,7 +98,8 @@ def _step(way: Way, positive: frozenset[Expr]) -> list[Way] | None:
     rows = way.rows
     if not any(isinstance(r.piece, Nonlinear) for r in rows):
         return None
-    by_linear = {id(r): _ways(r, rows, positive) for r in rows if isinstance(r.piece, Nonlinear)}
+    told = {id(r): _ways(r, rows, positive) for r in rows if isinstance(r.piece, Nonlinear)}
+    by_linear, divided = {i: one.ways for i, one in told.items()}, any(one.divided for one in told.values())
     if all(len(found) == 1 and len(found[0]) == 1 and id(found[0][0]) in by_linear for found in by_linear.values()):
         by_linear = _combined([r for r in rows if isinstance(r.piece, Nonlinear)], positive)
         if not by_linear:
@@ -100,21 +108,39 @@ def _step(way: Way, positive: frozenset[Expr]) -> list[Way] | None:
     for slot in way.slots:
         choices = cartesian(*(by_linear.get(id(r), [(r,)]) for r in slot.rows))
         options.append([RewrittenRow(slot.written, tuple(r for part in choice for r in part)) for choice in choices])
-    return [Way(choice) for choice in islice(cartesian(*options), MAX_WAYS)]
+    return [Way(choice, way.divided or divided) for choice in islice(cartesian(*options), MAX_WAYS)]
 
 
-def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> list[tuple[Row, ...]]:
+class _Rewriting(NamedTuple):
+    """The branches of a row; was there a division by what may vanish?"""
+
+    ways: list[tuple[Row, ...]]
+    divided: bool = False
+
+
+def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewriting:
+    """A nonlinear row with coordinates put in that the finite rows give, and then velocities that linear ones do.
+
+    What was divided by may vanish where the rows hold: what is left says all only where it is linear, which is checked.
+    """
     if not isinstance(row.piece, Nonlinear):
-        return [(row,)]
-    linear = _linear_near(row, rows)
-    if not linear:
-        return [(row,)]
-    changed, divisors = eliminated(row.piece.expr, linear)
-    if changed == row.piece.expr:
-        return [(row,)]
-    found = _branches(row, changed, positive)
-    sound = [b for b in found if not any(isinstance(r.piece, Finite) and _divides(r.piece.expr, divisors) for r in b)]
-    return _generic(sound or found)
+        return _Rewriting([(row,)])
+    near = _rows_near(row, rows)
+    try:
+        given = given_by([r.piece.expr for r in near if isinstance(r.piece, Finite)])
+        there = substitute(row.piece.expr, given)
+        changed, divisors = eliminated(there, [substitute(e, given) for e in _rates_of(near)])
+    except NoValueError:
+        return _Rewriting([(row,)])
+    if changed != there:
+        found = _branches(row, changed, positive)
+        sound = [
+            b for b in found if not any(isinstance(r.piece, Finite) and _divides(r.piece.expr, divisors) for r in b)
+        ]
+        ways, divided = _generic(sound or found), not all(never_vanishes(d, positive) for d in divisors)
+        if not (divided and any(isinstance(r.piece, Nonlinear) for w in ways for r in w)):
+            return _Rewriting(ways, divided)
+    return _Rewriting([(row,)] if there == row.piece.expr else _branches(row, there, positive))
 
 
 def _generic(ways: list[tuple[Row, ...]]) -> list[tuple[Row, ...]]:
@@ -159,8 +185,8 @@ def _combined(rows: Sequence[Row], positive: frozenset[Expr]) -> dict[int, list[
     return {i: ways for i, ways in said.items() if not any(isinstance(r.piece, Nonlinear) for w in ways for r in w)}
 
 
-def _linear_near(row: Row, rows: Sequence[Row]) -> list[Expr]:
-    """Rates of the finite and linear rows that are joined to a row through coordinates."""
+def _rows_near(row: Row, rows: Sequence[Row]) -> list[Row]:
+    """The finite and linear rows that are joined to a row through coordinates."""
     names = set(coordinates_of(row.piece))
     found: list[Row] = []
     growing = True
@@ -171,8 +197,13 @@ def _linear_near(row: Row, rows: Sequence[Row]) -> list[Expr]:
         growing = bool(new)
         found += new
         names |= {n for r in new for n in coordinates_of(r.piece)}
+    return found
+
+
+def _rates_of(rows: Sequence[Row]) -> list[Expr]:
+    """What finite and linear rows say of velocities."""
     rates = []
-    for r in found:
+    for r in rows:
         if isinstance(r.piece, Finite):
             rates.append(rate(r.piece.expr))
         elif isinstance(r.piece, Pfaffian):

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import NamedTuple
 
 from dofkit.base.components import components
 from dofkit.expressions import tree as ex
+from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.joint_equations import JointEquation
@@ -16,8 +18,7 @@ from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, P
 from dofkit.relations.reductions import Reductions
 
 
-@dataclass(frozen=True)
-class Row:
+class Row(NamedTuple):
     """One scalar equation after reduction, or a condition: which constraint wrote it, and what it says."""
 
     constraint: int
@@ -52,13 +53,9 @@ def coordinates_of(piece: Piece) -> frozenset[str]:
     """Every coordinate a piece mentions, in coefficients, velocities and differentials too; of a joint all of them."""
     if isinstance(piece, JointEquation):
         return piece.joint.mentioned
-    named: frozenset[str] = frozenset()
     if isinstance(piece, Pfaffian):
-        named = frozenset(piece.coefficients)
-        symbols = frozenset().union(*(e.symbols for e in (*piece.coefficients.values(), piece.dt)))
-    else:
-        symbols = piece.expr.symbols
-    return frozenset(named | {str(s.args[1]) for s in symbols if s.args[0] in ("coordinate", "velocity")})
+        return frozenset(piece.coefficients).union(*map(coordinates_in, (*piece.coefficients.values(), piece.dt)))
+    return coordinates_in(piece.expr)
 
 
 def with_boundaries(rows: Sequence[Row]) -> list[Row]:

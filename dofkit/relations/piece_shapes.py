@@ -81,7 +81,7 @@ class NormalTemplate:
     def of(self, names: Sequence[str]) -> Normal:
         """The same in other names."""
         branches = tuple([tuple([piece.of(names) for piece in branch]) for branch in self._branches])
-        return replace(self._normal, branches=branches)
+        return self._normal._replace(branches=branches)
 
 
 class _PieceTemplate:

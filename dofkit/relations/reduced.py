@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from dofkit.relations.normal.normal_form import Inequality, Normal
 from dofkit.system import Constraint
 
 
-@dataclass(frozen=True)
-class Reduced:
+class Reduced(NamedTuple):
     """A constraint with every relation reduced; ``inequalities`` apart."""
 
     constraint: Constraint
@@ -23,4 +22,4 @@ class Reduced:
     @property
     def constants(self) -> tuple[str, ...]:
         """What stands for constants of an integration by time."""
-        return tuple(c for normal in self.normals for c in normal.constants)
+        return tuple([c for normal in self.normals for c in normal.constants])

@@ -43,12 +43,13 @@ def drawing_of(scene: Declared, vocabulary: Vocabulary, mentioned: frozenset[str
     points: list[Vec] = []
     particles: dict[str, Placed] = {}
     for index, particle in enumerate(scene.particles):
-        texts = Texts(vocabulary.texts, ("particles", index), len(vocabulary.faults) + len(faults))
-        names = vocabulary.table.particles[particle.name]
-        stands = _place(texts, particle, names, configuration)
-        faults += texts.faults
-        points += [] if stands is None else [stands]
-        particles[particle.name] = Placed(tuple(map(coordinate, names)), ONE, stands, None, particle.name)
+        names, stands = vocabulary.table.particles[particle.name], None
+        if particle.at is not None or configuration:
+            texts = Texts(vocabulary.texts, ("particles", index), len(vocabulary.faults) + len(faults))
+            stands = _place(texts, particle, names, configuration)
+            faults += texts.faults
+            points += [] if stands is None else [stands]
+        particles[particle.name] = Placed(tuple([coordinate(n) for n in names]), ONE, stands, None, particle.name)
     origin = (ZERO,) * scene.dimension
     return Drawing(
         vocabulary=vocabulary,

@@ -94,19 +94,19 @@ class ParsedTexts:
             self._patterns[pattern.key] = pattern.names, [(Template(e), sense) for e, sense in found]
         return found
 
-    def in_names(self, kind: Hashable, names: Sequence[str], make: Callable[[], Expr]) -> Expr:
-        """What ``make`` makes of some names, all different: the same for one ``kind`` but for these; made once.
+    def in_names(self, kind: Hashable, symbols: Sequence[Expr], make: Callable[[], Expr]) -> Expr:
+        """What ``make`` makes of some symbols of different names: the same for one ``kind`` but for these; made once.
 
-        What holds other names, as that of a text which could not be read, is made each time.
+        What holds others that have names, as that of a text which could not be read, is made each time.
         """
         known = self._made.get(kind)
         if known is not None:
             places, template = known
-            return template.of([names[k] for k in places])
+            return template.with_symbols([symbols[k] for k in places])
         found = make()
         template = Template(found)
-        if set(template.names) <= set(names):
-            self._made[kind] = [names.index(name) for name in template.names], template
+        if set(template.symbols) <= set(symbols):
+            self._made[kind] = [symbols.index(s) for s in template.symbols], template
         return found
 
     def expression(self, text: str) -> Expr | TextError:
@@ -190,7 +190,7 @@ class Texts(Ledger):
 
     def in_names(self, kind: Hashable, symbols: Sequence[Expr], make: Callable[[], Expr]) -> Expr:
         """What ``make`` makes of some symbols; see `ParsedTexts`."""
-        return self._reader.in_names(kind, [str(s.args[1]) for s in symbols], make)
+        return self._reader.in_names(kind, symbols, make)
 
     def equations(self, text: str, *where: str | int) -> Equations:
         """The relations of a text that may mention anything, and what says nothing is a fault; see `ParsedTexts`."""

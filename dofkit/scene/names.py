@@ -62,12 +62,12 @@ def coordinate_table(scene: Declared) -> NameTable:
         (scene.particles, PARTICLE_ROLES[scene.dimension], particles),
         (scene.bodies, BODY_ROLES[scene.dimension], bodies),
     ):
+        told = ("x", "y", "angle") if planar and len(roles) == 3 else roles
         for owner in owners:
-            given = owner.coordinates
-            names = given if given and len(given) == len(roles) else tuple(f"{r}_{owner.name}" for r in roles)
-            owned[owner.name] = names
-            told = ("x", "y", "angle") if planar and len(roles) == 3 else roles
-            coordinates += [Coordinate(name, owner.name, role) for name, role in zip(names, told, strict=True)]
+            given, name = owner.coordinates, owner.name
+            names = given if given and len(given) == len(roles) else tuple([f"{r}_{name}" for r in roles])
+            owned[name] = names
+            coordinates += [Coordinate(q, name, role) for q, role in zip(names, told, strict=True)]
     coordinates += [Coordinate(name) for name in scene.coordinates]
     return NameTable(tuple(coordinates), particles, bodies)
 
@@ -241,12 +241,22 @@ def _further(scene: Declared) -> Iterator[Entry]:
 
 
 def _check_derived(entries: list[Entry], seen: Mapping[str, str], ledger: Ledger) -> None:
-    derived: dict[str, tuple[str, str]] = {}
-    for name, what, _ in entries:
-        if "coordinate" in what:
-            derived |= {f"d{name}": (name, "differential"), f"{name}dot": (name, "velocity")}
-            derived[f"{name}ddot"] = (name, "acceleration")
+    """A fault for every name that means a rate of a coordinate; where it means those of two, that of the last."""
+    places = {name: k for k, (name, what, _) in enumerate(entries) if "coordinate" in what}
     for name, what, where in entries:
-        if name in derived and name in seen:
-            q, kind = derived[name]
+        if name[:1] != "d" and name[-3:] != "dot":
+            continue
+        meant = [(places[q], kind, q) for q, kind in _rates(name) if q in places]
+        if meant and name in seen:
+            _, kind, q = max(meant)
             ledger.fault(f"{what} is named '{name}', the {kind} of '{q}'", *where, hint="rename one of them")
+
+
+def _rates(name: str) -> Iterator[tuple[str, str]]:
+    """What a name is the differential, the velocity or the acceleration of."""
+    if name.startswith("d"):
+        yield name[1:], "differential"
+    if name.endswith("dot"):
+        yield name[:-3], "velocity"
+    if name.endswith("ddot"):
+        yield name[:-4], "acceleration"

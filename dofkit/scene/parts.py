@@ -52,9 +52,9 @@ Values = Annotated[
 
 def show_point(point: str | Vector | BodyPoint) -> str:
     """A point as a person reads it: ``A``, ``(0, 1)``, ``crank at (0, 1)``."""
-    if isinstance(point, BodyPoint):
-        return f"{point.on} at {show_vector(point.at)}"
-    return point if isinstance(point, str) else show_vector(point)
+    if isinstance(point, str):
+        return point
+    return f"{point.on} at {show_vector(point.at)}" if isinstance(point, BodyPoint) else show_vector(point)
 
 
 def show_vector(vector: Vector) -> str:

@@ -14,7 +14,7 @@ from pydantic import TypeAdapter
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.constraints.equations import Equation
 from dofkit.scene.scene import Scene
-from dofkit.scene.synonyms import SYNONYMS, other_keys
+from dofkit.scene.synonyms import other_keys, synonyms
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 _TEXT: dict[str, Any] = TypeAdapter(str).json_schema()
@@ -75,7 +75,7 @@ def _kinds(branch: Mapping[str, Any]) -> list[str]:
 def _any_constraint() -> dict[str, Any]:
     """A text, or a mapping of which its `type` says the keys."""
     words: dict[str, list[str]] = {kind: [kind] for kind in TYPES}
-    for word, kind in SYNONYMS.items():
+    for word, kind in synonyms().items():
         words[kind].append(word)
     by_type = [
         {
@@ -105,7 +105,7 @@ def _any_constraint() -> dict[str, Any]:
 def _with_other_words(schema: dict[str, Any], kind: str) -> dict[str, Any]:
     """The schema of a type with the other words for it and for its keys."""
     properties = dict(schema["properties"])
-    words = [kind, *(word for word, meant in SYNONYMS.items() if meant == kind)]
+    words = [kind, *(word for word, meant in synonyms().items() if meant == kind)]
     properties["type"] = {key: part for key, part in properties["type"].items() if key != "const"} | {"enum": words}
     if "axis" in properties:
         properties["axis"] = _with_letters(properties["axis"])

@@ -24,7 +24,7 @@ from dofkit.scene.elaboration import Elaboration, elaborations, repeat_faults
 from dofkit.scene.fields import suggestion
 from dofkit.scene.ledger import MOVING, Texts, symbols_of
 from dofkit.scene.names import Declared, Owners, Vocabulary, name_faults, vocabulary_of, within_member
-from dofkit.scene.parts import Energies, Force, texts_of
+from dofkit.scene.parts import Body, Energies, Force, texts_of
 from dofkit.scene.reference import drawn_bodies, size_of
 from dofkit.scene.world import NO_FINDINGS, Before, Findings, World, within
 from dofkit.system import GROUND, Connection, Constraint, Distance
@@ -199,7 +199,7 @@ def _mass_faults(scene: Surveyed, vocabulary: Vocabulary) -> Iterator[Fault]:
     both: tuple[tuple[str, Owners], ...] = (("particles", scene.particles), ("bodies", scene.bodies))
     for key, owners in both:
         for i, owner in enumerate(owners):
-            inertia = getattr(owner, "inertia", None)
+            inertia = owner.inertia if key == "bodies" and isinstance(owner, Body) else None
             if owner.mass is not None or inertia is not None:
                 texts = Texts(vocabulary.texts, (key, i))
                 _check_value(texts, owner.mass, "mass")

@@ -17,8 +17,6 @@ from dofkit.scene.constraints.equations import Equation
 
 Path = tuple[str | int, ...]
 
-#: Another word for a type -> the type.
-SYNONYMS: dict[str, str] = {word: kind for kind, cls in TYPES.items() for word in cls.synonyms}
 #: Keys that tell types apart: a word means a type only where these are its own.
 _TELLING = ("point", "body", "members")
 _SECTIONS = ("constraints", "joints")
@@ -103,22 +101,29 @@ def _constraint(entry: Mapping[str, Any], here: Path, dimension: int, places: di
     kind = entry.get("type")
     if kind is None and isinstance(entry.get("text"), str):
         kind = Equation.kind()
-    elif isinstance(kind, str) and kind in SYNONYMS:
-        fields = TYPES[SYNONYMS[kind]].model_fields
-        kind = kind if any(key in entry and key not in fields for key in _TELLING) else SYNONYMS[kind]
+    elif isinstance(kind, str) and kind not in TYPES and kind in synonyms():
+        meant = synonyms()[kind]
+        fields = TYPES[meant].model_fields
+        kind = kind if any(key in entry and key not in fields for key in _TELLING) else meant
     if kind != entry.get("type"):
         entry = {**entry, "type": kind}
     known = other_keys(kind) if isinstance(kind, str) else {}
     if not known.keys().isdisjoint(entry):
-        meant = {key: known[key] for key in entry if key in known and known[key] not in entry}
+        standard = {key: known[key] for key in entry if key in known and known[key] not in entry}
         origin = places.get(here, here)
-        places.update({(*here, key): (*origin, written) for written, key in meant.items()})
-        entry = {meant.get(key, key): part for key, part in entry.items()}
+        places.update({(*here, key): (*origin, written) for written, key in standard.items()})
+        entry = {standard.get(key, key): part for key, part in entry.items()}
     if isinstance(entry.get("axis"), str):
         entry = {**entry, "axis": _vector(entry["axis"], dimension)}
     if isinstance(entry.get("axes"), (list, tuple)):
         entry = {**entry, "axes": [_vector(axis, dimension) for axis in entry["axes"]]}
     return entry
+
+
+@cache
+def synonyms() -> Mapping[str, str]:
+    """Another word for a type -> the type; no word is itself a type."""
+    return {word: kind for kind, cls in TYPES.items() for word in cls.synonyms}
 
 
 @cache

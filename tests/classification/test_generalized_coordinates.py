@@ -157,3 +157,29 @@ def test_of_a_hinge_the_angle_that_turns_is_chosen(axis: list[int], theta: objec
     standing = {**dict.fromkeys(("x_B", "y_B", "z_B", "phi_B", "psi_B"), 0), "theta_B": theta}
     report = dofkit.classify({"bodies": ["B"], "configuration": standing, "constraints": [hinge]})
     assert report.generalized_coordinates == [wanted]
+
+
+def hinge(first: str, second: str, x: int, y: int) -> dict[str, Any]:
+    return {"type": "revolute", "between": [first, second], "at": [x, y, 0], "axis": [0, 0, 1]}
+
+
+#: Two cranks stretched between pivots as far apart as they are long: neither turns, though to first order both do.
+STRETCHED = [hinge("ground", "a", 0, 0), hinge("a", "b", 1, 0), hinge("b", "ground", 3, 0)]
+HUNG: dict[str, tuple[list[str], list[dict[str, Any]], int]] = {
+    "a plate": (["h"], [{"type": "planar", "between": ["b", "h"], "at": [-1, 1, 2], "axis": [1, 0, -1]}], 3),
+    "a hinge": (["h"], [hinge("b", "h", 2, 1)], 1),
+    "a four-bar": (["h", "g", "f"], [
+        hinge("b", "h", 2, 1), hinge("h", "g", 2, 2), hinge("g", "f", 5, 2), hinge("f", "ground", 5, 5)], 1),
+    "a link": (["h"], [{"type": "link", "between": [{"on": "b", "at": [2, 1, 0]}, {"on": "h", "at": [2, 2, 0]}]}], 5),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", HUNG)
+def test_what_stands_still_at_a_dead_point_is_not_chosen(name: str) -> None:
+    """The cranks are two points of a double zero, found to half the digits: that little is no motion."""
+    bodies, more, dof = HUNG[name]
+    report = dofkit.classify({"bodies": ["a", "b", *bodies], "constraints": [*STRETCHED, *more]})
+    assert report.dof == dof
+    assert report.generalized_coordinates is not None
+    assert len(report.generalized_coordinates) == dof
+    assert {q.rpartition("_")[2] for q in report.generalized_coordinates} <= {*bodies}

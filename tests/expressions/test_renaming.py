@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import pickle
 import random
 
 import pytest
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.renaming import Renaming, order_of, renamed, shape_of
+from dofkit.expressions.renaming import Renaming, Template, order_of, renamed, shape_of
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.text.patterns import pattern_of
 from dofkit.expressions.tree import Expr, coordinate, fn, parameter, velocity
@@ -55,6 +56,26 @@ def test_renaming_keeps_shapes() -> None:
     made = renamed(e, {"x": "u", "y": "v"})
     assert made == coordinate("u") * fn("sin", velocity("v") + 1)
     assert made.shape.names == ("u", "v")
+
+
+def test_a_template_tells_what_is_asked_before_it_is_looked_into() -> None:
+    """Symbols, functions, shape, and then all else as of what is written at once: as a key, in a sum, in a file."""
+    x, y, u, v, r = coordinate("x"), velocity("y"), coordinate("u"), velocity("v"), parameter("R")
+    template = Template(r * fn("sin", x) + y**2 + x)
+    made, written = template.of(("u", "v")), r * fn("sin", u) + v**2 + u
+    assert (made.op, made.symbols, made.functions) == ("add", {u, v, r}, {"sin"})
+    assert (made.shape.names, made.shape.kept) == (("u", "v"), ("R",))
+    assert shape_of(made) == shape_of(written)
+    assert {made: 1}[written] == 1
+    assert made.args == written.args
+    assert made - written == template.with_symbols([u, v]) * 0
+    assert pickle.loads(pickle.dumps(template.of(("u", "v")))) == written
+    assert template.of(("v", "u")) != written
+
+
+def test_a_template_of_one_symbol_is_that_symbol() -> None:
+    assert Template(velocity("x")).of(("u",)) == velocity("u")
+    assert Template(parameter("R")).of(()) == parameter("R")
 
 
 #: Texts that are the same up to names.

@@ -230,6 +230,21 @@ def test_redundant_equations_are_named(name: str, expected: dict[str, list[str]]
             assert expected[entry.name][-1] in entry.reason
 
 
+@pytest.mark.parametrize("texts", [[], ["phi_a = 0"]], ids=["turned from the drawing", "by Euler angles"])
+def test_the_axis_of_a_redundant_rotation_is_its_own(texts: list[str]) -> None:
+    """A hinge about z leaves the turn about z, one about x that about x: both keep the body from turning about y."""
+    hinges = [
+        {"name": name, "type": "revolute", "between": ["ground", "a"], "at": [0, 0, 0], "axis": axis}
+        for name, axis in (("upright", [0, 0, 1]), ("level", [1, 0, 0]))
+    ]
+    scene = {"bodies": ["a"], "constraints": [*hinges, *texts], "configuration": {"theta_a": "pi/2"}}
+    named = dofkit.classify(scene).constraints[1].redundant_equations
+    assert [n for n in named or [] if "rotation" in n] in (
+        ["no rotation about (0, 1, 0)"],
+        ["no rotation about (0, -1, 0)"],
+    )
+
+
 def test_texts_keep_what_they_say_in_general_position() -> None:
     """A bead on a circle, and a rod from it to a bead on a line: 2 + 2 - 3, anywhere."""
     scene = {

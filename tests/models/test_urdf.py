@@ -135,6 +135,79 @@ def test_a_link_of_two_parents_closes_a_loop() -> None:
     assert (report.dof, report.redundant) == (1, ["two"])
 
 
+def test_a_joint_that_closes_a_loop_may_stand_elsewhere_than_at_0() -> None:
+    """The rocker stands at (4, 2) turned by a right angle against the rod, and its arm reaches back to (1, 2)."""
+    turned = (*OPEN_LOOP[:6], joint("D", "continuous", "base", "rocker", "<origin xyz='4 2 0' rpy='0 0 0.5'/>" + Z))
+    arm = (-3 * math.cos(0.5), 3 * math.sin(0.5))
+    loop = f"<link1 link='rod' xyz='0 2 0'/><link2 link='rocker' xyz='{arm[0]:.12f} {arm[1]:.12f} 0'/>{Z}"
+    assert dofkit.classify(load(robot(*turned, f"<loop_joint name='C' type='continuous'>{loop}</loop_joint>"))).dof == 1
+
+
+Z = "<axis xyz='0 0 1'/>"
+#: The rod's end stands at (1, 2, 0); a crank of length 1 and a rocker pivoted at (3, 0, 0).
+RODS = (
+    link("base"), link("a"), link("b"), link("c"),
+    joint("A", "revolute", "base", "a", Z),
+    joint("B", "revolute", "a", "b", "<origin xyz='0 1 0'/>" + Z),
+)  # fmt: skip
+OPEN = "is open where every joint stands at 0"
+OPEN_ROBOTS: dict[str, tuple[str, tuple[str, ...]]] = {
+    "place": (f"the loop that 'D' closes {OPEN}", (
+        *RODS, joint("C", "revolute", "base", "c", "<origin xyz='2 0 0'/>" + Z),
+        joint("D", "revolute", "b", "c", "<origin xyz='3 0 0'/>" + Z))),
+    "axis": (f"the loop that 'D' closes {OPEN}", (
+        *RODS, joint("C", "revolute", "base", "c", "<origin xyz='3 1 0' rpy='0.5 0 0'/>" + Z),
+        joint("D", "revolute", "b", "c", "<origin xyz='3 0 0'/>" + Z))),
+    "slider": (f"the loop that 'D' closes {OPEN}", (
+        *RODS, joint("C", "revolute", "base", "c", "<origin xyz='3 1 0' rpy='0 0 0.5'/>" + Z),
+        joint("D", "prismatic", "b", "c", "<origin xyz='3 0 0'/>" + Z))),
+    "extension": (f"the loop that 'D' closes {OPEN}", (
+        *RODS, joint("C", "revolute", "base", "c", "<origin xyz='2 0 0'/>" + Z),
+        f"<loop_joint name='D' type='revolute'><link1 link='b' xyz='2 0 0'/><link2 link='c' xyz='0 7 0'/>{Z}"
+        "</loop_joint>")),
+    "mimic": ("'D' stands at 0.5 in the drawing, where what it mimics puts it at 0", (
+        *RODS, joint("C", "revolute", "base", "c", "<origin xyz='3 1 0' rpy='0 0 0.5'/>" + Z),
+        joint("D", "revolute", "b", "c", "<origin xyz='3 0 0'/><mimic joint='A'/>" + Z))),
+    "adrift": ("the link 'd' hangs on no link that no joint carries", (
+        *RODS[:3], link("d"), link("e"), joint("A", "revolute", "base", "a", Z),
+        joint("B", "fixed", "base", "b"), joint("D", "ball", "e", "d"), joint("E", "ball", "d", "e"))),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", OPEN_ROBOTS)
+def test_what_stands_nowhere_or_does_not_meet_is_a_fault(name: str) -> None:
+    """A loop that is drawn open is another mechanism than the one it would be where it is closed."""
+    message, parts = OPEN_ROBOTS[name]
+    with pytest.raises(SceneError) as raised:
+        load(robot(*parts))
+    assert any(message in str(fault) for fault in raised.value.faults)
+
+
+def test_a_range_counts_from_where_a_closing_joint_is_drawn() -> None:
+    """D is drawn at 0.5, so that from -1 to 1 is from -1.5 to 0.5 beyond that."""
+    closed = (
+        *RODS, joint("C", "revolute", "base", "c", "<origin xyz='3 1 0' rpy='0 0 0.5'/>" + Z),
+        joint("D", "revolute", "b", "c", "<origin xyz='3 0 0'/><limit lower='-1' upper='1'/>" + Z),
+    )  # fmt: skip
+    scene = load(robot(*closed), limits=True)
+    ranged = next(c for c in scene.constraints if c.kind() == "coupling")
+    assert ranged.written()["text"] == "-1.5 <= p <= 0.5"
+
+
+@pytest.mark.parametrize(("limits", "text"), [("3.5 5", "-2.78318530718 <= p <= -1.28318530718"), ("3 4", "")])
+def test_ranges_beyond_half_a_turn_are_counted_less_whole_turns(limits: str, text: str) -> None:
+    low, high = limits.split()
+    scene = load(
+        robot(
+            link("base"), link("a"), joint("j", "revolute", "base", "a", f"<limit lower='{low}' upper='{high}'/>{Z}")
+        ),
+        limits=True,
+    )
+    ranged = [c.written()["text"] for c in scene.constraints if c.kind() == "coupling"]
+    assert ranged == ([text] if text else [])
+    assert any("over half a turn" in told for told in scene.left_out) is not bool(text)
+
+
 FAULTS: dict[str, tuple[str, ...]] = {
     "line 3, column 1: there is no joint type 'revolut' (did you mean 'revolute'?)": (
         link("a") + link("b"), joint("j", "revolut", "a", "b")),

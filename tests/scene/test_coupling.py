@@ -117,3 +117,29 @@ def test_a_joint_in_general_position_tells_no_angle() -> None:
         dofkit.load(
             {"bodies": ["a"], "constraints": [loose, {"type": "coupling", "joints": ["loose"], "text": "loose = 0"}]}
         )
+
+
+SPATIAL = {"name": "A", "type": "revolute", "between": ["ground", "a"], "at": [0, 0, 0], "axis": [0, 0, 1]}
+
+
+def bounded(text: str, dimension: int = 3) -> dict[str, Any]:
+    """A hinge whose angle p is bounded."""
+    hinge = SPATIAL if dimension == 3 else {**SPATIAL, "at": [0, 0]}
+    own = {key: part for key, part in hinge.items() if dimension == 3 or key != "axis"}
+    coupling = {"type": "coupling", "joints": {"p": "A"}, "text": text}
+    return {"dimension": dimension, "bodies": ["a"], "constraints": [own, coupling]}
+
+
+@pytest.mark.parametrize("text", ["3.5 <= p <= 5", "3 <= p <= 4", "-4.1 <= p <= 2.1", "p >= 3.5"])
+def test_bounds_beyond_half_a_turn_of_a_hinge_in_space_are_a_fault(text: str) -> None:
+    """The hinge does turn there, by a bit over half a turn; an angle that is told between -pi and pi never does."""
+    with pytest.raises(SceneError, match="between -pi and pi"):
+        dofkit.load(bounded(text)) and dofkit.classify(bounded(text))
+    assert dofkit.classify(bounded(text, 2)).feasible is True
+
+
+@pytest.mark.parametrize("text", ["-3 <= p <= 3", "-7 <= p <= 7", "p <= 4", "-1 <= p"])
+def test_bounds_within_half_a_turn_or_of_every_angle_are_read(text: str) -> None:
+    report = dofkit.classify(bounded(text))
+    assert report.consistent is True
+    assert report.dof == 1

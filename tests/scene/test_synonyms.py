@@ -13,7 +13,7 @@ import dofkit
 from dofkit.base.errors import Fault, SceneError
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.hints import LINES
-from dofkit.scene.synonyms import standard_words
+from dofkit.scene.synonyms import standard_words, synonyms
 
 PLANE = {"name": "s", "dimension": 2}
 SPACE = {"name": "s", "bodies": ["a", "b"]}
@@ -188,6 +188,11 @@ def test_a_hint_shows_one_line_that_would_work(name: str) -> None:
     )
     hints = [fault.hint or "" for fault in faults(text)]
     assert any(line in hint for hint in hints), hints
+
+
+def test_no_other_word_for_a_type_is_a_type() -> None:
+    assert synonyms()["hinge"] == "revolute"
+    assert not synonyms().keys() & TYPES.keys()
 
 
 @pytest.mark.parametrize("kind", TYPES)

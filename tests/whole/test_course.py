@@ -7,10 +7,11 @@ from pathlib import Path
 import course
 import pytest
 
-STUDENTS = 12
+STUDENTS = 8
 
 
 @pytest.mark.sweep
+@pytest.mark.timeout(1500)
 def test_a_course_runs_from_the_sheets_to_the_gradebooks(tmp_path: Path) -> None:
     counted = dict(course.run(tmp_path, STUDENTS))
     assert list(counted) == list(course.SHEETS)

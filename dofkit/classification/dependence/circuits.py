@@ -128,6 +128,7 @@ class _Basis:
     """The first independent rows, finite ones before differential ones, and the others in terms of them."""
 
     def __init__(self, rows: OwnedRows) -> None:
+        self._rows = rows
         self.owners = rows.owners
         known = self._by_elimination(rows) if rows.supports is None else self._known(rows, rows.supports)
         self.pivots, self.supports = known
@@ -157,10 +158,23 @@ class _Basis:
                 self.uncounted |= {self.owners[i], *later} if later else set()
 
     def implies(self, kept: set[int], owner: int) -> bool:
-        """Do the rows of some constraints that others depend on imply those of another one?"""
-        others = [i for i in self.pivots if self.owners[i] in kept]
+        """Do the rows of some constraints imply those of another one that depend on others?"""
         told = self.implication
-        return told is None or all(told.follows(i, others) for i in self.supports if self.owners[i] == owner)
+        if told is None:
+            return True
+        others = self._first_rows(kept)
+        return all(told.follows(i, others) for i in self.supports if self.owners[i] == owner)
+
+    def _first_rows(self, kept: set[int]) -> list[int]:
+        """The first independent rows of some constraints: also such as are no pivots beside those of others."""
+        if self._rows.supports is not None:
+            return [i for i in self.pivots if self.owners[i] in kept]
+        numbers = [i for i in _by_kind(self._rows) if self.owners[i] in kept]
+        return [numbers[k] for k in echelon([self._rows.matrix[i] for i in numbers], self._rows.p).independent]
+
+    def whole(self, owners: set[int]) -> bool:
+        """Are all rows of these constraints pivots?"""
+        return not any(self.owners[i] in owners for i in self.supports)
 
     @staticmethod
     def _known(rows: OwnedRows, tell: Supports) -> tuple[list[int], dict[int, list[int]]]:
@@ -169,10 +183,15 @@ class _Basis:
 
     @staticmethod
     def _by_elimination(rows: OwnedRows) -> tuple[list[int], dict[int, list[int]]]:
-        numbers = sorted(range(len(rows.matrix)), key=lambda i: (not rows.finite[i], rows.owners[i], i))
+        numbers = _by_kind(rows)
         found = echelon([rows.matrix[i] for i in numbers], rows.p, supports=True)
         pivots = [numbers[k] for k in found.independent]
         return pivots, {numbers[k]: [numbers[j] for j in support] for k, support in found.supports.items()}
+
+
+def _by_kind(rows: OwnedRows) -> list[int]:
+    """The rows by their numbers, finite ones before differential ones, and as written."""
+    return sorted(range(len(rows.matrix)), key=lambda i: (not rows.finite[i], rows.owners[i], i))
 
 
 def _order(parts: Sequence[OwnedRows]) -> list[int]:
@@ -291,7 +310,7 @@ def _circuit(
     """A minimal set of other constraints on which a redundant one depends, of those before it where that can be."""
     if not any(owner in b.pivot_owners for b in bases):
         supports = set().union(*(b.circuits.get(owner, set()) for b in bases)) - {owner}
-        if len(supports) < 2 or len(supports) > SEARCHED or single:
+        if len(supports) < 2 or len(supports) > SEARCHED or (single and all(b.whole(supports) for b in bases)):
             return sorted(supports)
         kept = [o for o in order if o in supports]
     else:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
 from dofkit.base.components import components
-from dofkit.base.deadline import unless_late
+from dofkit.base.deadline import OutOfTimeError, unless_late
 from dofkit.classification.dependence.by_implication import MAX_CHOICES, implied
 from dofkit.classification.dependence.by_leaving_out import by_leaving_out, owners_of
 from dofkit.classification.dependence.by_rank import analysed, at_a_point, holds_where, joined_parts, without_hidden
@@ -44,8 +44,16 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
     apart = outcome.bridged
     found += [_independent(apart)] if apart else []
     for numbers in _parts(reduced, outcome, apart):
-        found += unless_late(partial(_of_part, reduced, setting, blocks, numbers), [left_open(numbers)])
+        found += _or_open(partial(_of_part, reduced, setting, blocks, numbers), numbers)
     return found
+
+
+def _or_open(work: Callable[[], list[Redundancies]], numbers: Sequence[int]) -> list[Redundancies]:
+    """What is found of some constraints; where there is no time for it they are left open."""
+    try:
+        return work()
+    except OutOfTimeError:
+        return [left_open(numbers)]
 
 
 def all_needed(found: Sequence[Redundancies], reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
@@ -83,11 +91,13 @@ def _of_part(
 ) -> list[Redundancies]:
     """Of constraints that share coordinates: those that take freedom away, then those that hold on whole regions."""
     regions = [i for i in numbers if is_region(reduced[i])]
+    if not regions:
+        return _of_relations(reduced, setting, blocks, numbers)
     others = [i for i in numbers if i not in regions]
     found = _of_relations(reduced, setting, blocks, others) if others else []
     gone = {i for r in found for i in r.redundant}
     kept = [i for i in others if i not in gone]
-    return [*found, *unless_late(partial(of_regions, reduced, setting, regions, kept), [left_open(regions)])]
+    return [*found, *_or_open(partial(of_regions, reduced, setting, regions, kept), regions)]
 
 
 def _of_relations(

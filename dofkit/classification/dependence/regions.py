@@ -30,8 +30,16 @@ POINTS = 2
 
 def is_region(r: Reduced) -> bool:
     """Do all equations of a constraint say only where they hold?"""
-    branches = [b for n in r.normals for b in n.branches]
-    return bool(branches) and all(b and all(isinstance(p, DomainCondition) for p in b) for b in branches)
+    branches = 0
+    for n in r.normals:
+        for b in n.branches:
+            branches += 1
+            if not b:
+                return False
+            for p in b:
+                if not isinstance(p, DomainCondition):
+                    return False
+    return branches > 0
 
 
 def of_regions(

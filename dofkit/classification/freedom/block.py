@@ -218,9 +218,10 @@ def alone(
     rows: Sequence[Row], setting: Setting, coordinates: Sequence[str], answered: Callable[[Block], Answer]
 ) -> Answer:
     """A constraint's own rows with the others forgotten; ``answered`` answers a part at no drawing."""
-    blocks, _ = split(coordinates, rows)
+    blocks, untouched = split(coordinates, rows)
     answers = [confirmed(b, answered(b), setting, len(rows) == 1) for b in blocks]
-    merged = Answer()
+    merged = Answer(dof=_total(untouched, [a.dof for a in answers]))
+    merged.velocity_dof = _total(untouched, [a.velocity_dof for a in answers])
     for a in answers:
         merged.verdict = weakest(merged.verdict, a.verdict)
         merged.curved = merged.curved or a.curved
@@ -228,3 +229,8 @@ def alone(
         if a.consistent is not True:
             merged.consistent = a.consistent
     return merged
+
+
+def _total(untouched: Sequence[str], numbers: Sequence[int | None]) -> int | None:
+    known = [n for n in numbers if n is not None]
+    return len(untouched) + sum(known) if len(known) == len(numbers) else None

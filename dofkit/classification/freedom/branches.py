@@ -17,13 +17,13 @@ from dofkit.classification.freedom.through_reference import crossing_at, through
 from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.modulo_others import with_reductions_checked
+from dofkit.integrability.modulo_others import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.relations.answer import Answer, AnsweredPart
 from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.relations.blocks import Block, Row, blocks_of, split, with_boundaries
 from dofkit.relations.integration_constants import names_in, with_rows
 from dofkit.relations.joint_equations import JointEquation
-from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Pfaffian, Still
+from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Pfaffian, Piece, Still
 from dofkit.relations.normal.one_sided import holds_somewhere
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -40,7 +40,8 @@ class Outcome:
 
     ``reduced``: what was written nonlinear in the velocities and is not so beside the other rows; ``impossible``:
     constraints that hold nowhere, ``unsettled``: inequalities of which that is not known. ``crossing``: a relation has
-    several branches at the reference, or none there; then ``first_order`` is what its gradient allows.
+    several branches at the reference, or none there; then ``first_order`` is what its gradient allows. ``divided``: to
+    reduce a relation, what may vanish was divided by.
     """
 
     rows: list[Row]
@@ -54,6 +55,7 @@ class Outcome:
     copies: dict[int, int] = field(default_factory=dict)
     reduced: tuple[RewrittenRow, ...] = ()
     unsettled: list[int] = field(default_factory=list)
+    divided: bool = False
 
     @property
     def consistent(self) -> bool | None:
@@ -137,7 +139,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
         for way in ways:
             names = [*(c.name for c in system.coordinates), *names_in(way.rows, constants)]
             outcome = _answered(names, way.rows, impossible, setting, known)
-            outcome.reduced = way.reduced
+            outcome.reduced, outcome.divided = way.reduced, way.divided
             outcomes.append(outcome)
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], [c.name for c in system.coordinates])
     if len(outcomes) == 1:
@@ -172,6 +174,8 @@ def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> 
         best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
     elif best.consistent is not False:
         best.answers = with_reductions_checked(best.reduced, best.blocks, best.answers, setting)
+    elif not best.impossible and any(o.divided for o in outcomes):
+        best.answers = [Answer(None, verdict="undecided", reasons=[NOT_EQUIVALENT]) for _ in best.answers]
     return best
 
 
@@ -217,20 +221,38 @@ def _first_order(
 
 
 def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
-    """Constraints all of whose relations an earlier one wrote already, up to a number: copy -> original."""
-    seen: dict[Hashable, int] = {}
-    found = {}
+    """Constraints all of whose relations an earlier one wrote already, up to a number: copy -> original.
+
+    Only those are compared that mention the same symbols.
+    """
+    alike: dict[Hashable, list[int]] = {}
     for i, r in enumerate(reduced):
         check()
-        if not r.normals or r.inequalities or any(_says_nothing(normal) for normal in r.normals):
-            continue
-        keys = [_up_to_a_number(normal) for normal in r.normals]
+        if r.normals and not r.inequalities and not any(_says_nothing(normal) for normal in r.normals):
+            alike.setdefault(_mentioned(r.normals), []).append(i)
+    seen: dict[Hashable, int] = {}
+    found = {}
+    for i in sorted(i for numbers in alike.values() if len(numbers) > 1 for i in numbers):
+        keys = [_up_to_a_number(normal) for normal in reduced[i].normals]
         key: Hashable = keys[0] if len(keys) == 1 else frozenset(Counter(keys).items())
         if key in seen:
             found[i] = seen[key]
         else:
             seen[key] = i
     return found
+
+
+def _mentioned(normals: Sequence[Normal]) -> Hashable:
+    """The same for relations that are each other's up to a number: what their first pieces mention, in any order."""
+    first = [_symbols_of(normal.branches[0]) for normal in normals]
+    return first[0] if len(first) == 1 else frozenset(first)
+
+
+def _symbols_of(branch: Sequence[Piece]) -> Hashable:
+    piece = branch[0] if branch else None
+    if isinstance(piece, Pfaffian):
+        return frozenset(piece.coefficients)
+    return piece if piece is None else piece.expr.symbols
 
 
 def _says_nothing(normal: Normal) -> bool:
@@ -248,7 +270,8 @@ def _scaled(piece: object) -> Hashable:
     if isinstance(piece, Finite):
         first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
         number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
-        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if number.op == "num" else piece.expr
+        numeric = number.op == "num" and not number.is_zero
+        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if numeric else piece.expr
     if isinstance(piece, Pfaffian):
         return type(piece), tuple(piece.coefficients.items()), piece.dt
     return piece

@@ -9,7 +9,7 @@ from dofkit.base.deadline import check
 from dofkit.base.errors import Fault, SceneError, TextError
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.renaming import shape_of
+from dofkit.expressions.renaming import kinds_in, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.unwritten import Unwritten
 from dofkit.integrability.accelerations import without_accelerations
@@ -146,9 +146,9 @@ class _Normals:
 
     def normal(self, e: Expr, written: bool) -> Normal:
         """What ``e = 0`` says. Raises TextError where it can be no relation."""
-        kinds = {s.args[0] for s in e.symbols}
+        kinds = kinds_in(e)
         if not written and kinds.isdisjoint(RATES):
-            return Normal(((Finite(e),),))
+            return Normal(((),) if e.is_zero else ((Finite(e),),))
         if "acceleration" in kinds:
             return without_accelerations(e, self._positive, self._fresh)
         if not written:

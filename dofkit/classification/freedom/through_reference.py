@@ -19,7 +19,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.joint_equations import JointEquation
-from dofkit.relations.normal.domain import DomainCondition, holds_at
+from dofkit.relations.normal.domain import DomainCondition, has_value, holds_at
 from dofkit.relations.normal.normal_form import Finite, Normal, Piece, normalise, velocities_of
 from dofkit.relations.normal.signs import arguments_of, by_signs
 from dofkit.relations.normal.zero_set import zero_set
@@ -35,7 +35,7 @@ def through_reference(normal: Normal, setting: Setting) -> Normal:
     if len(normal.branches) < 2:
         return normal
     kept = tuple(b for b in normal.branches if _holds(b, setting))
-    return replace(normal, branches=kept) if kept else normal
+    return normal._replace(branches=kept) if kept else normal
 
 
 def crossing_at(normal: Normal, written: Expr, setting: Setting) -> tuple[tuple[Piece, ...], ...] | None:
@@ -72,7 +72,7 @@ def _at_kinks(normal: Normal, known: Mapping[Expr, Expr], positive: frozenset[Ex
             kinked = kinked or bool(folded)
             options.append(_by_signs(p.expr, folded, positive) if folded and isinstance(p, Finite) else [(p,)])
         branches += [tuple(q for part in choice for q in part) for choice in cartesian(*options)]
-    return replace(normal, branches=tuple(branches), kinked=True) if kinked else normal
+    return normal._replace(branches=tuple(branches), kinked=True) if kinked else normal
 
 
 def _folded(e: Expr, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> list[Expr]:
@@ -103,7 +103,15 @@ def _holds(branch: Sequence[Piece], setting: Setting) -> bool:
     if point is None or not on_variety(chart, point):
         return False
     conditions = still_conditions([p for p in branch if isinstance(p, DomainCondition)])
-    return all(holds_at(c, known, setting.positive) is not False for c in conditions)
+    ends = any(c.adjoining and not holds_at(replace(c, adjoining=False), known, setting.positive) for c in conditions)
+    return all(_may_hold(c, known, ends, setting.positive) for c in conditions)
+
+
+def _may_hold(c: DomainCondition, known: Mapping[Expr, Expr], ends: bool, positive: frozenset[Expr]) -> bool:
+    """Is a condition not broken at a configuration? Where the branch ``ends`` there, one without a value is not."""
+    if holds_at(c, known, positive) is not False:
+        return True
+    return ends and not has_value(c, known, positive)
 
 
 def _block(pieces: Sequence[Finite]) -> Block:

@@ -12,9 +12,8 @@ from dofkit.base.verdicts import OPEN as UNDECIDED
 from dofkit.base.verdicts import Claim, Verdict, weakest
 from dofkit.base.wording import verb
 from dofkit.classification.dependence.circuits import Redundancies
-from dofkit.classification.freedom.block import alone
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.parts import AnsweredParts
+from dofkit.classification.labels.by_itself import by_itself
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import in_words
@@ -22,16 +21,14 @@ from dofkit.classification.labels.one_sided import kept_in_system, with_a_side, 
 from dofkit.classification.labels.reasons import Others
 from dofkit.classification.labels.shared_entries import SharedEntries
 from dofkit.integrability.modulo_others import label_modulo_others
-from dofkit.relations.answer import GAP, Answer
-from dofkit.relations.blocks import Row, coordinates_of
+from dofkit.relations.answer import GAP
+from dofkit.relations.blocks import Row
 from dofkit.relations.integration_constants import fixed_constants
-from dofkit.relations.normal.normal_form import Inequality, Nonlinear, Pfaffian, Still
+from dofkit.relations.normal.normal_form import Nonlinear
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict
 
-#: Up to this many coordinates, those of one constraint are listed in the scene's order.
-LISTED = 2000
 #: What is said of dependence that is open, or not on what was written before.
 OPEN = "Whether it follows from the others was not decided."
 UNCOUNTED = "How many of its equations are independent of those before was not decided."
@@ -65,7 +62,7 @@ def entries_of(
             made = shared.known(kind, r)
             if made is None:
                 beside = partial(_with_others, i, told[i], company, names)
-                alone = _by_itself(i, r, told[i], company.parts)
+                alone = by_itself(i, r, told[i], company.parts)
                 evidence = Evidence(told[i], alone, number, circuit, constants, shared.traits, beside, copied)
                 made = entry(r, evidence, setting, consistent)
                 made = with_sides(made, i, outcome, setting) if i in sided else made
@@ -176,17 +173,6 @@ def _unmeasured(outcome: Outcome) -> set[int]:
     return {r.constraint for block, a in outcome.parts if a.velocity_dof is None for r in block.rows}
 
 
-def _by_itself(i: int, r: Reduced, told: Sequence[LabelledRow], parts: AnsweredParts) -> Answer | None:
-    """What a constraint that is not finite says without the others."""
-    written = [Row(i, p) for normal in r.normals for p in normal.pieces if not isinstance(p, Inequality)]
-    if any(isinstance(row.piece, Nonlinear) for row in written):
-        still = [t.row for t in told if isinstance(t.row.piece, Still)]
-        return _curved(told) or _alone_in_time([*written, *still], parts)
-    if any(isinstance(t.row.piece, Pfaffian) for t in told):
-        return _inherited(told) or _alone_in_time([t.row for t in told], parts)
-    return None
-
-
 def _with_others(
     i: int, told: Sequence[LabelledRow], company: Companionship, names: Sequence[str], in_system: bool
 ) -> Others:
@@ -221,27 +207,3 @@ def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list
     for i, original in outcome.copies.items():
         told[i] = [LabelledRow(Row(i, t.row.piece), t.label, t.answer, t.block, t.reduced) for t in told[original]]
     return told
-
-
-def _curved(told: Sequence[LabelledRow]) -> Answer | None:
-    """Velocities that bend under the other constraints bend without them."""
-    return next((t.answer for t in told if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
-
-
-def _alone_in_time(own: Sequence[Row], parts: AnsweredParts) -> Answer:
-    mentioned = {name for row in own for name in coordinates_of(row.piece)}
-    roles = parts.setting.roles
-    coordinates = [c.name for c in roles if c.name in mentioned] if len(roles) < LISTED else []
-    coordinates += sorted(mentioned - set(coordinates))
-    try:
-        check()
-        return alone(own, parts.setting, coordinates, parts.of)
-    except (OutOfTimeError, ArithmeticError):
-        return Answer(None, verdict="undecided")
-
-
-def _inherited(told: Sequence[LabelledRow]) -> Answer | None:
-    """A single form that is non-holonomic in the system is so alone: what integrates alone integrates in any system."""
-    if len(told) != 1 or told[0].label is None or told[0].label.holonomic is not False:
-        return None
-    return Answer(labels={0: told[0].label})

@@ -31,8 +31,7 @@ from dofkit.relations.setting import Setting
 from dofkit.report import FORMS, ConstraintEntry, FieldVerdict, Form
 
 
-@dataclass(frozen=True)
-class LabelledRow:
+class LabelledRow(NamedTuple):
     """A row, its label in the system (None: finite or nonlinear), and its block's answer.
 
     ``reduced``: a nonlinear row that the others make linear, or imply.
@@ -120,7 +119,9 @@ def _integrable_forms(normals: Sequence[Normal], rows: Sequence[LabelledRow]) ->
     chosen: list[Pfaffian] = []
     for n in normals:
         kinds = [(len(_forms([b])), any(isinstance(p, Finite) for p in b)) for b in n.branches]
-        own = {kind for kind, b in zip(kinds, n.branches, strict=True) if any(f in used for f in _forms([b]))}
+        named = list(zip(kinds, n.branches, strict=True))
+        same = {kind for kind, b in named if any(f is u for f in _forms([b]) for u in used)}
+        own = same or {kind for kind, b in named if any(f in used for f in _forms([b]))}
         wide = own or {kind for kind in kinds if not kind[1]} or set(kinds)
         chosen += _forms([b for kind, b in zip(kinds, n.branches, strict=True) if kind in wide])
     return [f for k, f in enumerate(chosen) if f not in chosen[:k]]

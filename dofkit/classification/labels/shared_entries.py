@@ -27,6 +27,7 @@ class SharedEntries:
         self._setting, self._parts = setting, parts
         self._traits: dict[Hashable, Traits] = {}
         self._entries: dict[Hashable, ConstraintEntry] = {}
+        self._sure: dict[int, tuple[Answer, Hashable]] = {}
 
     def traits(self, piece: Piece) -> Traits:
         """The labels that a piece carries by itself."""
@@ -51,18 +52,25 @@ class SharedEntries:
         if [id(p) for p in every] != [id(t.row.piece) for t in told]:
             every += [t.row.piece for t in told]
         kinds = {type(p) for p in every}
-        if r.constants or Nonlinear in kinds or any(t.reduced or (t.label and t.label.modulo) for t in told):
+        if Nonlinear in kinds or r.constants or [t for t in told if t.reduced or (t.label and t.label.modulo)]:
             return None
         return (
             r.constraint.type,
-            tuple([len(n.branches) for n in r.normals]),
-            tuple([len(b) for n in r.normals for b in n.branches]),
+            tuple([tuple(map(len, n.branches)) for n in r.normals]),
             len(every),
             shape_together(every) if any(issubclass(kind, Pfaffian) for kind in kinds) else self._plain_kinds(every),
             self._plain_kinds(r.inequalities),
-            tuple([(t.label, _sureness(t.answer)) for t in told]),
+            tuple([(t.label, self._sureness(t.answer)) for t in told]),
             beside,
         )
+
+    def _sureness(self, a: Answer) -> Hashable:
+        """What an entry tells of its blocks' answers; kept with the answer itself, so that no other is taken for it."""
+        known = self._sure.get(id(a))
+        if known is None:
+            told = a.verdict, a.argument, a.bits, a.gap, a.about, a.curved, a.late, a.consistent
+            known = self._sure[id(a)] = a, told
+        return known[1]
 
     def _plain_kinds(self, pieces: Iterable[Piece]) -> Hashable:
         return tuple([(type(p).__name__, None if _is_still(p) else self.traits(p)) for p in pieces])
@@ -86,8 +94,3 @@ class SharedEntries:
 def _is_still(piece: Piece) -> bool:
     """Is it a finite relation without time? All that it carries by itself is known then."""
     return isinstance(piece, JointEquation) or (isinstance(piece, Finite) and TIME not in piece.expr.symbols)
-
-
-def _sureness(a: Answer) -> Hashable:
-    """What an entry tells of its blocks' answers."""
-    return a.verdict, a.argument, a.bits, a.gap, a.about, a.curved, a.late, a.consistent

@@ -111,7 +111,7 @@ def at_values(system: System, values: Values) -> System:
         return substitute(e, values)
 
     constraints = tuple(
-        replace(c, relations=tuple(replace(r, expr=put(r.expr)) for r in c.relations)) for c in system.constraints
+        c._replace(relations=tuple(r._replace(expr=put(r.expr)) for r in c.relations)) for c in system.constraints
     )
     gone = {str(s.args[1]) for s in values}
     return replace(

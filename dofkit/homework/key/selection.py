@@ -42,7 +42,7 @@ def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None
         whole = with_equations(whole, read_equations(basis, vocabulary_of(scene).names, constants=True), "integral")
     system = _at_one_time(lower(whole))
     reduced, setting = prepared(system)
-    finite = [replace(r, normals=_finite(r.normals)) if r.constraint.name in given else r for r in reduced]
+    finite = [r._replace(normals=_finite(r.normals)) if r.constraint.name in given else r for r in reduced]
     found = solve(system, finite, setting)
     return None if found.dof is None else found.dof == 0
 
@@ -51,7 +51,7 @@ def _at_one_time(system: System) -> System:
     """The system with its time as a constant."""
     still = {ex.TIME: ex.parameter("this time"), ex.DT: ZERO}
     constraints = tuple(
-        replace(c, relations=tuple(replace(r, expr=substitute(r.expr, still)) for r in c.relations))
+        c._replace(relations=tuple(r._replace(expr=substitute(r.expr, still)) for r in c.relations))
         for c in system.constraints
     )
     return replace(system, constraints=constraints)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations_with_replacement
 from math import isqrt
 from typing import Any
 
-from flint import nmod_mat
+from flint import nmod, nmod_mat
 
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError
@@ -34,6 +34,8 @@ CHECKS = 4
 SPARE, CURVES, CURVE_SEED = 6, 4, 30_000
 
 Monomial = tuple[int, ...]
+#: The number of the step that made a product (below 0: none), and the function that it is multiplied by.
+Step = tuple[int, int]
 
 
 class IntegralSearch:
@@ -50,7 +52,10 @@ class IntegralSearch:
         self.constant = {i for i in self.functions if not _moves(self.ring.var_expr[i])}
         self.solver = TriangularSolver(self.ring, list(chart.nodes), seed=seed) if chart.nodes else None
         self.points: list[FormSample] = []
+        self._rates: dict[int, ProductRates] = {}
         self._drawn = 0
+        self._places: dict[Monomial, int] = {}
+        self._steps: list[Step] = []
 
     def monomials(self, degree: int) -> list[Monomial]:
         """Products of up to ``degree`` functions that move, simple ones first; sines occur once (sin^2 = 1 - cos^2)."""
@@ -71,21 +76,33 @@ class IntegralSearch:
         if first is None or equations is None:
             return
         null, nullity = equations.nullspace()
-        turned = nmod_mat([[int(null[r, c]) for r in range(len(monomials))] for c in range(nullity)] or [[0]], first.p)
-        for weights in _simplest_first(turned, nullity, len(monomials), first.p):
-            coefficients = [_rational(w, first.p) for w in weights]
-            if all(c is not None for c in coefficients):
-                yield self._written(monomials, [c for c in coefficients if c is not None])
+        for weights in _simplest_first(null, nullity, len(monomials), first.p):
+            written = self._written(monomials, weights, first.p)
+            if written is not None:
+                yield written
 
     def _at_points(self, monomials: Sequence[Monomial]) -> nmod_mat | None:
         """The slopes of the products at points, each a column; None where there are not enough points."""
-        equations: list[list[int]] = []
+        equations: list[list[Any]] = []
+        places = [self._place(m) for m in monomials]
         while len(equations) < len(monomials) + SPARE:
             sample = self._sample(len(equations))
             if sample is None:
                 return None
-            equations += sample.slopes(monomials)
-        return nmod_mat(equations, self.points[0].p)
+            rates = self._rates.get(id(sample))
+            if rates is None:
+                rates = self._rates[id(sample)] = ProductRates(sample)
+            equations += [[along[k] for k in places] for along in rates.of(self._steps)]
+        return nmod_mat(len(equations), len(places), [e for row in equations for e in row], self.points[0].p)
+
+    def _place(self, m: Monomial) -> int:
+        """The number of the step that makes a product out of a shorter one, which is made before."""
+        found = self._places.get(m)
+        if found is None:
+            before = self._place(m[:-1]) if m[:-1] else -1
+            found = self._places[m] = len(self._steps)
+            self._steps.append((before, m[-1]))
+        return found
 
     def _along_curve(self, monomials: Sequence[Monomial], first: FormSample) -> nmod_mat | None:
         """The same as series along one random curve; None where finite relations hold, on which no curve is drawn."""
@@ -96,7 +113,8 @@ class IntegralSearch:
             base = field_point([self.ring], CURVE_SEED + 3 * (self.seed + attempt))
             sample = _sample_at(self.forms, RandomCurve(base, order)) if base.p == first.p else None
             if sample is not None and len(sample.basis) == len(first.basis):
-                return sample.series_of_slopes(monomials, order)
+                places = [self._place(m) for m in monomials]
+                return _coefficients(ProductRates(sample).of(self._steps), places, order, sample.p)
         return None
 
     def sample(self) -> FormSample | None:
@@ -140,12 +158,15 @@ class IntegralSearch:
     def _point(self, seed: int) -> FieldPoint | None:
         return free_point(self.forms.chart, seed) if self.solver is None else self.solver.draw(seed)
 
-    def _written(self, monomials: Sequence[Monomial], coefficients: Sequence[Fraction]) -> Expr:
-        terms = [
-            ex.mul(ex.num(c), *(self.ring.var_expr[i] for i in m))
-            for m, c in zip(monomials, coefficients, strict=True)
-            if c
-        ]
+    def _written(self, monomials: Sequence[Monomial], weights: Sequence[Any], p: int) -> Expr | None:
+        """The combination with the small fractions that the weights are modulo p; None where one is none."""
+        terms = []
+        for m, weight in zip(monomials, weights, strict=True):
+            if weight:
+                c = _rational(int(weight), p)
+                if c is None:
+                    return None
+                terms.append(ex.mul(ex.num(c), *(self.ring.var_expr[i] for i in m)))
         return ex.add(*terms)
 
     def holds(self, f: Expr) -> bool:
@@ -175,46 +196,6 @@ class FormSample:
     basis: list[list[Any]]
     matrix: list[list[Any]]
 
-    def slopes(self, monomials: Sequence[Monomial]) -> list[list[int]]:
-        """d/ds of every product along every basis vector of D."""
-        return [[int(rate) for rate in rates] for rates in self._slopes(monomials)]
-
-    def series_of_slopes(self, monomials: Sequence[Monomial], order: int) -> nmod_mat:
-        """The same along a curve: of every coefficient of the series a row, of every product a column."""
-        columns: list[list[Any]] = [[] for _ in monomials]
-        for rates in self._slopes(monomials):
-            for column, rate in zip(columns, rates, strict=True):
-                found = rate.poly.coeffs()
-                column += found + [0] * (order - len(found))
-        return nmod_mat(columns, self.p).transpose()
-
-    def _slopes(self, monomials: Sequence[Monomial]) -> Iterator[list[Any]]:
-        """Of each basis vector the rates of all products: (f g)' = f' g + f g'."""
-        zero, known = self.one * 0, dict[Monomial, Any]()
-        for v in self.basis:
-            own = {i: sum((a * v[c] for c, a in g.items()), zero) for i, g in self.gradients.items()}
-            rates: dict[Monomial, Any] = {}
-            for m in monomials:
-                self._rate(m, own, rates, known)
-            yield [rates[m] for m in monomials]
-
-    def _rate(self, m: Monomial, own: Mapping[int, Any], rates: dict[Monomial, Any], known: dict[Monomial, Any]) -> Any:
-        """The rate of one product; those of its first factors are kept in ``rates``."""
-        found = rates.get(m)
-        if found is None:
-            first, last = m[:-1], m[-1]
-            found = own[last]
-            if first:
-                found = self._rate(first, own, rates, known) * self.at[last] + self._product(first, known) * found
-            rates[m] = found
-        return found
-
-    def _product(self, m: Monomial, known: dict[Monomial, Any]) -> Any:
-        """The value of a product."""
-        if m not in known:
-            known[m] = self.at[m[0]] if len(m) == 1 else self._product(m[:-1], known) * self.at[m[-1]]
-        return known[m]
-
     def across(self, row: int) -> list[Any] | None:
         """A velocity that only ``row`` forbids; None where the row depends on the others."""
         others = [r for i, r in enumerate(self.matrix) if i != row]
@@ -225,6 +206,40 @@ class FormSample:
             if sum((a * b for a, b in zip(self.matrix[row], v, strict=True)), self.one * 0) != 0:
                 return v
         return None
+
+
+class ProductRates:
+    """The values of products at a point, or along a curve, and their rates along every vector of a basis of D."""
+
+    def __init__(self, sample: FormSample) -> None:
+        zero = sample.one * 0
+        self._at = sample.at
+        self._own = [
+            {i: sum((a * v[c] for c, a in g.items()), zero) for i, g in sample.gradients.items()} for v in sample.basis
+        ]
+        self._values: list[Any] = []
+        self._rates: list[list[Any]] = [[] for _ in sample.basis]
+
+    def of(self, steps: Sequence[Step]) -> list[list[Any]]:
+        """Of each vector the rate of what each step makes: (f g)' = f' g + f g'; what is known is not made again."""
+        at, values, new = self._at, self._values, steps[len(self._values) :]
+        for before, last in new:
+            values.append(at[last] if before < 0 else values[before] * at[last])
+        for own, rates in zip(self._own, self._rates, strict=True):
+            for before, last in new:
+                rate = own[last]
+                rates.append(rate if before < 0 else rates[before] * at[last] + values[before] * rate)
+        return self._rates
+
+
+def _coefficients(rates: Sequence[Sequence[Any]], places: Sequence[int], order: int, p: int) -> nmod_mat:
+    """Rates along a curve: of every coefficient of the series a row, of every product a column."""
+    columns: list[list[Any]] = [[] for _ in places]
+    for along in rates:
+        for column, k in zip(columns, places, strict=True):
+            found = along[k].poly.coeffs()
+            column += found + [0] * (order - len(found))
+    return nmod_mat(columns, p).transpose()
 
 
 def _with_all_symbols(forms: Codistribution) -> Codistribution:
@@ -268,17 +283,17 @@ def _sample_at(forms: Codistribution, point: FieldPoint | RandomCurve | None) ->
     return FormSample(point, p, one, at_vars, gradients, basis, matrix)
 
 
-def _simplest_first(null: nmod_mat, nullity: int, columns: int, p: int) -> Iterator[list[int]]:
-    """A basis of the null space by its last monomial, the simplest first.
+def _simplest_first(null: nmod_mat, nullity: int, number: int, p: int) -> Iterator[list[nmod]]:
+    """A basis of the null space, whose vectors are columns, by its last monomial, the simplest first.
 
-    Columns run from simple to hard, so elimination from the hard end leaves one hard monomial to each vector.
+    Monomials run from simple to hard, so elimination from the hard end leaves one hard monomial to each vector.
     """
     if not nullity:
         return
-    reversed_rows = nmod_mat([[int(null[r, columns - 1 - c]) for c in range(columns)] for r in range(nullity)], p)
-    reduced, rank = reversed_rows.rref()
+    hardest_first = [null[number - 1 - m, c] for c in range(nullity) for m in range(number)]
+    reduced, rank = nmod_mat(nullity, number, hardest_first, p).rref()
     for r in reversed(range(rank)):
-        yield [int(reduced[r, columns - 1 - c]) for c in range(columns)]
+        yield [reduced[r, number - 1 - m] for m in range(number)]
 
 
 def _rational(value: int, p: int) -> Fraction | None:

@@ -9,7 +9,7 @@ from dofkit.base.memory import unhurried
 from dofkit.base.workers import Json
 from dofkit.base.workers.limits import allow
 from dofkit.interface.many.scene_files import SceneGiven
-from dofkit.interface.one_file import report_lines
+from dofkit.interface.one_file import lines_after_reading
 from dofkit.interface.supervised import Given, limits_of
 
 
@@ -41,7 +41,7 @@ def _told(batch: SceneBatch) -> Iterator[Json]:
         yield {"next": number}
         given = given_of(batch.asked, scene)
         told: list[Json] = [None]
-        for told[0] in report_lines(given):
+        for told[0] in lines_after_reading(given):
             allow(limits_of(given)[1])
         printed += told
     yield {"printed": printed}

@@ -16,7 +16,7 @@ from dofkit.mobility.graph.compiled import Engine, engine_for
 from dofkit.mobility.graph.grouping import ascending, places_by_label
 from dofkit.mobility.graph.net import Net
 from dofkit.mobility.graph.pebbles import FREE, Board
-from dofkit.mobility.graph.plain_game import PlainGame, plain_net
+from dofkit.mobility.graph.plain_game import PlainGame
 
 # [JacobsHendrickson1997] [PollaczekGeiringer1927] [Laman1970]
 _PROOF = Proof(
@@ -78,7 +78,7 @@ class PlaneGraph:
             net, outer = _net(self._engine, self._ends, joints, self._dependent)
             self._engine.kernels.play(self._board, net, outer, self._dependent)
         elif links:
-            PlainGame(self._board).play(*plain_net(ends, joints), self._dependent)
+            PlainGame(self._board, self._ends, self._dependent).play()
 
     @cached_property
     def redundant(self) -> list[int]:

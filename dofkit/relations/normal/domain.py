@@ -122,6 +122,15 @@ def holds_at(c: DomainCondition, known: Mapping[Expr, Expr], positive: frozenset
     return sign > 0 or c.sense == "!="
 
 
+def has_value(c: DomainCondition, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> bool:
+    """Has what is asked for a value at a configuration? A pole has none."""
+    try:
+        _sign(substitute(c.expr, known), positive)
+    except NoValueError:
+        return False
+    return True
+
+
 def constantly(c: DomainCondition, positive: frozenset[Expr]) -> bool | None:
     """Whether a condition holds everywhere (True) or nowhere (False), as far as that is known."""
     if any(s.args[0] != "parameter" for s in c.expr.symbols):

@@ -8,8 +8,7 @@ Differentials are read through dq = qdot dt: a relation homogeneous of degree k 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Sequence
 from itertools import product as cartesian
 
 from dofkit.base.errors import TextError
@@ -20,6 +19,7 @@ from dofkit.expressions.combinations import Combined, combined
 from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, cleared, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
+from dofkit.relations.normal.edges import at_edge, edges_of, lines_of
 from dofkit.relations.normal.exact_zeros import SOLE_NOTE, sole_zero
 from dofkit.relations.normal.half_lines import (
     INEQUALITY_NOTE,
@@ -33,6 +33,7 @@ from dofkit.relations.normal.half_lines import (
     settled,
 )
 from dofkit.relations.normal.no_solution import no_solution
+from dofkit.relations.normal.notes import NOWHERE_NOTE, REGION_NOTE, ROOTS_NOTE, SIGNS_NOTE, SQUARED_NOTE
 from dofkit.relations.normal.pieces import (
     Branches,
     Finite,
@@ -45,12 +46,8 @@ from dofkit.relations.normal.pieces import (
     with_constants,
 )
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE, Conjunction
-from dofkit.relations.normal.quadratics import split_power, split_quadratic
 from dofkit.relations.normal.signs import (
     MAX_ARGUMENTS,
-    REGION_NOTE,
-    SIGNS_NOTE,
-    SQUARED_NOTE,
     arguments_of,
     by_signs,
     holds_on_a_region,
@@ -77,14 +74,6 @@ __all__ = [
     "velocities_of",
     "with_constants",
 ]
-
-NOWHERE_NOTE = "no real configuration satisfies it: it has no real value anywhere"
-RATE_NOTE = "it holds one combination of velocities only and was solved for that: each root is linear in the velocities"
-ROOTS_NOTE = (
-    "it holds one combination of velocities only, which takes one of its roots: each would be a branch linear in the "
-    "velocities, but they were not written down, because there are infinitely many or no formula gives them"
-)
-QUADRATIC_NOTE = "over the reals the relation between velocities splits into linear ones"
 
 
 def velocities_of(e: Expr) -> list[Expr]:
@@ -116,7 +105,7 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     found = _normalised(fewer.expr, positive, written)
     if not fewer.sums:
         return found
-    return replace(found, branches=tuple(tuple(with_constants(p, fewer.sums) for p in b) for b in found.branches))
+    return found._replace(branches=tuple(tuple(with_constants(p, fewer.sums) for p in b) for b in found.branches))
 
 
 def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
@@ -128,7 +117,17 @@ def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     form = linear_form(cleared(velocity_form))
     if form is not None and (form.coefficients or not form.dt.is_zero):
         return Normal(((form,),))
-    return _nonlinear(velocity_form, positive)
+    return _defined(velocity_form, _nonlinear(velocity_form, positive), positive)
+
+
+def _defined(e: Expr, normal: Normal, positive: frozenset[Expr]) -> Normal:
+    """What a relation in velocities says where, as it was written, it has a value at a configuration."""
+    if normal.branches == ((Nonlinear(e),),):
+        return normal
+    within = [c for c in conditions_of(e, positive) if not velocities_of(c.expr)]
+    if within and no_solution((), positive, [c.expr for c in within if c.sense != "!="]):
+        return Normal((), (NOWHERE_NOTE,))
+    return normal._replace(branches=tuple((*b, *(c for c in within if c not in b)) for b in normal.branches))
 
 
 def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
@@ -219,27 +218,30 @@ def _by_signs_of_rates(e: Expr, folds: Sequence[Expr], positive: frozenset[Expr]
         return Normal(tuple(b for n in normals for b in n.branches), (SIGNS_NOTE, *([PRODUCT_NOTE] * (len(whole) > 1))))
     kept = [c for c in choices if not no_solution([c[0]], positive, [d.expr for d in c[1]])]
     regions = [c for signed, c in kept if is_zero(signed, positive)]
-    found = _region(regions, kept, positive) if regions else _sided(e, kept, positive)
+    found = _region(e, regions, kept, positive) if regions else _sided(e, kept, positive)
     return Normal(((Nonlinear(e),),), (SIGNS_NOTE,)) if found is None else _with_note(found, SIGNS_NOTE)
 
 
 def _with_note(normal: Normal, note: str) -> Normal:
-    return replace(normal, notes=tuple(dict.fromkeys((note, *normal.notes))))
+    return normal._replace(notes=tuple(dict.fromkeys((note, *normal.notes))))
 
 
 def _region(
+    e: Expr,
     regions: Sequence[tuple[DomainCondition, ...]],
     choices: Sequence[tuple[Expr, tuple[DomainCondition, ...]]],
     positive: frozenset[Expr],
 ) -> Normal | None:
     """The inequalities that an equation says which holds for all velocities of one region, its edges among them.
 
-    None where it holds on several, or at others too.
+    None where it holds on several, or at others too, or has no value somewhere.
     """
     (region, *more) = regions
+    if more or conditions_of(e, positive):
+        return None
     for signed, conditions in choices:
         lines = [] if conditions == region else _lines(normalise(signed, positive, True), conditions)
-        if more or lines is None or not all(lies_within(one, region, positive) for one in settled(lines, positive)):
+        if lines is None or not all(lies_within(one, region, positive) for one in settled(lines, positive)):
             return None
     return Normal((tuple(Inequality(c.expr) for c in region),), (INEQUALITY_NOTE,))
 
@@ -299,15 +301,23 @@ def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Pie
     form = linear_form(e)
     if form is not None:
         return [(form,)], ""
-    split = split_quadratic(e, velocities_of(e), positive)
-    split = split_power(e, positive) if split is None else split
-    if split is not None:
-        return [_pieces_of(one) for one in split], QUADRATIC_NOTE
-    found = velocity_branches(e, positive)
-    if found is not None:
-        return [_pieces_of(SidedLines((relation,), conditions)) for relation, conditions in found], RATE_NOTE
-    other = rewritten(e, positive)
-    sided = None if other is None else _sided(e, other, positive)
-    if sided is not None:
-        return list(sided.branches), "; ".join((UNDONE_NOTE, *sided.notes))
-    return [(Nonlinear(e),)], ROOTS_NOTE if in_one_rate(e, positive) else ""
+    lines, note = lines_of(e, positive)
+    if lines is None:
+        other = rewritten(e, positive)
+        sided = None if other is None else _sided(e, other, positive)
+        if sided is not None:
+            return list(sided.branches), "; ".join((UNDONE_NOTE, *sided.notes))
+        return [(Nonlinear(e),)], ROOTS_NOTE if in_one_rate(e, positive) else ""
+    edges = edges_of(lines, positive)
+    if edges is None:
+        return [(Nonlinear(e),)], ""
+    return [*map(_pieces_of, lines), *(b for zero in edges for b in _at_edge(e, zero, positive))], note
+
+
+def _at_edge(e: Expr, zero: Conjunction, positive: frozenset[Expr]) -> Iterable[tuple[Piece, ...]]:
+    """What ``e = 0`` says beside what vanishes at an edge of its lines; nothing where it has no value."""
+    there = at_edge(e, zero)
+    if there is None:
+        return ()
+    beside = ((Nonlinear(e),),) if there == e else normalise(there, positive, True).branches
+    return ((*map(Finite, zero), *b) for b in beside)

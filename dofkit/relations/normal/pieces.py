@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
@@ -60,8 +61,7 @@ Piece = Finite | Pfaffian | Nonlinear | Inequality | DomainCondition
 Branches = tuple[tuple[Piece, ...], ...]
 
 
-@dataclass(frozen=True)
-class Normal:
+class Normal(NamedTuple):
     """What a relation says, and what was done to see it.
 
     ``constants``: coordinates that stand for constants of an integration by time, which ``once`` tells.
@@ -77,6 +77,8 @@ class Normal:
     @property
     def pieces(self) -> tuple[Piece, ...]:
         """Every piece of every branch that is a relation."""
+        if len(self.branches) == 1 and len(self.branches[0]) == 1:
+            return () if isinstance(self.branches[0][0], DomainCondition) else self.branches[0]
         return tuple(piece for branch in self.branches for piece in branch if not isinstance(piece, DomainCondition))
 
 

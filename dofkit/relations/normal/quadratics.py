@@ -22,7 +22,6 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.elimination import by_velocities
 from dofkit.relations.normal.half_lines import SidedLines
-from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.semidefinite import Signs, weak_sign
 from dofkit.relations.normal.velocity_roots import rates
 from dofkit.relations.normal.zero_set import never_vanishes, zero_set
@@ -44,45 +43,31 @@ def split_quadratic(e: Expr, velocities: Sequence[Expr], positive: frozenset[Exp
     if pivots is None:
         return None
     if len(pivots) == 1:
-        return [SidedLines((pivots[0].line,), ())]
+        return [_off_edge(SidedLines((pivots[0].line,), ()), pivots[0])]
     if all(p.sign == 1 for p in pivots[1:]):
         return _all_vanish(pivots, velocities, positive)
     if len(pivots) > 2:
         return None
-    apart = _two_lines(pivots[0], pivots[1], velocities, positive)
-    return apart if pivots[0].firm else _with_edge(apart, e, pivots[0], positive)
+    return [_off_edge(one, pivots[0]) for one in _two_lines(pivots[0], pivots[1], velocities, positive)]
 
 
-def _with_edge(
-    apart: Sequence[SidedLines], e: Expr, first: _Pivot, positive: frozenset[Expr]
-) -> list[SidedLines] | None:
-    """The lines where S_ii is not 0, and what Q says where it is; None where that does not fall into linear factors.
+def _off_edge(one: SidedLines, pivot: _Pivot) -> SidedLines:
+    """A line where the square is not 0: there S_ii Q = 0 says nothing, and the line may be 0 for all velocities.
 
-    There S_ii Q = 0 says nothing, and a line may be 0 for all velocities: that of z xdot^2 + 2 xdot ydot = 0 at z = 0.
+    So is that of z xdot^2 + 2 xdot ydot = 0 at z = 0.
     """
-    within = DomainCondition(first.square, "!=", True)
-    left = ex.add(e, ex.mul(ex.MINUS_ONE, first.square, ex.power(first.variable, ex.num(2))))
-    factors = zero_set(left, positive, _moving(left) | {*rates(left)})[0]
-    if not all(_is_linear(f) for conjunction in factors for f in conjunction):
-        return None
-    pieces = [(*zero, *conjunction) for zero in first.zeros(positive) for conjunction in factors]
-    edges = [SidedLines(p, ()) for p in pieces if not no_solution([g for g in p if not rates(g)], positive)]
-    return [*(SidedLines(one.relations, (*one.conditions, within)) for one in apart), *edges]
-
-
-def _is_linear(e: Expr) -> bool:
-    """Are its slopes by velocities free of these?"""
-    return not any(rates(diff(e, v)) for v in rates(e))
+    if pivot.firm:
+        return one
+    return SidedLines(one.relations, (*one.conditions, DomainCondition(pivot.square, "!=", True)))
 
 
 class _Pivot(NamedTuple):
-    """The form that is squared, whose own ``variable`` it is, the size of its square, and its sign (0: not known).
+    """The form that is squared, the size of its square, and its sign (0: not known).
 
     ``firm``: it vanishes nowhere; ``single``: of what is left there is only the square of one velocity.
     """
 
     line: Expr
-    variable: Expr
     square: Expr
     sign: int
     firm: bool
@@ -109,9 +94,7 @@ def _pivots(form: Matrix, vector: Sequence[Expr], positive: frozenset[Expr]) -> 
         row, square = rest[i], rest[i][i]
         firm = not _moving(square) or never_vanishes(square, positive)
         single = sum(not _zero(v) for line in rest for v in line) == 1
-        found.append(
-            _Pivot(_dot(row, vector), vector[i], square, _sign(square, positive) if found else 1, firm, single)
-        )
+        found.append(_Pivot(_dot(row, vector), square, _sign(square, positive) if found else 1, firm, single))
         rest = [[square * b - row[m] * row[j] for j, b in enumerate(line)] for m, line in enumerate(rest)]
     return found or None
 
@@ -143,13 +126,15 @@ def _two_lines(
     if second.single and rates(second.line):
         other = second.line / second.square * root
         lines = [first.line + other, first.line - other]
+        apart = [SidedLines((line,), ()) for line in lines]
     else:
         lines = [first.line * root - second.line, first.line * root + second.line]
+        apart = [_off_edge(SidedLines((line,), ()), second) for line in lines]
     if second.sign == -1 or not _moving(second.square) or not rates(second.line):
-        return [SidedLines((line,), ()) for line in lines]
+        return apart
     zeros = second.zeros(positive) if first.firm and second.single else []
     edge = DomainCondition(-second.square, ">" if zeros else ">=", bool(zeros))
-    apart = [SidedLines((line,), (edge,)) for line in lines]
+    apart = [SidedLines(one.relations, (edge, *one.conditions)) for one in apart]
     point = SidedLines(_point((first, second), velocities).relations, (DomainCondition(second.square, ">"),))
     return [*apart, point, *(SidedLines((*zero, first.line), ()) for zero in zeros)]
 

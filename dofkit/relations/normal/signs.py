@@ -22,12 +22,6 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.semidefinite import never_holds
 
-REGION_NOTE = (
-    "for one sign of what stands in abs() or under the root it holds on a whole region, and takes no freedom away there"
-)
-SQUARED_NOTE = "the root was squared away, with the sign of the other side as a condition"
-SIGNS_NOTE = "what stands in abs() may have either sign"
-
 #: Arguments whose signs are tried.
 MAX_ARGUMENTS = 4
 

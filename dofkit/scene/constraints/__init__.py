@@ -1,12 +1,13 @@
 """Constraints: one small class a type, each with its equations in its docstring and its facts for all others.
 
 `TYPES` maps every ``type`` to its class: the classes of this folder's modules that have one. A new type is a new file.
+A class is made when it is first asked for: most scenes have constraints of few types.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import reduce
+from functools import cache, reduce
 from importlib import import_module
 from operator import or_
 from pathlib import Path
@@ -27,30 +28,54 @@ from dofkit.scene.fields import retold
 
 __all__ = ["TYPES", "AnyConstraint", "ConstraintBase", "OneConstraint"]
 
-#: The order of the contract's table; what is not in it comes after, by name.
-_ORDER = (
-    "equation", "on", "link", "rigid", "fixed", "revolute", "prismatic", "weld", "cylindrical", "screw", "universal",
-    "spherical", "planar", "coincident", "slot", "roll", "string", "gear",
-)  # fmt: skip
+#: The file of each type, in the order of the contract's table. What is not in it comes after, by name, and is found by
+#: looking through all files.
+_HOMES = {
+    "equation": "equations", "on": "equations", "link": "distances", "rigid": "distances", "fixed": "places",
+    "revolute": "plane_and_space", "prismatic": "plane_and_space", "weld": "plane_and_space", "cylindrical": "spatial",
+    "screw": "spatial", "universal": "spatial", "spherical": "spatial", "planar": "spatial", "coincident": "places",
+    "slot": "places", "roll": "rolling", "string": "distances", "gear": "rolling", "cam": "cam", "coupling": "coupling",
+}  # fmt: skip
 
 
-def _place(cls: type[ConstraintBase]) -> tuple[int, str]:
-    kind = cls.kind()
-    return _ORDER.index(kind) if kind in _ORDER else len(_ORDER), kind
+class ConstraintTypes(Mapping[str, type[ConstraintBase]]):
+    """Every constraint type by its name in a scene, and its class from the one file that it needs."""
+
+    def __getitem__(self, kind: str) -> type[ConstraintBase]:
+        """The class of a type. Raises KeyError where there is no such type."""
+        return (_classes(_HOMES[kind]) if kind in _HOMES else _all_classes())[kind]
+
+    def __contains__(self, kind: object) -> bool:
+        return kind in _HOMES or kind in _all_classes()
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(_all_classes())
+
+    def __len__(self) -> int:
+        return len(_all_classes())
 
 
-def _defined() -> Iterator[type[ConstraintBase]]:
-    """The classes with a ``type`` that the modules of this folder define."""
-    for path in Path(__file__).parent.glob("[!_]*.py"):
-        module = import_module(f"{__name__}.{path.stem}")
-        for cls in vars(module).values():
-            own = isinstance(cls, type) and issubclass(cls, ConstraintBase) and cls.__module__ == module.__name__
-            if own and "type" in cls.model_fields:
-                yield cls
+@cache
+def _classes(file: str) -> dict[str, type[ConstraintBase]]:
+    """The classes with a ``type`` that a module of this folder defines, by their types."""
+    module = import_module(f"{__name__}.{file}")
+    own = (
+        cls
+        for cls in vars(module).values()
+        if isinstance(cls, type) and issubclass(cls, ConstraintBase) and cls.__module__ == module.__name__
+    )
+    return {cls.kind(): cls for cls in own if "type" in cls.model_fields}
 
 
-#: Every constraint type by its name in a scene.
-TYPES: dict[str, type[ConstraintBase]] = {cls.kind(): cls for cls in sorted(_defined(), key=_place)}
+@cache
+def _all_classes() -> dict[str, type[ConstraintBase]]:
+    """The classes of all modules of this folder."""
+    found = {kind: cls for path in Path(__file__).parent.glob("[!_]*.py") for kind, cls in _classes(path.stem).items()}
+    first = {kind: found.pop(kind) for kind in _HOMES}
+    return {**first, **dict(sorted(found.items()))}
+
+
+TYPES = ConstraintTypes()
 
 
 def _by_type(source: Any, handler: GetCoreSchemaHandler) -> Any:

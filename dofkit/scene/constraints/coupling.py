@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from math import gcd, lcm
+from math import gcd, inf, isfinite, lcm, pi
 from typing import Annotated, ClassVar, Literal, NamedTuple
 
 from pydantic import Discriminator, Field, Tag, WrapValidator
@@ -104,10 +104,30 @@ class Coupling(ConstraintBase):
                 "a coupling is one equation, or bounds", "text", hint="write another coupling for the other one"
             )
             return
+        if "=" not in senses and not self._within_half_turns(world, [e for e, _ in found], measured):
+            return
         for e, sense in found:
             if sense == "=" and not self._fits(world, e, measured):
                 return
             yield Relation(_in_turns(e, measured) or _in_arcs(e, measured), sense)
+
+    def _within_half_turns(self, world: World, bounds: Sequence[Expr], measured: Mapping[Expr, MeasuredJoint]) -> bool:
+        """Whether bounds on an angle of space lie where it is counted, within half a turn of the drawing; else a fault.
+
+        Beyond that they would hold nowhere, and a hinge does turn there.
+        """
+        for letter, joint in measured.items():
+            low, high = _bounds_of(letter, bounds) if joint.axis is not None and joint.measure.turns else (-inf, inf)
+            if _told_by_arcs(low, high):
+                continue
+            hint = "draw the joint nearer to the middle of its range"
+            turns = 2 * pi * round((low + high) / (4 * pi)) if isfinite(low + high) else 0.0
+            if turns and _told_by_arcs(low - turns, high - turns):
+                hint = f"less whole turns: `{low - turns:.6g} <= {letter.args[1]} <= {high - turns:.6g}`"
+            told = "an angle of space is counted from the drawing, between -pi and pi, and these bounds lie beyond"
+            world.fault(told, "text", hint=hint)
+            return False
+        return True
 
     def _measured(self, world: World) -> dict[Expr, MeasuredJoint] | None:
         """What every letter stands for; None after a fault, or where a joint itself is at fault."""
@@ -218,6 +238,23 @@ class MeasuredJoint(NamedTuple):
         if turned is None or self.axis is None:
             return None
         return mul(turned[0], length(self.axis.vector)), dot(turned[1], self.axis.vector)
+
+
+def _told_by_arcs(low: float, high: float) -> bool:
+    """Do bounds say of an angle between -pi and pi what they say of the same angle counted on?"""
+    if not isfinite(low + high):
+        return low < pi and high > -pi
+    return (-pi <= low and high <= pi) or (low <= -pi and high >= pi)
+
+
+def _bounds_of(letter: Expr, relations: Sequence[Expr]) -> tuple[float, float]:
+    """Between which numbers relations e >= 0 keep what a letter stands for, as far as they are linear in it alone."""
+    low, high = -inf, inf
+    for e in relations:
+        slope, at = approximate(diff(e, letter)), approximate(substitute(e, {letter: ZERO}))
+        if slope and at is not None:
+            low, high = (max(low, -at / slope), high) if slope > 0 else (low, min(high, -at / slope))
+    return low, high
 
 
 def _split(written: str, entries: Mapping[str, object]) -> tuple[str, str]:

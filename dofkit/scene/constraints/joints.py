@@ -202,12 +202,17 @@ def together(first: Frame, second: Frame, place: Vec) -> Iterator[Relation]:
 
 
 def aligned(first: Frame, second: Frame, axis: Direction) -> Iterator[Relation]:
-    """The axis keeps its direction in both bodies of space: 2 relations, (R1 n).(R2 u) = 0 or v.u = 0."""
+    """The axis keeps its direction in both bodies of space: 2 relations, (R1 n).(R2 u) = 0 or v.u = 0.
+
+    The first keeps them from turning about n x u, the second about u.
+    """
     turned = relative(first, second)
     carried = first.carry(axis.vector) if turned is None else ()
     for across in axis.across:
-        e = dot(carried, second.carry(across)) if turned is None else dot(turned[1], across)
-        yield Relation(e, part="axis", vector=across)
+        if turned is None:
+            yield Relation(dot(carried, second.carry(across)), part="axis", vector=cross(axis.vector, across))
+        else:
+            yield Relation(dot(turned[1], across), part="axis", vector=across)
 
 
 def parallel(first: Frame, second: Frame) -> Iterator[Relation]:

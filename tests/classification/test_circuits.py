@@ -1,0 +1,54 @@
+"""What a redundant constraint follows from: no more constraints than it takes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import dofkit
+
+
+def hinge(name: str, one: str, other: str, at: list[int]) -> dict[str, Any]:
+    return {"name": name, "type": "revolute", "between": [one, other], "at": at, "axis": [0, 0, 1]}
+
+
+def slider(name: str, one: str, other: str) -> dict[str, Any]:
+    return {"name": name, "type": "prismatic", "between": [one, other], "axis": [1, 0, 0]}
+
+
+def test_a_joint_that_is_partly_redundant_itself_is_a_circuit_alone() -> None:
+    """Four equations of the slider j1 follow from the hinge j0; j3 is j1 seen from the other body: it needs no more."""
+    joints = [hinge("j0", "a", "b", [0, -1, 0]), slider("j1", "b", "a"), slider("j3", "a", "b")]
+    report = dofkit.classify({"bodies": ["a", "b"], "constraints": joints})
+    assert [e.independent for e in report.constraints] == [5, 1, 0]
+    assert report.redundant == ["j3"]
+    assert report.constraints[2].circuit == ["j1"]
+
+
+def test_a_ball_between_two_bodies_that_turn_alike_and_stand_still_does_not_need_what_else_holds_them() -> None:
+    """The rod slides along y and its hinge to the rocker about z stands off that of the rocker: both stand still.
+
+    So a ball between them follows from the slider and the two hinges, whatever else hangs on the rocker.
+    """
+    ball = {"type": "spherical"}
+    scene = {
+        "bodies": ["hung", "rocker", "rod"],
+        "constraints": [
+            {**ball, "name": "j0", "between": ["hung", "ground"], "at": [1, 2, 0]},
+            {**ball, "name": "j1", "between": ["rocker", "hung"], "at": [2, 2, 0]},
+            {"name": "j2", "type": "prismatic", "between": ["ground", "rod"], "axis": [0, 1, 0]},
+            hinge("j3", "rocker", "rod", [-1, 0, 0]),
+            hinge("j4", "ground", "rocker", [1, -1, 0]),
+            {**ball, "name": "j5", "between": ["rocker", "rod"], "at": [0, -1, 0]},
+        ],
+    }
+    assert dofkit.classify(scene).constraints[-1].circuit == ["j2", "j3", "j4"]
+
+
+def test_a_coupling_of_a_joint_with_itself_says_nothing() -> None:
+    """The angle of a against the ground is minus that of the ground against a, so that p = -q always."""
+    joints = [hinge("j0", "ground", "a", [0, 0, 0]), hinge("j1", "a", "ground", [0, 0, 0])]
+    coupling = {"name": "c", "type": "coupling", "joints": {"p": "j0", "q": "j1"}, "text": "p = -q"}
+    report = dofkit.classify({"bodies": ["a"], "constraints": [*joints, coupling]})
+    assert (report.dof, report.redundant) == (1, ["j1", "c"])
+    assert [e.independent for e in report.constraints] == [5, 0, 0]
+    assert report.constraints[2].circuit == []
