@@ -16,6 +16,7 @@ from dofkit.classification.turned_coordinates import partly_turned, turned_toget
 from dofkit.expressions.text import to_text
 from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.mobility.textbook_count import CountedFacts, count
+from dofkit.mobility.tree_pose import free_coordinates
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import uses_time
 from dofkit.relations.integration_constants import about_constants
@@ -77,8 +78,17 @@ def redundancies(study: Study) -> list[Redundancy]:
 
 
 def generalized_coordinates(study: Study) -> list[str] | None:
-    """An independent choice of ``dof`` coordinates: those that are not pivots of what integrates."""
-    return unless_late(partial(_generalized, study), None)
+    """An independent choice of ``dof`` coordinates: those that are not pivots of what integrates.
+
+    Of an open tree where that is not known at the drawing, by the rows of its joints at another pose.
+    """
+    found = unless_late(partial(_generalized, study), None)
+    return unless_late(partial(_on_tree, study), None) if found is None else found
+
+
+def _on_tree(study: Study) -> list[str] | None:
+    found = None if not study.outcome.dof else free_coordinates(study.system, study.setting.positive)
+    return found if found is not None and len(found) == study.outcome.dof else None
 
 
 def joint_coordinates(study: Study) -> list[str] | None:

@@ -11,15 +11,16 @@ from dataclasses import replace
 from dofkit.configuration.components import RelationPart, explicit_relations, parts_of
 from dofkit.configuration.generic_points import field_jacobian
 from dofkit.configuration.variety import Variety
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.zero.identity import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.enclosures import differs_from_zero
+from dofkit.expressions.enclosures import differs_from_zero, interval_of
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
-from dofkit.relations.normal.exact_zeros import analytic_everywhere, candidates
+from dofkit.relations.normal.exact_zeros import analytic_everywhere, analytic_where_defined, candidates
 
 MAX_RELATIONS = 40
 
@@ -34,7 +35,7 @@ def isolated(chart: Chart, found: Variety) -> Variety | None:
     """
     if "balls" not in chart.engines or chart.time is not None or len(chart.relations) > MAX_RELATIONS:
         return None
-    if not all(map(analytic_everywhere, chart.relations)):
+    if not any(all(map(kind, chart.relations)) for kind in (analytic_everywhere, analytic_where_defined)):
         return None
     given, left = explicit_relations(chart.relations)
     symbols = [s for s in chart.symbols if s != ex.TIME]
@@ -65,8 +66,12 @@ def _common_zeros(part: RelationPart) -> Iterator[Expr]:
     """Exact values of the coordinate at which all of the relations vanish."""
     (s,) = part.unknowns
     for value in candidates(part.relations, s):
-        if all(is_proved_zero(substitute(g, {s: value}), frozenset()) for g in part.relations):
-            yield value
+        try:
+            there = [substitute(g, {s: value}) for g in part.relations]
+            if all(interval_of(g) is not None and is_proved_zero(g, frozenset()) for g in there):
+                yield value
+        except NoValueError:
+            continue
 
 
 def _witness(symbols: Sequence[Expr], given: Sequence[Expr], zeros: dict[Expr, Expr]) -> dict[Expr, str] | None:

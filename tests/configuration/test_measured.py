@@ -276,6 +276,40 @@ def test_mechanisms_with_a_tolerance_are_answered_as_without_or_open() -> None:
     assert told >= 0.9 * known > 0
 
 
+def loop(places: Sequence[tuple[float, float]], digits: int, turn: float, size: float) -> Report:
+    """Links around a loop of hinges in the plane, turned, of any size, moved and rounded to digits of that size."""
+    names = ["ground", *"abcdef"[: len(places) - 1]]
+    c, s = size * math.cos(turn), size * math.sin(turn)
+    joints = []
+    for k, (x, y) in enumerate(places):
+        at = [round(c * x - s * y + 7 * size, digits), round(s * x + c * y - 3 * size, digits)]
+        joints.append({"type": "revolute", "between": [names[k], names[(k + 1) % len(names)]], "at": at})
+    return dofkit.classify({"dimension": 2, "bodies": names[1:], "constraints": joints, "tolerance": 10.0**-digits})
+
+
+@pytest.mark.parametrize("digits", [3, 4, 5, 6])
+@pytest.mark.parametrize(
+    ("places", "dof"),
+    [
+        pytest.param([0, 1, 3, 2], 1, id="flat parallelogram"),
+        pytest.param([0, 1, 3, 6], 0, id="stretched: 6 = 1 + 2 + 3"),
+        pytest.param([0, 1, 4, 2], 1, id="change point: 1 + 3 = 2 + 2"),
+    ],
+)
+def test_loops_in_line_written_with_few_digits(places: list[int], dof: int, digits: int) -> None:
+    """Two links more than an open chain turn to first order; the second order is that of the loop in line."""
+    for turn, size in ((0.3, 1.0), (2.0, 1.7)):
+        report = loop([(x, 0) for x in places], digits, turn, size)
+        assert (report.dof, report.instantaneous_dof, report.verdicts["dof"].verdict) == (dof, 2, "numeric")
+
+
+def test_a_linkage_that_draws_nearly_a_line_is_stopped_by_the_line() -> None:
+    """Watt's point leaves its line by less than 1e-4 of the size where it has moved by half of that."""
+    exact = dofkit.load(ROOT / "tests/scenes/examples/watt-straight-line-guided.yaml")
+    report = dofkit.classify(exact.model_copy(update={"tolerance": 1e-6}))
+    assert (report.dof, report.instantaneous_dof, report.verdicts["dof"].verdict) == (0, 1, "numeric")
+
+
 # Far from the origin
 
 BENNETT = [((0, 3, 0), (0.6, 0, 0.8)), ((0, 0, 0), (0, 0, 1)), ((4, 0, 0), (0, -0.8, 0.6)),

@@ -163,7 +163,7 @@ ONE_RATE: list[Row] = [
     ("x y z", ["(zdot - y xdot)^3 = 8"], "dz - y dx - 2 dt", rate(3, 2, False, scleronomic=False)),
     ("x y", ["sin(xdot) = 0"], "xdot = k pi, one branch for every k", rate(None, None, None)),
     ("x y", ["exp(xdot) + xdot = 2"], "one root without a formula", rate(None, None, None)),
-    ("x y", ["abs(xdot) = xdot"], "xdot >= 0, an inequality", rate(None, None, None)),
+    ("x y", ["abs(xdot) = xdot"], "xdot >= 0, an inequality", rate(2, 2, False)),
     ("x y", ["xdot = abs(ydot)"], "x - y = C or x + y = C, and xdot >= 0: an inequality as well", rate(1, 1, False)),
 ]
 

@@ -30,6 +30,7 @@ DECIDED: list[tuple[str, list[str], tuple[int, int], list[bool | None], str]] = 
     ("x y", ["sqrt(xdot^2 + ydot^2) = 2 xdot"], (1, 1), [False], "ydot = +-sqrt(3) xdot, xdot >= 0"),
     ("x y th", [HEADING], (3, 2), [False], "rolling: xdot sin th = ydot cos th, and forward"),
     ("x y th", ["th = atan2(dy, dx)"], (3, 2), [False], "the same"),
+    ("x y th", ["2 th = atan2(ydot, xdot)"], (3, 2), [False], "the same with 2 th, for -pi/2 < th <= pi/2"),
     ("x y th", ["cos(th) = xdot/sqrt(xdot^2 + ydot^2)"], (3, 2), [False], "in the direction of th or -th"),
     ("x y th", [HEADING, "th = 0"], (1, 1), [False, True], "y = C, xdot > 0"),
     ("x y th", [HEADING, "xdot = cos(th)", "ydot = sin(th)"], (3, 1), [False] * 3, "forward with speed 1"),
@@ -158,6 +159,36 @@ def test_where_a_coefficient_of_a_square_vanishes(
     assert (report.dof, report.velocity_dof, report.instantaneous_dof) == expected
 
 
+#: Coordinates, an equation that says inequalities, and these.
+SIDES = [
+    ("x", "xdot + abs(xdot) = 0", "xdot <= 0"),
+    ("x y", "abs(xdot) = xdot", "xdot >= 0"),
+    ("x y", "abs(xdot) + abs(ydot) = xdot + ydot", "xdot >= 0 and ydot >= 0: else one is less"),
+    ("x y", "abs(xdot) + abs(ydot) = xdot - ydot", "xdot >= 0 and ydot <= 0"),
+    ("x y z", "abs(xdot - z*ydot) = xdot - z*ydot", "xdot >= z ydot"),
+    ("x y", "sqrt(xdot^2) = xdot", "xdot >= 0"),
+    ("x", "abs(dx) = dx", "dx >= 0"),
+    ("x", "abs(xdot - 1) = xdot - 1", "xdot >= 1"),
+]
+
+
+@pytest.mark.parametrize(("names", "equation", "why"), SIDES, ids=[row[1] for row in SIDES])
+def test_an_equation_that_says_inequalities_takes_no_freedom(names: str, equation: str, why: str) -> None:
+    report = report_of(names, [equation])
+    (entry,) = report.constraints
+    n = len(names.split())
+    assert (report.consistent, report.dof, report.velocity_dof, report.redundant) == (True, n, n, []), why
+    assert (entry.form, entry.bilateral, entry.holonomic, report.feasible) == ("inequality", False, False, True), why
+
+
+def test_inequalities_in_disguise_beside_others() -> None:
+    beside = report_of("x y", ["xdot + abs(xdot) = 0", "ydot = xdot"])
+    assert (beside.dof, [e.holonomic for e in beside.constraints]) == (1, [False, True])
+    against = report_of("x", ["xdot + abs(xdot) = 0", "xdot = 1"])
+    assert (against.dof, against.feasible, against.infeasible) == (0, False, ["c1", "c2"])
+    assert against.generalized_coordinates == []
+
+
 @pytest.mark.parametrize(
     ("names", "constraints"),
     [
@@ -166,7 +197,7 @@ def test_where_a_coefficient_of_a_square_vanishes(
         pytest.param(
             "x y z", ["abs(xdot) + abs(ydot) = abs(zdot)"], marks=pytest.mark.sweep, id="pieces that go on in motion"
         ),
-        pytest.param("x", ["xdot + abs(xdot) = 0"], id="a half space"),
+        pytest.param("x y", ["abs(xdot)*abs(ydot) = xdot*ydot"], id="two quarters"),
     ],
 )
 def test_what_is_left_open(names: str, constraints: list[str]) -> None:

@@ -108,6 +108,9 @@ ISOLATED = [
     ("x y", ["exp(x - 1/3) = x + 2/3"], 1, "the tangent at 1/3"),
     ("x y", ["cos(x - pi/4) = 1 + (x - pi/4)^2"], 1, "1 at most, and 1 at least"),
     ("x y z", ["x^2 = y^3", "x = z", "z = 0"], 0, "y^3 = 0"),
+    ("x y", ["x = tan(x)"], 1, "0, and a value between any two poles"),
+    ("x y", ["x = tan(x)", "y = x + 1"], 0, "the same, and y"),
+    ("x y", ["sin(x)/x = 0", "x + y = 1"], 0, "multiples of pi but 0"),
 ]
 
 

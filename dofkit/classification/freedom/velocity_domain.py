@@ -23,8 +23,9 @@ from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.setting import Setting
 
-#: Points over GF(p) at which conditions are evaluated, and real states that are looked at.
-DRAWN, REAL = 3, 24
+#: Points over GF(p) at which conditions are evaluated, and real states that are looked at: more of them where it is not
+#: proved that there are none.
+DRAWN, REAL, MORE = 3, 24, 72
 
 
 def on_velocities(conditions: Sequence[DomainCondition]) -> bool:
@@ -43,9 +44,13 @@ def in_motion(block: Block, hidden: Sequence[Expr], setting: Setting) -> bool | 
     drawn = [p for p in (states.draw(k) for k in range(DRAWN)) if p is not None]
     always = [c for c in block.conditions if drawn and all(_is_zero(states, p, c) for p in drawn)]
     left = [c for c in block.conditions if c not in always or c.sense != ">="]
-    if not set(left) & set(always) and any(all(_strictly(states, p, c) for c in left) for p in _regular(states, drawn)):
+    looked = not set(left) & set(always)
+    if looked and any(all(_strictly(states, p, c) for c in left) for p in _regular(states, drawn, REAL)):
         return True
-    return False if none_holds(relations, block.conditions, setting.positive) else None
+    if none_holds(relations, block.conditions, setting.positive):
+        return False
+    more = _regular(states, drawn, MORE, REAL) if looked else ()
+    return True if any(all(_strictly(states, p, c) for c in left) for p in more) else None
 
 
 def none_holds(relations: Sequence[Expr], conditions: Sequence[DomainCondition], positive: frozenset[Expr]) -> bool:
@@ -76,10 +81,10 @@ def in_motion_at(block: Block, hidden: Sequence[Expr], setting: Setting, known: 
     return in_motion(there, (), setting)
 
 
-def _regular(states: States, drawn: Sequence[FieldPoint]) -> Iterator[BallPoint]:
+def _regular(states: States, drawn: Sequence[FieldPoint], count: int, first: int = 0) -> Iterator[BallPoint]:
     """Certified real states at which the rows have the ranks that they have at those drawn, or all that were found."""
     wanted = {states.ranks(p) for p in drawn[:1]}
-    for point in states.certain(REAL):
+    for point in states.certain(count, first):
         wanted = wanted or {states.ranks(point)}
         if states.ranks(point) in wanted:
             yield point

@@ -34,8 +34,8 @@ from dofkit.relations.setting import Setting
 #: From so many sizes from the origin singular values are smaller by the square of that, since turns are told about it;
 #: from `LEVER` sizes on no motion is followed.
 CLOSE, LEVER = 2.0, 30.0
-#: Directions in which motions are followed.
-WAYS = 3
+#: Directions in which motions are followed; how much farther one is that is nearly straight.
+WAYS, FARTHER = 3, 3.0
 
 FOLLOWED = "the motion was followed for a finite step within the tolerance"
 MISSED = "the relations do not hold at the measured drawing within the tolerance, and it says nothing elsewhere"
@@ -180,10 +180,16 @@ def _by_paths(drawing: MeasuredDrawing, first: int, rigid: int) -> Decided:
     broken = [path.side() for path in paths if path.breaks]
     if len(drawing.stresses) == 1 and min(broken, default=0.0) < 0 < max(broken, default=0.0):
         return Decided(first - 1, "the one dependent relation changes sign beyond the tolerance: it holds between")
-    if first - rigid == 1 and all(path.breaks for path in paths):
+    if first - rigid == 1 and (all(path.breaks for path in paths) or _breaks_farther(drawing, reach)):
         why = "the one motion left to first order breaks the relations beyond the tolerance"
         return Decided(rigid, why, confined=True)
     return Decided(None, OPEN)
+
+
+def _breaks_farther(drawing: MeasuredDrawing, reach: float) -> bool:
+    """Does the one motion break the relations both ways, if it is followed on?"""
+    (d,) = _directions(drawing.ways)
+    return all(follow(drawing, sign * d, reach * ON * FARTHER).breaks for sign in (1, -1))
 
 
 def _directions(ways: Any) -> list[Any]:
@@ -195,12 +201,39 @@ def _directions(ways: Any) -> list[Any]:
 
 
 def independent_rows(j: Any, rank: int, tolerance: float) -> list[int]:
-    """The first rows, in order, independent of those before them within the tolerance."""
-    kept: list[int] = []
+    """The first rows, in order, independent of those before them within the tolerance.
+
+    Rows are so as long as their least singular value is above it, which no row that is left out makes smaller. A row
+    that others come nearer to than that is none. So one look at those that stand apart from others is enough, unless
+    they are dependent together.
+    """
+    kept = _rows_apart(j, rank, tolerance)
+    if _are_independent(j[kept], tolerance):
+        return kept
+    kept = []
     for r in range(len(j)):
         if len(kept) == rank:
             break
         check()
-        if float(np.linalg.svd(j[[*kept, r]], compute_uv=False)[-1]) > tolerance * SLACK:
+        if _are_independent(j[[*kept, r]], tolerance):
             kept.append(r)
+    return kept
+
+
+def _are_independent(rows: Any, tolerance: float) -> bool:
+    return not len(rows) or float(np.linalg.svd(rows, compute_uv=False)[-1]) > tolerance * SLACK
+
+
+def _rows_apart(j: Any, rank: int, tolerance: float) -> list[int]:
+    """The first rows that are apart from the span of those before them, by more than the tolerance."""
+    kept, basis = list[int](), np.zeros((0, j.shape[1]))
+    for r, row in enumerate(j):
+        if len(kept) == rank:
+            break
+        for _ in range(2):
+            row = row - basis.T @ (basis @ row)
+        apart = float(np.linalg.norm(row))
+        if apart > tolerance * SLACK:
+            kept.append(r)
+            basis = np.vstack([basis, row / apart])
     return kept

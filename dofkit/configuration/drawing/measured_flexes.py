@@ -3,9 +3,9 @@
 Let J be the Jacobian at the drawing, of rank r within the tolerance, and J_0 a matrix of rank r near it, that of an
 exact geometry within the tolerance. A stress l, with l J_0 = 0, and a motion v, with J_0 v = 0, have the number
 Q_l(v) = sum l_i (d^2 f_i)(v, v): the second order of the dependent relation l f on the manifold of the others. The
-spaces of J and of J_0 differ by |J - J_0| / s, s the least singular value that counts [Wedin1972], and the forms
-by as much times the second derivatives: their entries are balls, so that what they prove holds for all such
-geometries.
+spaces of J and of J_0 differ by |J - J_0| / s, s the least singular value that counts [Wedin1972], and the forms by
+that times the second derivatives, for the stress and for both motions, and by what the second derivatives change
+themselves, |J - J_0| again: their entries are balls, so that what they prove holds for all such geometries.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from dofkit.configuration.local.quadratic_cone import (
 
 #: Second derivatives are differences over so short a way, and right to within this part.
 WAY, ROUGH = 1e-5, 1e-6
-#: How many changes of the size |J - J_0| / s a form may take: of its stress and of both its motions, and as many again.
-CHANGES = 6.0
+#: The changes of the size |J - J_0| / s that a form takes: of its stress and of both its motions.
+CHANGES = 3.0
 #: What is by so much less than the rest of a form is taken for 0: it would hardly be so small by chance.
 SLIGHT = 1e-2
 #: Random subspaces on which forms without a common zero are looked for.
@@ -39,15 +39,18 @@ class StressForms:
     def __init__(self, drawing: MeasuredDrawing) -> None:
         relations, ways = drawing.relations, drawing.ways
         forms = np.zeros((len(drawing.stresses), len(ways), len(ways)))
-        bend = 0.0
+        slopes = []
         for a, v in enumerate(ways):
             ahead = relations.system(relations.moved(drawing.at, WAY * v), drawing.norms)[1]
             back = relations.system(relations.moved(drawing.at, -WAY * v), drawing.norms)[1]
             slope = (ahead - back) / (2 * WAY)
-            bend = max(bend, float(np.linalg.norm(slope, 2)))
+            slopes.append(slope)
             forms[:, a, :] = drawing.stresses @ slope @ ways.T
         self.forms = (forms + forms.transpose(0, 2, 1)) / 2
-        self.noise = (1 + bend) * (CHANGES * SLACK * drawing.tolerance * (1 + 1 / drawing.least) + ROUGH)
+        bend = float(np.linalg.norm(np.hstack(slopes), 2))
+        turned = SLACK * drawing.tolerance / drawing.least
+        changed = CHANGES * turned * (1 + turned) * bend + SLACK * drawing.tolerance
+        self.noise = changed + ROUGH * (1 + bend)
         self.drawing = drawing
 
     @property

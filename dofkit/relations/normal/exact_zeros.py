@@ -27,6 +27,8 @@ SOLE_NOTE = (
 )
 #: Functions that are analytic on the whole line.
 ENTIRE = frozenset({"exp", "sin", "cos", "sinh", "cosh", "tanh", "atan"})
+#: Functions that have one value at every complex number but those of a set without an interior.
+UNIFORM = frozenset({"exp", "sin", "cos", "sinh", "cosh", "tanh", "tan", "cot", "sec", "csc"})
 #: Where zeros are looked for: up to this size, at so many places to a unit; steps to halve an interval.
 REACH, PLACES, HALVINGS = 10, 8, 40
 #: Zeros that are tried have at most this denominator, or are such a multiple of pi.
@@ -82,6 +84,20 @@ def analytic_everywhere(e: Expr) -> bool:
 
 def _all(parts: Sequence[Expr]) -> bool:
     return all(map(analytic_everywhere, parts))
+
+
+def analytic_where_defined(e: Expr) -> bool:
+    """Is it analytic on the complex numbers less a countable closed set, by quotients and such functions as tan?
+
+    What is left is connected: a function that is 0 on an interval is 0 wherever it is defined.
+    """
+    if e.op in ("num", "sym", "const"):
+        return e.op != "sym" or e.args[0] == "coordinate"
+    if e.op == "pow":
+        exponent = e.args[1]
+        return exponent.op == "num" and exponent.args[0].denominator == 1 and analytic_where_defined(e.args[0])
+    known = e.op in ("add", "mul") or (e.op == "fn" and e.args[0] in UNIFORM)
+    return known and all(map(analytic_where_defined, ex.children(e)))
 
 
 def candidates(relations: Sequence[Expr], s: Expr) -> Iterator[Expr]:

@@ -24,6 +24,7 @@ from dofkit.relations.normal.velocity_roots import inverse_of, rates
 #: What a function is replaced by; no scene declares such a name.
 _VALUE = ex.sym("parameter", "the function's value")
 UNDONE_NOTE = "the root or function around the velocities was undone"
+INEQUALITY_NOTE = "it holds wherever what stands in abs() has one sign, and nowhere else: it says no more than that"
 ONE_SIDE_NOTE = "the velocities keep to one side as well, as an inequality asks: that takes no freedom away"
 
 PIECES_NOTE = (
@@ -146,6 +147,12 @@ def _settled(one: SidedLines, positive: frozenset[Expr]) -> SidedLines | None:
         if told is None:
             kept.append(c)
     return SidedLines(_canonical(relations), tuple(kept))
+
+
+def lies_within(one: SidedLines, region: Sequence[DomainCondition], positive: frozenset[Expr]) -> bool:
+    """Do the conditions of a region hold on lines that are settled?"""
+    asked = [replace(c, expr=_scaled(freed(c.expr, one.relations))) for c in region]
+    return all(c in one.conditions or _known(c, positive) for c in asked)
 
 
 def _scaled(e: Expr) -> Expr:

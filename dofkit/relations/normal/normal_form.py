@@ -8,10 +8,8 @@ Differentials are read through dq = qdot dt: a relation homogeneous of degree k 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
 from itertools import product as cartesian
-from typing import NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.exact.zero.identity import is_proved_zero, is_zero
@@ -24,16 +22,29 @@ from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.edges import at_edge, edges_of, lines_of
 from dofkit.relations.normal.exact_zeros import SOLE_NOTE, sole_zero
 from dofkit.relations.normal.half_lines import (
+    INEQUALITY_NOTE,
     ONE_SIDE_NOTE,
     PIECES_NOTE,
     UNDONE_NOTE,
     SidedLines,
+    lies_within,
     meet_at_rest,
     rewritten,
     settled,
 )
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.notes import NOWHERE_NOTE, REGION_NOTE, ROOTS_NOTE, SIGNS_NOTE, SQUARED_NOTE
+from dofkit.relations.normal.pieces import (
+    Branches,
+    Finite,
+    Inequality,
+    Nonlinear,
+    Normal,
+    Pfaffian,
+    Piece,
+    Still,
+    with_constants,
+)
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE, Conjunction
 from dofkit.relations.normal.signs import (
     MAX_ARGUMENTS,
@@ -48,86 +59,21 @@ from dofkit.relations.normal.signs import (
 from dofkit.relations.normal.velocity_roots import in_one_rate, velocity_branches
 from dofkit.relations.normal.zero_set import zero_set
 
-
-@dataclass(frozen=True)
-class Finite:
-    """g(q, t) = 0."""
-
-    expr: Expr
-
-
-@dataclass(frozen=True)
-class Pfaffian:
-    """sum a_i dq_i + b dt = 0; ``coefficients`` by coordinate, without zeros."""
-
-    coefficients: Mapping[str, Expr]
-    dt: Expr
-
-    def items(self) -> Iterable[tuple[Expr, Expr]]:
-        """(symbol of the coordinate or of time, coefficient) for every coefficient as written."""
-        for name, coefficient in self.coefficients.items():
-            yield ex.coordinate(name), coefficient
-        if not self.dt.is_zero:
-            yield ex.TIME, self.dt
-
-
-class Still(Pfaffian):
-    """dC = 0 for a constant of integration C."""
-
-    def __init__(self, constant: str) -> None:
-        super().__init__({constant: ex.ONE}, ex.ZERO)
-
-
-@dataclass(frozen=True)
-class Nonlinear:
-    """f(q, qdot, t) = 0, not linear in the velocities over the reals."""
-
-    expr: Expr
-
-
-@dataclass(frozen=True)
-class Inequality:
-    """g >= 0 or g > 0 (``strict``), finite or in velocities."""
-
-    expr: Expr
-    strict: bool = False
-
-
-Piece = Finite | Pfaffian | Nonlinear | Inequality | DomainCondition
-#: All pieces of a branch hold together; one of the branches holds. No branch: nothing satisfies it.
-Branches = tuple[tuple[Piece, ...], ...]
-
-
-class Normal(NamedTuple):
-    """What a relation says, and what was done to see it.
-
-    ``constants``: coordinates that stand for constants of an integration by time, which ``once`` tells.
-    ``kinked``: told apart by the signs of what vanishes at the reference configuration: there is no gradient there.
-    """
-
-    branches: Branches
-    notes: tuple[str, ...] = ()
-    constants: tuple[str, ...] = ()
-    once: str = ""
-    kinked: bool = False
-
-    @property
-    def pieces(self) -> tuple[Piece, ...]:
-        """Every piece of every branch that is a relation."""
-        if len(self.branches) == 1 and len(self.branches[0]) == 1:
-            return () if isinstance(self.branches[0][0], DomainCondition) else self.branches[0]
-        return tuple(piece for branch in self.branches for piece in branch if not isinstance(piece, DomainCondition))
-
-
-def with_constants(piece: Piece, values: Mapping[str, Expr]) -> Piece:
-    """``piece`` with constants of integration replaced by parameters or values: what it says for one initial state."""
-    if not values:
-        return piece
-    mapping = {ex.coordinate(c): value for c, value in values.items()}
-    if isinstance(piece, Pfaffian):
-        named = {name: substitute(e, mapping) for name, e in piece.coefficients.items()}
-        return Pfaffian(named, substitute(piece.dt, mapping))
-    return replace(piece, expr=substitute(piece.expr, mapping))
+__all__ = [
+    "Branches",
+    "Finite",
+    "Inequality",
+    "Nonlinear",
+    "Normal",
+    "Pfaffian",
+    "Piece",
+    "Still",
+    "linear_form",
+    "normalise",
+    "relation_of",
+    "velocities_of",
+    "with_constants",
+]
 
 
 def velocities_of(e: Expr) -> list[Expr]:
@@ -271,12 +217,45 @@ def _by_signs_of_rates(e: Expr, folds: Sequence[Expr], positive: frozenset[Expr]
         normals = [normalise(g, positive, True) for g in whole]
         return Normal(tuple(b for n in normals for b in n.branches), (SIGNS_NOTE, *([PRODUCT_NOTE] * (len(whole) > 1))))
     kept = [c for c in choices if not no_solution([c[0]], positive, [d.expr for d in c[1]])]
-    found = None if any(is_zero(signed, positive) for signed, _ in kept) else _sided(e, kept, positive)
+    regions = [c for signed, c in kept if is_zero(signed, positive)]
+    found = _region(e, regions, kept, positive) if regions else _sided(e, kept, positive)
     return Normal(((Nonlinear(e),),), (SIGNS_NOTE,)) if found is None else _with_note(found, SIGNS_NOTE)
 
 
 def _with_note(normal: Normal, note: str) -> Normal:
     return normal._replace(notes=tuple(dict.fromkeys((note, *normal.notes))))
+
+
+def _region(
+    e: Expr,
+    regions: Sequence[tuple[DomainCondition, ...]],
+    choices: Sequence[tuple[Expr, tuple[DomainCondition, ...]]],
+    positive: frozenset[Expr],
+) -> Normal | None:
+    """The inequalities that an equation says which holds for all velocities of one region, its edges among them.
+
+    None where it holds on several, or at others too, or has no value somewhere.
+    """
+    (region, *more) = regions
+    if more or conditions_of(e, positive):
+        return None
+    for signed, conditions in choices:
+        lines = [] if conditions == region else _lines(normalise(signed, positive, True), conditions)
+        if lines is None or not all(lies_within(one, region, positive) for one in settled(lines, positive)):
+            return None
+    return Normal((tuple(Inequality(c.expr) for c in region),), (INEQUALITY_NOTE,))
+
+
+def _lines(normal: Normal, conditions: Sequence[DomainCondition]) -> list[SidedLines] | None:
+    """The branches of a relation under conditions; None where one is not linear."""
+    lines = []
+    for branch in normal.branches:
+        relations = [relation_of(p) for p in branch if isinstance(p, (Finite, Pfaffian))]
+        own = [p for p in branch if isinstance(p, DomainCondition)]
+        if len(relations) + len(own) < len(branch):
+            return None
+        lines.append(SidedLines(tuple(relations), (*conditions, *own)))
+    return lines
 
 
 def _sided(
@@ -291,13 +270,11 @@ def _sided(
     for signed, conditions in choices:
         normal = normalise(signed, positive, True)
         notes += normal.notes
-        for branch in normal.branches:
-            relations = [relation_of(p) for p in branch if isinstance(p, (Finite, Pfaffian))]
-            own = [p for p in branch if isinstance(p, DomainCondition)]
-            if len(relations) + len(own) < len(branch):
-                whole = tuple((*b, *conditions) for b in normal.branches)
-                return Normal(whole, normal.notes) if len(choices) == 1 else None
-            lines.append(SidedLines(tuple(relations), (*conditions, *own)))
+        own = _lines(normal, conditions)
+        if own is None:
+            whole = tuple((*b, *conditions) for b in normal.branches)
+            return Normal(whole, normal.notes) if len(choices) == 1 else None
+        lines += own
     told = settled(lines, positive)
     if len(told) > 1 and not meet_at_rest(told, velocities_of(e)):
         return None
