@@ -143,3 +143,14 @@ def test_bounds_within_half_a_turn_or_of_every_angle_are_read(text: str) -> None
     report = dofkit.classify(bounded(text))
     assert report.consistent is True
     assert report.dof == 1
+
+
+def test_a_sum_of_angles_of_space_beyond_all_they_are_told_to_is_a_fault() -> None:
+    """Two hinges turn by 7/2 each, or by 3 each: the one is more than they are told, the other is not."""
+    hinges = [SPATIAL, {**SPATIAL, "name": "B", "between": ["a", "b"]}]
+    bound = {"type": "coupling", "joints": {"p": "A", "q": "B"}}
+    scene = {"bodies": ["a", "b"], "constraints": [*hinges, {**bound, "text": "p + q >= 7"}]}
+    with pytest.raises(SceneError, match="between -pi and pi"):
+        dofkit.classify(scene)
+    scene["constraints"][-1] = {**bound, "text": "p + q >= 6"}
+    assert dofkit.classify(scene).consistent is True

@@ -116,6 +116,10 @@ class Coupling(ConstraintBase):
 
         Beyond that they would hold nowhere, and a hinge does turn there.
         """
+        told = "an angle of space is counted from the drawing, between -pi and pi, and these bounds lie beyond"
+        if any(_most(e, measured) < 0 for e in bounds):
+            world.fault(told, "text", hint="draw the joints nearer to the middle of their ranges")
+            return False
         for letter, joint in measured.items():
             low, high = _bounds_of(letter, bounds) if joint.axis is not None and joint.measure.turns else (-inf, inf)
             if _told_by_arcs(low, high):
@@ -124,7 +128,6 @@ class Coupling(ConstraintBase):
             turns = 2 * pi * round((low + high) / (4 * pi)) if isfinite(low + high) else 0.0
             if turns and _told_by_arcs(low - turns, high - turns):
                 hint = f"less whole turns: `{low - turns:.6g} <= {letter.args[1]} <= {high - turns:.6g}`"
-            told = "an angle of space is counted from the drawing, between -pi and pi, and these bounds lie beyond"
             world.fault(told, "text", hint=hint)
             return False
         return True
@@ -238,6 +241,17 @@ class MeasuredJoint(NamedTuple):
         if turned is None or self.axis is None:
             return None
         return mul(turned[0], length(self.axis.vector)), dot(turned[1], self.axis.vector)
+
+
+def _most(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> float:
+    """The most that a sum of several angles of space can be, each at most pi; of anything else no bound."""
+    slopes = {letter: approximate(diff(e, letter)) for letter in measured}
+    moving = [letter for letter, slope in slopes.items() if slope != 0]
+    at = approximate(substitute(e, dict.fromkeys(measured, ZERO)))
+    turning = all(measured[letter].axis is not None and measured[letter].measure.turns for letter in moving)
+    if at is None or None in slopes.values() or len(moving) < 2 or not turning:
+        return inf
+    return at + pi * sum(abs(slope or 0.0) for slope in slopes.values())
 
 
 def _told_by_arcs(low: float, high: float) -> bool:
