@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from copy import copy
-from typing import Any, Literal, Self
+from typing import Any, Literal, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, PrivateAttr, model_validator
 
@@ -24,18 +24,22 @@ class ToldModel(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
-    def with_values(self, **values: Any) -> Self:
-        """As ``model_copy(update=values)``, for values of fields that were given: which these are the copy shares.
 
-        >>> Redundancy(nullity=1, members=["A"]).with_values(nullity=2)
-        Redundancy(nullity=2, members=['A'])
-        """
-        made = type(self).__new__(type(self))
-        object.__setattr__(made, "__dict__", {**self.__dict__, **values})
-        object.__setattr__(made, "__pydantic_fields_set__", self.__pydantic_fields_set__)
-        object.__setattr__(made, "__pydantic_extra__", self.__pydantic_extra__)
-        object.__setattr__(made, "__pydantic_private__", copy(self.__pydantic_private__))
-        return made
+Told = TypeVar("Told", bound=ToldModel)
+
+
+def with_values(told: Told, **values: Any) -> Told:
+    """As ``told.model_copy(update=values)``, for values of fields that were given: which these are the copy shares.
+
+    >>> with_values(Redundancy(nullity=1, members=["A"]), nullity=2)
+    Redundancy(nullity=2, members=['A'])
+    """
+    made = type(told).__new__(type(told))
+    object.__setattr__(made, "__dict__", {**told.__dict__, **values})
+    object.__setattr__(made, "__pydantic_fields_set__", told.__pydantic_fields_set__)
+    object.__setattr__(made, "__pydantic_extra__", told.__pydantic_extra__)
+    object.__setattr__(made, "__pydantic_private__", copy(told.__pydantic_private__))
+    return made
 
 
 class FieldVerdict(ToldModel):

@@ -260,6 +260,7 @@ def test_no_process_is_left_behind(ending: str) -> None:
     assert all(map(gone, pids))
 
 
+@pytest.mark.sweep
 @posix
 @pytest.mark.parametrize("job", ["busy", "stuck"])
 def test_a_worker_dies_with_its_parent_in_the_middle_of_a_job(job: str, tmp_path: Path) -> None:
@@ -280,6 +281,7 @@ def test_a_killed_worker_is_no_zombie() -> None:
     assert script(LEFT + "worker.kill(); pool.close()\n" + waited).stdout.splitlines()[-1] == "none"
 
 
+@pytest.mark.sweep
 @posix
 def test_a_fork_of_the_parent_has_workers_of_its_own() -> None:
     code = LEFT + (
@@ -294,6 +296,7 @@ def test_a_fork_of_the_parent_has_workers_of_its_own() -> None:
 # -- a scene within its budget -----------------------------------------------------------------------
 
 
+@pytest.mark.sweep
 def test_within_its_budget_a_scene_has_the_same_report() -> None:
     for name in dofkit.catalog_names()[::6]:
         assert dofkit.classify(dofkit.load(name), budget=LONG) == dofkit.classify(dofkit.load(name)), name
@@ -306,6 +309,7 @@ def test_without_time_everything_is_undecided_but_named() -> None:
         assert [entry.name for entry in report.constraints] == ["first", "second", "c3"]
 
 
+@pytest.mark.sweep
 def test_work_that_hears_no_deadline_is_killed(monkeypatch: pytest.MonkeyPatch) -> None:
     """8 coordinates, one finite equation as written: the lecture's count is 7."""
     monkeypatch.setattr("dofkit.methods.in_worker.CLASSIFIED", "shared.worker_jobs:sketched")
@@ -379,12 +383,14 @@ print(dofkit.classify(dofkit.load({"coordinates": ["x", "y"], "constraints": ["x
 """
 
 
+@pytest.mark.sweep
 def test_a_script_needs_no_guard(tmp_path: Path) -> None:
     (tmp_path / "script.py").write_text(UNGUARDED)
     for told in (script(UNGUARDED), script("", str(tmp_path / "script.py"))):
         assert (told.stdout.split(), told.stderr) == (["once", "1"], "")
 
 
+@pytest.mark.sweep
 @posix
 def test_closed_standard_streams_do_no_harm(tmp_path: Path) -> None:
     report = f"dofkit.classify(dofkit.load({GOOD}), budget=300)"
@@ -393,6 +399,7 @@ def test_closed_standard_streams_do_no_harm(tmp_path: Path) -> None:
     assert (tmp_path / "told").read_text() == "proved"
 
 
+@pytest.mark.sweep
 def test_a_file_in_the_working_folder_is_not_run(tmp_path: Path) -> None:
     for name in ("flint.py", "struct.py", "dofkit.py"):
         (tmp_path / name).write_text("open('it-ran', 'w')")
@@ -425,6 +432,7 @@ dofkit.interface.cli.main()
 """
 
 
+@pytest.mark.sweep
 @posix
 def test_a_scene_without_end_does_not_stop_the_others(tmp_path: Path) -> None:
     files = [tmp_path / name for name in ("first.json", "stuck.json", "last.json")]
@@ -459,6 +467,7 @@ dofkit.interface.cli.main()
 """
 
 
+@pytest.mark.sweep
 @posix
 @pytest.mark.parametrize("how", ["crash", "busy"])
 def test_a_file_that_kills_its_reader_is_an_error_on_its_line(how: str, tmp_path: Path) -> None:
@@ -475,6 +484,7 @@ def test_a_file_that_kills_its_reader_is_an_error_on_its_line(how: str, tmp_path
     assert told.stderr.startswith(f"{files[1]}: error: it could not be read")
 
 
+@pytest.mark.sweep
 @posix
 def test_a_pipe_is_a_file(tmp_path: Path) -> None:
     (tmp_path / "good.json").write_text(json.dumps(GOOD))

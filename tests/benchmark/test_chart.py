@@ -62,6 +62,7 @@ def ran(methods: Sequence[str], limit: float = 0.3) -> list[TrialLine]:
 # -- running ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.sweep
 def test_every_trial_has_its_line_whatever_the_method_does() -> None:
     methods = ("right", "wrong", "undecided", "cannot", "raises", "crashes", "hangs")
     lines = ran(methods)
@@ -83,6 +84,7 @@ def test_every_trial_has_its_line_whatever_the_method_does() -> None:
     assert all(line.seconds < 0.1 for line in lines if line.outcome in ("right", "wrong", "cannot"))
 
 
+@pytest.mark.sweep
 def test_workers_stay_warm() -> None:
     lines = ran(["process", "hangs"])
     told = [line.told for line in lines if line.method == "process"]
@@ -97,6 +99,7 @@ def test_what_hears_no_signal_is_killed() -> None:
     assert [line.outcome for line in lines] == ["right"] * 7 + ["timed out"]
 
 
+@pytest.mark.sweep
 def test_ladders_climb_by_size_and_other_ladders_go_on() -> None:
     lines = ran(["hangs", "right"])
     sizes = [line.size for line in lines if line.method == "hangs"]
@@ -319,6 +322,7 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
         storing.read(tmp_path / "none")
 
 
+@pytest.mark.sweep
 def test_every_figure_is_drawn(tmp_path: Path) -> None:
     chart = summary(DATA)
     bits = replace(SWEEPS[0], knob="bits", method="balls", value=16.0, group="1/9")
@@ -385,6 +389,7 @@ def test_what_cannot_be_charted_is_told(arguments: list[str], told: str, tmp_pat
     assert told in done.output
 
 
+@pytest.mark.sweep
 @pytest.mark.usefixtures("tiny")
 def test_an_interrupted_run_keeps_what_it_has(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def stopped(work: Sequence[tasks.TrialTask], bench: runner.Bench) -> Any:

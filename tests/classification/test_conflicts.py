@@ -198,6 +198,7 @@ def embeds(points: int, squares: dict[frozenset[int], Fraction], dimension: int)
     return rank <= dimension
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("dimension", [1, 2, 3])
 def test_a_conflict_is_found_where_the_gram_matrix_shows_one(dimension: int) -> None:
     """All distances of d + 2 random points, and one of them changed a little: exactly what no points have."""

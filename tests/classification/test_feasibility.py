@@ -199,6 +199,7 @@ def test_a_reference_does_not_confine_the_inequalities() -> None:
     assert report.feasible is True
 
 
+@pytest.mark.sweep
 def test_many_pendulums_of_one_length() -> None:
     names = [f"P{k}" for k in range(30)]
     texts = [t for n in names for t in (f"x_{n}^2 + y_{n}^2 = L^2", f"y_{n} >= 0")]

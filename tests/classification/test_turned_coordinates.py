@@ -85,6 +85,7 @@ def test_a_welded_body_that_is_drawn_turned_has_no_freedom() -> None:
     assert report.warnings == []
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("type_", ["weld", "prismatic"])
 def test_a_body_that_is_kept_from_turning_is_not_turned_by_a_third(type_: str) -> None:
     """About (1, 1, 1) that takes e1 to e2, e2 to e3, e3 to e1: no e_i keeps what it has along the next."""

@@ -242,6 +242,7 @@ def test_a_piston_driven_at_its_dead_centre_is_consistent_where_it_can_move(law:
     assert (report.consistent, report.dof, report.instantaneous_dof) == (True, 0, 1)
 
 
+@pytest.mark.sweep
 def test_a_piston_driven_outward_at_all_times_does_not_move() -> None:
     report = dofkit.classify(dofkit.load(four_bar(drive="t^2")))
     assert report.consistent is not True
@@ -278,6 +279,7 @@ def copied_polygon(n: int) -> dict[str, Any]:
     return {"dimension": 2, "particles": particles, "constraints": [{"type": "link", "between": [*p]} for p in pairs]}
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("n", [12, pytest.param(66, marks=pytest.mark.sweep)])
 def test_a_framework_with_many_motions_is_answered(n: int) -> None:
     """2 n - n for the polygon, and 1 for the triangles."""

@@ -173,6 +173,7 @@ def shaky(links: list[str], dimension: int, rng: random.Random) -> Places:
                 return at(a)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(("tolerance", "noise"), ROUNDED)
 @pytest.mark.parametrize(("links", "dimension"), [swept(OCTAHEDRON, 3), swept(K33, 2), (PRISM, 2)])
 def test_what_only_shakes_is_never_called_movable(
@@ -188,6 +189,7 @@ def test_what_only_shakes_is_never_called_movable(
     assert found.count(whole) >= (3 if tolerance < 1e-4 else 1)
 
 
+@pytest.mark.sweep
 def test_a_shaky_octahedron_with_a_coarse_tolerance_is_not_called_movable() -> None:
     """One way the edges hold within 3e-3 for a quarter of the size, the other way they do not."""
     for seed in ("2c", "5z", "9z", "14z"):
@@ -248,6 +250,7 @@ SINGULAR = {
 }
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("name", "dof"), [swept(*row) if k % 4 != 1 else row for k, row in enumerate(SINGULAR.items())]
 )
@@ -318,6 +321,7 @@ SPHERICAL = [((1, 0, 0), (1, 0, 0)), ((0, 1, 0), (0, 1, 0)), ((0, 0, 1), (0, 0, 
 STRETCHED = [((0, 0, 0), (0, 0, 1)), ((1, 0, 0), (0, 0, 1)), ((3, 0, 0), (0, 0, 1)), ((6, 0, 0), (0, 0, 1))]
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("noise", [swept(0.0), 3e-8])
 @pytest.mark.parametrize(("hinges", "dof"), [(BENNETT, 1), (SPHERICAL, 1), (STRETCHED, 0)])
 def test_loops_of_hinges_a_thousand_sizes_from_the_origin(hinges: Any, dof: int, noise: float) -> None:

@@ -56,6 +56,7 @@ ANSWERS = {
 }
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("student", ANSWERS)
 def test_answers_in_equations_have_certificates(
     student: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -78,6 +79,7 @@ def test_answers_in_equations_have_certificates(
         assert (claim["path"], claim["value"]) == ("/feasible", status == "wrong")
 
 
+@pytest.mark.sweep
 def test_answers_without_evidence_say_why(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     # the root has no value where it would be of a negative number: no cofactor does everywhere
     sheet, given, folder = tmp_path / "sheet.yaml", tmp_path / "given.json", tmp_path / "why"

@@ -112,6 +112,7 @@ def test_gradescope(sheet: Path, tmp_path: Path) -> None:
     assert sorted(path.name for path in (root / "results").iterdir()) == ["results.json"]
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("student", ["Ada", "ada@UNI.example", "1", "Lovelace, Ada"])
 def test_gradescope_knows_its_user(student: str, sheet: Path, tmp_path: Path) -> None:
     root = hand_in(tmp_path / "autograder" / "submission", anything__json=submission(student=student))
@@ -120,6 +121,7 @@ def test_gradescope_knows_its_user(student: str, sheet: Path, tmp_path: Path) ->
     assert grade_at(replace(SITES["gradescope"], root=root), sheet, MEMORY).doubt is None
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("name", "text"),
     [
@@ -144,6 +146,7 @@ def test_what_says_nothing_of_its_student_is_the_submitters(name: str, text: str
     assert (found.student, found.score, found.doubt, found.error) == ("ada@uni.example", 2.5, None, None)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("line", "expected"),
     [("", "after_due_date"), ("attempts: 2\n", "visible"), ("visibility: after_published\n", "after_published"),
@@ -169,6 +172,7 @@ def test_when_points_are_shown(line: str, expected: str, sheet: Path, tmp_path: 
     assert "point" not in found["output"].lower()
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("line", "dates", "expected"),
     [
@@ -195,6 +199,7 @@ def test_attempts_are_counted(attempts: str, sheet: Path) -> None:
         load_assignment(sheet)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("sign", [".", "_", "-"])
 def test_prairielearn_takes_what_was_typed(sign: str, sheet: Path, tmp_path: Path) -> None:
     given = {f"{p}{sign}{q}": str(a) for p, answers in ANSWERS.items() for q, a in answers.items()}
@@ -310,6 +315,7 @@ def test_a_faulty_assignment_is_nobodys_fault(tmp_path: Path) -> None:
     assert written(tmp_path / "prairielearn", "prairielearn")["gradable"] is False
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("metadata", ["", "[]", '{"users": 3}', '{"users": [7]}', '{"users": []}', "[" * 100_000])
 def test_metadata_may_be_anything(metadata: str, sheet: Path, tmp_path: Path) -> None:
     root = hand_in(tmp_path / "root" / "submission", answers__json=submission())

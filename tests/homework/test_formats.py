@@ -403,6 +403,7 @@ onload = () => {{
 }}</script>"""
 
 
+@pytest.mark.sweep
 @pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium")
 @pytest.mark.parametrize("page", ["index.html", "students/long.html"])
 def test_pages_fit_a_telephone(page: str, prepared: Prepared, tmp_path: Path) -> None:

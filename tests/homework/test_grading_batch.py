@@ -258,6 +258,7 @@ def test_a_header_that_names_no_question_gives_nobody_zeros(
     assert "names no question: write" in told[0]["error"]
 
 
+@pytest.mark.sweep
 def test_a_roster_says_whose_a_submission_is(
     assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -353,6 +354,7 @@ def test_answers_to_what_was_not_asked_are_bounded() -> None:
     assert len(result.model_dump_json()) < 50_000
 
 
+@pytest.mark.sweep
 def test_check_only_tells_how_answers_are_read(
     assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -543,6 +545,7 @@ def test_a_run_interrupted_twice_ends_as_one_that_was_not(assignment: str, tmp_p
     assert sorted(path.name for path in tmp_path.iterdir()) == ["assignment.json", "out.jsonl", "t.csv", "whole.jsonl"]
 
 
+@pytest.mark.sweep
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no pseudo-terminals")
 def test_a_terminal_sees_how_far_it_is(assignment: str, tmp_path: Path) -> None:
     table = tmp_path / "t.csv"

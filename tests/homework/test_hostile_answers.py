@@ -217,6 +217,7 @@ def test_methods_of_an_answer_do_not_run(question: str) -> None:
         assert graded(grader(), question, answer).status in ("unreadable", "wrong", "needs_review")
 
 
+@pytest.mark.sweep
 def test_one_answer_does_not_change_another() -> None:
     here = Grader(load_assignment(ASSIGNMENT))
     before = {q: graded(here, q, "x") for q in QUESTIONS}

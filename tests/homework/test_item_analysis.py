@@ -72,6 +72,7 @@ def test_errors_texts_and_groups() -> None:
     assert [(g.name, g.answers, g.share) for g in found.variants] == [("as given", 4, 0.75), ("without c1", 2, 0.0)]
 
 
+@pytest.mark.sweep
 def test_the_overview_shows_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     scene = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]}
     asked = [{"id": "f", "ask": "dof"}, {"id": "k", "ask": "k"}]

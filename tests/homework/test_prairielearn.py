@@ -126,6 +126,7 @@ def test_files_of_the_archive_name_their_students(sheet: Path) -> None:
     assert [(one["student"], one["score"]) for one in results(sheet, folder)] == [("ada@x", 1.0), ("bob_b@x", 1.0)]
 
 
+@pytest.mark.sweep
 def test_a_file_that_names_another_student_takes_nobodys_place(sheet: Path) -> None:
     text = base64.b64encode(b"student: bob@x\np: {f: 2}").decode()
     table = manual(sheet.parent / "t.csv", ("ada@x", "1", {"_files": [{"name": "a.yaml", "contents": text}]}, 0),
@@ -135,6 +136,7 @@ def test_a_file_that_names_another_student_takes_nobodys_place(sheet: Path) -> N
     assert "handed in as ada@x's, and names 'bob@x'" in ada["doubt"]
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("rows", "why"),
     [
@@ -148,6 +150,7 @@ def test_what_cannot_be_read_is_told(rows: Any, why: str, sheet: Path) -> None:
     assert why in told["error"]
 
 
+@pytest.mark.sweep
 def test_points_of_a_person_come_back(sheet: Path) -> None:
     """Decided: 1 of 3 for the equation, so 2 of 4. A row for who gains by that, and for who had no points there."""
     folder = sheet.parent

@@ -216,6 +216,7 @@ def test_a_row_for_each_different_answer(course: Course) -> None:
     assert {(r["points"], r["remark"], r["decided_by"]) for r in rows} == {("", "", "")}
 
 
+@pytest.mark.sweep
 def test_beside_a_file_it_is_called_after_it(course: Course) -> None:
     course.grade(out=str(course.folder / "one.jsonl"))
     names = {path.name for path in course.folder.iterdir()}
@@ -252,6 +253,7 @@ def test_no_cell_begins_as_a_formula_does(course: Course) -> None:
 # what a person decides
 
 
+@pytest.mark.sweep
 def test_what_a_person_decides_holds_for_all_and_for_later_ones(course: Course) -> None:
     course.grade()
     table = course.fill({UNREAD: "3", "'3 = 2": "0"}, remark="The particle is A.", decided_by="Dr. Ng")
@@ -275,6 +277,7 @@ def test_what_a_person_decides_holds_for_all_and_for_later_ones(course: Course) 
     assert rows[3]["remark"] == "The particle is A."
 
 
+@pytest.mark.sweep
 def test_the_function_takes_a_review_too(course: Course) -> None:
     course.grade()
     table = course.fill({UNREAD: "3"}, decided_by="Ng")
@@ -288,6 +291,7 @@ def test_the_function_takes_a_review_too(course: Course) -> None:
         dofkit.grade(SHEET, given, reviewed=table)
 
 
+@pytest.mark.sweep
 def test_without_a_name_it_was_the_review(course: Course) -> None:
     course.grade()
     course.grade("--reviewed", str(course.fill({UNREAD: "4"})))
@@ -336,6 +340,7 @@ SAVED: dict[str, Callable[[list[dict[str, str]]], bytes]] = {
 }
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("way", list(SAVED))
 def test_tables_are_read_as_spreadsheets_save_them(way: str, course: Course) -> None:
     course.grade()
@@ -393,6 +398,7 @@ def test_a_table_that_is_none(text: str, said: str, tmp_path: Path) -> None:
     assert all(fault.line and fault.column for fault in caught.value.faults)
 
 
+@pytest.mark.sweep
 def test_rows_of_a_question_that_is_no_more_are_kept(course: Course) -> None:
     course.grade()
     course.fill({UNREAD: "3", "'2 or 3": "1"})
@@ -412,6 +418,7 @@ def shown_points(form: str, out: Path, stdout: str) -> str:
     return out.read_text() if out.is_file() else stdout
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     "form",
     [
@@ -456,6 +463,7 @@ def test_any_number_of_workers_decides_the_same(course: Course) -> None:
     assert '"decided_by":"review"' in one
 
 
+@pytest.mark.sweep
 def test_reading_alone_and_certificates_go_with_it(course: Course) -> None:
     course.grade()
     table = course.fill({UNREAD: "3"})
@@ -481,6 +489,7 @@ def test_a_table_that_is_not_there_is_told(course: Course) -> None:
     assert not course.out.exists()
 
 
+@pytest.mark.sweep
 def test_a_review_within_the_folder_of_answers_is_no_submission(course: Course) -> None:
     folder = course.folder / "answers"
     folder.mkdir()
@@ -495,6 +504,7 @@ def test_a_review_within_the_folder_of_answers_is_no_submission(course: Course) 
 # the pages
 
 
+@pytest.mark.sweep
 def test_the_pages_show_answers_as_typed_and_no_codes(course: Course) -> None:
     course.hand_in([(f"s{i}", {"rod": UNREAD if i < 8 else "x_A = 1", "f": "7"}) for i in range(15)])
     course.grade("--format", "html")
@@ -549,6 +559,7 @@ def test_results_are_written_for_another_platform_without_grading_again(course: 
     assert "So be it." in page
 
 
+@pytest.mark.sweep
 def test_results_of_another_assignment_are_not_taken(course: Course) -> None:
     course.grade()
     out = str(course.folder / "x.csv")
@@ -564,6 +575,7 @@ def test_results_of_another_assignment_are_not_taken(course: Course) -> None:
     assert not Path(out).exists()
 
 
+@pytest.mark.sweep
 def test_the_review_says_what_a_students_own_problem_says(course: Course) -> None:
     """The rod's length for each, and what is right of it."""
     students = [{"student": name} for name in ("ana", "bo")]

@@ -131,6 +131,7 @@ def test_an_equation_gets_other_numbers_and_its_key_follows() -> None:
     assert all(text.startswith("x^2 + ") for text in texts), "an exponent is no number to exchange"
 
 
+@pytest.mark.sweep
 def test_support_in_motion_where_the_problem_says_so() -> None:
     aspects = ["names", "supports"]
     prepared = varied(problem("p", PENDULUM, {"ask": "dof"}, LABEL, vary=aspects), students=20)
@@ -248,6 +249,7 @@ def test_a_stream_is_even_and_depends_on_every_mark() -> None:
 # grading
 
 
+@pytest.mark.sweep
 def test_everyone_is_graded_by_their_own_key() -> None:
     prepared = varied(SHEET[2], SHEET[1], students=8)
     grader = Grader(prepared)
@@ -291,6 +293,7 @@ def test_what_a_person_decides_counts_for_one_variant() -> None:
     assert len(ids) == 2
 
 
+@pytest.mark.sweep
 def test_a_platform_says_whose_sheet_it_is(tmp_path: Path) -> None:
     """Whatever the file and what is in it are called; nobody's and a group's are not graded by somebody's key."""
     prepared = varied(SHEET[1], students=2)

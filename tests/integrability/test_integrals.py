@@ -277,6 +277,7 @@ def test_the_same_form_always_gives_the_same_integral() -> None:
         assert len({integrate(pfaffian(text), frozenset()) for _ in range(3)}) == 1
 
 
+@pytest.mark.sweep
 def test_hard_and_large_forms_end() -> None:
     dense = " + ".join(f"{i} x^{i % 4} y^{i % 3} z^{i % 5} sin(theta + {i} x) exp(k y)" for i in range(1, 12))
     texts = (

@@ -47,6 +47,7 @@ def test_a_false_claim_ends_with_1(made: dict[str, Any], capsys: pytest.CaptureF
     assert "failed     /dof by" in out
 
 
+@pytest.mark.sweep
 def test_what_is_uncovered_ends_with_1_where_it_is_strict(
     made: dict[str, Any], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -72,6 +73,7 @@ def test_what_is_no_certificate_ends_with_2(text: str, tmp_path: Path, capsys: p
     assert json.loads(out)["error"]["message"]
 
 
+@pytest.mark.sweep
 def test_another_scene_ends_with_2(made: dict[str, Any], capsys: pytest.CaptureFixture[str]) -> None:
     status, _, err = called(capsys, "verify", "four-bar-linkage", str(made["place"]))
     assert status == 2
@@ -113,6 +115,7 @@ def test_the_door_takes_a_scene_in_every_way(tmp_path: Path) -> None:
         dofkit.verify(scene, odd)
 
 
+@pytest.mark.sweep
 def test_a_scene_in_other_words_is_verified_in_standard_ones(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -130,6 +133,7 @@ def test_a_scene_in_other_words_is_verified_in_standard_ones(
         assert "failed" not in out
 
 
+@pytest.mark.sweep
 def test_equations_of_motion_have_a_certificate(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A bead on a parabola: one claim, which is verified, and refused for another mass."""
     scene, place = tmp_path / "bead.yaml", tmp_path / "why" / "bead.json"

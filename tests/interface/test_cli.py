@@ -90,6 +90,7 @@ def test_long_lines_are_cut_around_the_mark(tmp_path: Path, capsys: pytest.Captu
     assert shown[mark.index("^") :].startswith("thta")
 
 
+@pytest.mark.sweep
 def test_standard_input_is_a_file() -> None:
     told = run("classify", "--json", "-", stdin=GOOD.encode())
     assert (told.returncode, lines(told.stdout.decode())[0]["scene"]) == (0, "stdin")
@@ -112,6 +113,7 @@ dofkit.interface.cli.main()
 """
 
 
+@pytest.mark.sweep
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="what is changed here is not seen by a process of its own")
 @pytest.mark.parametrize("error", ["ValueError('boom\\nboom')", "RecursionError()", "DofkitError('no')"])
 def test_an_internal_error_does_not_stop_the_others(files: Path, error: str) -> None:

@@ -35,6 +35,7 @@ def words(html: str) -> str:
     return " ".join(re.sub(r"<[^>]*>", " ", html).split())
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(("command", "asked"), [("classify", dofkit.classify), ("lagrange", dofkit.lagrange)])
 def test_print_writes_what_the_command_line_does(command: str, asked: Callable[[str], object]) -> None:
     name = "mass-on-spring"

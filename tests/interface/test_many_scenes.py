@@ -54,6 +54,7 @@ def door(tmp_path: Path) -> str:
 # Many
 
 
+@pytest.mark.sweep
 def test_more_than_three_scenes_are_a_line_each_and_a_summary(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = called(capsys, "classify", *FOUR)
     lines = out.splitlines()
@@ -80,11 +81,13 @@ def test_three_are_in_full_and_so_are_all_that_are_asked_for(capsys: pytest.Capt
     assert "scenes in" not in called(capsys, "classify", FOUR[0])[1]
 
 
+@pytest.mark.sweep
 def test_json_has_neither_summary_nor_headline(capsys: pytest.CaptureFixture[str]) -> None:
     _, out, _ = called(capsys, "classify", "--json", *FOUR)
     assert [json.loads(line)["scene"] for line in out.splitlines()] == list(FOUR)
 
 
+@pytest.mark.sweep
 def test_what_cannot_be_read_and_what_is_otherwise_than_expected_is_counted(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -152,6 +155,7 @@ def test_only_some_fields(capsys: pytest.CaptureFixture[str]) -> None:
     assert "did you mean 'dof'?" in err
 
 
+@pytest.mark.sweep
 def test_without_a_constraint(door: str, capsys: pytest.CaptureFixture[str]) -> None:
     """A door on two hinges: of the second hinge's 5 equations none is needed."""
     _, out, _ = called(capsys, "classify", "--without", "upper", door)
@@ -195,6 +199,7 @@ def test_what_is_undecided_is_not_said_to_be_the_same() -> None:
 # Exit status
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("text", "what"),
     [
@@ -300,6 +305,7 @@ def test_short_help(command: list[str], capsys: pytest.CaptureFixture[str]) -> N
     assert "Usage: " in out
 
 
+@pytest.mark.sweep
 def test_shells_complete_names(capfd: pytest.CaptureFixture[str]) -> None:
     def completed(words: str) -> list[str]:
         asked = {"_DOFKIT_COMPLETE": "complete_bash", "COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
@@ -366,6 +372,7 @@ def test_forced_colours_are_in_reports_lines_and_faults(monkeypatch: pytest.Monk
 # Watching
 
 
+@pytest.mark.sweep
 @pytest.mark.skipif(os.name == "nt", reason="Windows cannot interrupt one process alone")
 def test_a_file_is_watched(tmp_path: Path) -> None:
     file = tmp_path / "scene.yaml"

@@ -114,6 +114,7 @@ def test_most_scenes_are_answered_by_one_engine_alone() -> None:
     assert {name for names in left for name in names} <= {path.stem for path in SCENES}
 
 
+@pytest.mark.sweep
 def test_every_known_difference_is_one() -> None:
     for name, method in KNOWN:
         path = next(p for p in SCENES if p.stem == name)

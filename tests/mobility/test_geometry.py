@@ -414,6 +414,7 @@ def test_what_is_special_or_far_from_it_is_not_nearly_so(off: str) -> None:
     assert not any("nearly dependent" in warning for warning in three_bars(off).warnings)
 
 
+@pytest.mark.sweep
 def test_no_scene_of_the_tables_is_nearly_dependent() -> None:
     names = [row[0] for row in COUNTS] + [row[0] for row in GENERIC]
     assert not any("nearly dependent" in warning for name in names for warning in told(name).warnings)

@@ -236,6 +236,7 @@ def answers(told: dofkit.Linkage) -> dict[str, Any]:
     }
 
 
+@pytest.mark.sweep
 @settings(max_examples=700)
 @given(graphs())
 def test_rank_at_random_positions(graph: tuple[int, int, list[tuple[int, int]]]) -> None:
@@ -315,6 +316,7 @@ def test_larger_graphs(seed: int, d: int) -> None:
     assert list(dofkit.linkage(links, d).redundant_places) == Positions(26, d).basis(links)[1]
 
 
+@pytest.mark.sweep
 @pytest.mark.xdist_group("compiled")
 @pytest.mark.parametrize("d", [1, pytest.param(2, marks=pytest.mark.sweep)])
 def test_compiled_loops_give_the_same(d: int, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -444,6 +446,7 @@ def test_a_core_too_large_for_a_dense_matrix(monkeypatch: pytest.MonkeyPatch) ->
         _ = dofkit.linkage(BANANAS, 3).clusters
 
 
+@pytest.mark.sweep
 def test_every_run_gives_the_same() -> None:
     script = (
         "import dofkit, random; rng = random.Random(5); names = [chr(65 + i) for i in range(20)]\n"

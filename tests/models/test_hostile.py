@@ -80,6 +80,7 @@ def test_what_is_too_large_is_refused_in_time(name: str) -> None:
     assert time.process_time() - start < 10
 
 
+@pytest.mark.sweep
 def test_a_tree_of_a_thousand_links_is_read() -> None:
     """A chain as long as Python's own stack is deep."""
     links = "".join(f"<link name='l{k}'/>" for k in range(1500))

@@ -68,6 +68,7 @@ def compared(seed: int) -> str:
     return "right" if report.singular is not False or report.dof == left else f"{seed}: dof {report.dof} for {left}"
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.sweep) for k in (1, 2))])
 def test_random_models_have_the_freedom_of_mujocos_rank(seed: int) -> None:
     assert compared(seed) == "right"

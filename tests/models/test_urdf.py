@@ -135,6 +135,7 @@ def test_a_link_of_two_parents_closes_a_loop() -> None:
     assert (report.dof, report.redundant) == (1, ["two"])
 
 
+@pytest.mark.sweep
 def test_a_joint_that_closes_a_loop_may_stand_elsewhere_than_at_0() -> None:
     """The rocker stands at (4, 2) turned by a right angle against the rod, and its arm reaches back to (1, 2)."""
     turned = (*OPEN_LOOP[:6], joint("D", "continuous", "base", "rocker", "<origin xyz='4 2 0' rpy='0 0 0.5'/>" + Z))

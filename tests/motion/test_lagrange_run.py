@@ -316,6 +316,7 @@ def test_a_longer_chain_is_not_much_more_work(made: Callable[[int], Scene]) -> N
     assert five < 15 * three
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("n", [3, swept(5)])
 @pytest.mark.parametrize("made", [chain_in_angles, chain_in_all])
 def test_a_chain_of_pendulums(made: Callable[[int], Scene], n: int) -> None:
@@ -332,6 +333,7 @@ def test_a_chain_of_pendulums(made: Callable[[int], Scene], n: int) -> None:
         assert vanishes(zero(text, names) - expected)
 
 
+@pytest.mark.sweep
 def test_the_command_line(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     def run(*arguments: str) -> tuple[int, str]:
         monkeypatch.setattr("sys.argv", ["dofkit", *arguments])

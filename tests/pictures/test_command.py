@@ -22,6 +22,7 @@ def test_several_go_to_a_folder_and_a_bad_one_stops_none(capsys: pytest.CaptureF
     assert "there is no file 'nosuch'" in err
 
 
+@pytest.mark.sweep
 def test_each_command_names_its_files(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -37,6 +38,7 @@ def test_each_command_names_its_files(
     ]
 
 
+@pytest.mark.sweep
 def test_what_is_no_picture_is_told(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     status, _, err = called(capsys, "draw", "four-bar-linkage", "--out", str(tmp_path / "a.jpg"))
     assert status == 2

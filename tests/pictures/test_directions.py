@@ -73,6 +73,7 @@ def test_the_picture_tells_the_growth_and_what_is_shown() -> None:
     assert {"X1", "X2", "[X1, X2]"} <= names
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("text", ["xdot^2 + ydot^2 = zdot^2", "xdot ydot = 0"])
 def test_what_is_not_linear_in_velocities_has_no_directions(text: str) -> None:
     """No field of planes is what a cone of velocities allows, and none of its directions is a motion by itself."""

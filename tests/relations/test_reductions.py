@@ -56,6 +56,7 @@ def test_every_reduction_says_what_it_leaves_out_and_has_scenes() -> None:
     assert all(reduction.title and reduction.leaves_out and reduction.sound for reduction in REDUCTIONS.values())
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("name", REDUCTIONS)
 def test_what_a_reduction_leaves_out_changes_no_answer(name: ReductionName) -> None:
     n = SCENES[name].quick

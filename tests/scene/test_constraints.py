@@ -123,7 +123,7 @@ def test_a_type_is_found_where_it_is() -> None:
 
 
 def test_a_type_that_no_table_names_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delitem(constraints._HOMES, "cam")
+    monkeypatch.delitem(constraints._FILES, "cam")
     monkeypatch.setattr(constraints, "_all_classes", constraints._all_classes.__wrapped__)
     assert list(TYPES)[-2:] == ["coupling", "cam"]
     assert TYPES["cam"].kind() == "cam"

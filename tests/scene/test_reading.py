@@ -252,6 +252,7 @@ def test_anchors_and_merges_are_read() -> None:
     assert [constraint.in_words for constraint in scene.constraints] == ["link A-B", "link B-C", "link A-B"]
 
 
+@pytest.mark.sweep
 def test_a_fault_at_the_end_of_a_long_list_has_its_place() -> None:
     count = 5000
     entries = "".join(f"- {{type: link, between: [P{i}, P{i + 1}]}}\n" for i in range(count))

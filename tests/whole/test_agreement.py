@@ -35,6 +35,7 @@ def redundant_bars(drawn: Framework) -> list[int]:
     return sorted(found)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("dimension", DIMENSIONS)
 def test_the_graph_agrees_with_the_matrix_in_general_position(dimension: int) -> None:
     """The same redundant bars by name, the same freedom by exact rank, by a random prime and by singular values."""
@@ -47,6 +48,7 @@ def test_the_graph_agrees_with_the_matrix_in_general_position(dimension: int) ->
         assert drawn.by_prime(2**61 - 1) == drawn.by_svd() == drawn.by_rank()
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("dimension", DIMENSIONS)
 def test_scenes_agree_with_the_graph_in_general_position(dimension: int) -> None:
     """Without positions, and with random ones; by both engines and by each alone."""
@@ -65,6 +67,7 @@ def test_scenes_agree_with_the_graph_in_general_position(dimension: int) -> None
         assert (report.instantaneous_dof, report.singular) == (dof, False)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("dimension", [*DIMENSIONS[:-1], pytest.param(DIMENSIONS[-1], marks=pytest.mark.sweep)])
 def test_special_positions(dimension: int) -> None:
     """On a small grid: velocities by the exact rank; freedom between that and the count, by each engine."""
@@ -104,6 +107,7 @@ def test_trees_of_bodies(dimension: int) -> None:
         agrees(tree(rng, dimension, rng.randrange(1, 8)))
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_loops_of_bodies(dimension: int) -> None:
     rng = random.Random(f"loops {dimension}")

@@ -166,6 +166,7 @@ def test_chained_forms_in_any_coordinates_are_non_holonomic(seed: int) -> None:
         assert report.growth_vector in (list(range(2, n + 1)), None)
 
 
+@pytest.mark.sweep
 @seeds(6)
 def test_one_contact_form_among_differentials(seed: int) -> None:
     """dz - y dx with m differentials of functions of other coordinates: a row that holds none of it integrates."""

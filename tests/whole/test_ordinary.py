@@ -171,6 +171,7 @@ def test_an_open_tree_has_the_freedom_of_its_joints(seed: int) -> None:
         assert (entry.form, entry.holonomic, entry.scleronomic, entry.circuit) == ("finite", True, True, None)
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("bodies", "loops", "seed"), [(8, 2, 0), (12, 3, 1), pytest.param(43, 10, 2, marks=pytest.mark.sweep)]
 )
@@ -240,6 +241,7 @@ FIVE = [(1, 0), (3, 4), (-5, 12), (-4, -3), (5, -12)]
 VERTICES = [FIVE, [(1, 0), (3, 4), (-3, 4), (-5, -12), (5, -12)], [*FIVE[:4], (-1, -7), FIVE[4]]]
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("turned", "shift", "order"), [(False, (0, 0, 0), None), (True, (7, -3, 2), 1), (False, (70, -30, 20), 2)]
 )

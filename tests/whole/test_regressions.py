@@ -328,6 +328,7 @@ def test_time_that_stands_still_is_not_a_proved_motion(constraints: list[str]) -
     assert report.consistent is False or report.verdict == "undecided"
 
 
+@pytest.mark.sweep
 def test_a_long_flag_is_followed_to_its_end() -> None:
     """Fifty chained forms: 51 brackets, more than the orders that a curve was followed to."""
     names = [f"z{i}" for i in range(52)]
@@ -337,6 +338,7 @@ def test_a_long_flag_is_followed_to_its_end() -> None:
     assert report.growth_vector == list(range(2, 54))
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize("size", ["1/3", "3"])
 def test_a_form_that_is_zero_but_for_rounding_is_no_form(size: str) -> None:
     """Sarrus's linkage with both chains stretched, any size: alpha = beta and alpha = -beta cross."""

@@ -232,6 +232,7 @@ def three_cranks(coordinates: str, *constraints: str, **more: Any) -> dict[str, 
     }
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("made", "dof", "velocity_dof"),
     [

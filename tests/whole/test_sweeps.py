@@ -33,6 +33,7 @@ def told(case: Case) -> tuple[list[str], list[str]]:
 COARSE = "scaled and moved, with tolerance"
 
 
+@pytest.mark.sweep
 @pytest.mark.parametrize(
     ("sweep", "step"), [case for name in SWEEPS if name != COARSE for case in [pytest.param(name, 6), swept(name, 1)]]
 )

@@ -162,6 +162,7 @@ def test_a_constraint_alone_is_what_sympy_works_out(path: Path) -> None:
         assert entry.catastatic in (None, catastatic), entry.name
 
 
+@pytest.mark.sweep
 def test_many_scenes_are_worked_out() -> None:
     """Scenes with differential constraints whose relations this route can read and solve."""
     assert sum(map(can_be_solved, SCENES)) >= 115

@@ -30,7 +30,7 @@ __all__ = ["TYPES", "AnyConstraint", "ConstraintBase", "OneConstraint"]
 
 #: The file of each type, in the order of the contract's table. What is not in it comes after, by name, and is found by
 #: looking through all files.
-_HOMES = {
+_FILES = {
     "equation": "equations", "on": "equations", "link": "distances", "rigid": "distances", "fixed": "places",
     "revolute": "plane_and_space", "prismatic": "plane_and_space", "weld": "plane_and_space", "cylindrical": "spatial",
     "screw": "spatial", "universal": "spatial", "spherical": "spatial", "planar": "spatial", "coincident": "places",
@@ -43,10 +43,10 @@ class ConstraintTypes(Mapping[str, type[ConstraintBase]]):
 
     def __getitem__(self, kind: str) -> type[ConstraintBase]:
         """The class of a type. Raises KeyError where there is no such type."""
-        return (_classes(_HOMES[kind]) if kind in _HOMES else _all_classes())[kind]
+        return (_classes(_FILES[kind]) if kind in _FILES else _all_classes())[kind]
 
     def __contains__(self, kind: object) -> bool:
-        return kind in _HOMES or kind in _all_classes()
+        return kind in _FILES or kind in _all_classes()
 
     def __iter__(self) -> Iterator[str]:
         return iter(_all_classes())
@@ -71,7 +71,7 @@ def _classes(file: str) -> dict[str, type[ConstraintBase]]:
 def _all_classes() -> dict[str, type[ConstraintBase]]:
     """The classes of all modules of this folder."""
     found = {kind: cls for path in Path(__file__).parent.glob("[!_]*.py") for kind, cls in _classes(path.stem).items()}
-    first = {kind: found.pop(kind) for kind in _HOMES}
+    first = {kind: found.pop(kind) for kind in _FILES}
     return {**first, **dict(sorted(found.items()))}
 
 
