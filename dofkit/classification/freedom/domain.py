@@ -173,7 +173,10 @@ def _witness_within(block: Block, result: Answer) -> bool:
         return True
     if result.witness is None:
         return False
-    known = {s: Fraction(text) for s, text in result.witness.items()}
+    try:
+        known = {s: Fraction(text) for s, text in result.witness.items()}
+    except ValueError:  # of a reference, written with roots
+        return False
     there = [(c, interval_of(c.expr, known)) for c in block.conditions]
     return all(v is not None and not v.contains(0) and (c.sense == "!=" or bool(v > 0)) for c, v in there)
 
