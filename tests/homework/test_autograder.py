@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from shared.known_scenes import swept
 from typer.testing import CliRunner
 
 from dofkit.homework import export, notebooks, otter, stand_ins
@@ -254,7 +255,7 @@ def other(folder: Path) -> None:
     hand_in(folder, essay__pdf="%PDF", script__py="import os")
 
 
-@pytest.mark.parametrize("site", ["gradescope", "prairielearn", "coursera"])
+@pytest.mark.parametrize("site", ["gradescope", swept("prairielearn"), swept("coursera")])
 @pytest.mark.parametrize(
     ("make", "why"),
     [

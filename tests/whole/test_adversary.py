@@ -165,7 +165,12 @@ def short() -> list[Any]:
     kinds = [(k, kind) for k, kind in enumerate(KINDS) if kind not in OPEN]
     plainly = [Trial(kind, 1, 0) for _, kind in kinds]
     disguised = [Trial(kind, 2, 0, ((worn[k % len(worn)], k),)) for k, kind in kinds]
-    return plainly + disguised[::4] + [swept(t) for k, t in enumerate(disguised) if k % 4]
+    return (
+        plainly[::2]
+        + [swept(t) for t in plainly[1::2]]
+        + disguised[::4]
+        + [swept(t) for k, t in enumerate(disguised) if k % 4]
+    )
 
 
 @pytest.mark.parametrize("trial", short(), ids=str)

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from shared.known_scenes import CATALOG, ROOT, SCENES, report_of, scene_of, stem
+from shared.known_scenes import CATALOG, EVERY, ROOT, SCENES, report_of, scene_of, stem
 
 import dofkit
 import dofkit.base.documents
@@ -189,7 +189,7 @@ def test_integrals_are_compared_as_families(one: str, other: str, same: bool) ->
 # The scenes
 
 
-@pytest.mark.parametrize("path", SCENES, ids=stem)
+@pytest.mark.parametrize("path", EVERY, ids=stem)
 def test_the_report_holds_what_the_scene_expects(path: Path) -> None:
     scene = scene_of(path)
     assert scene.expect

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from shared.known_scenes import SCENES, VARIED, dealt, few, report_of, scene_of, stem
+from shared.known_scenes import EVERY, SCENES, VARIED, dealt, few, report_of, scene_of, stem
 
 import dofkit
 from dofkit.base.verdicts import weakest
@@ -35,7 +35,7 @@ LABELS = ("form", "holonomic", "holonomic_alone", "scleronomic", "catastatic", "
 STORY = ("title", "source", "notes", "expect", "energies")
 
 
-every_scene = pytest.mark.parametrize("path", SCENES, ids=stem)
+every_scene = pytest.mark.parametrize("path", EVERY, ids=stem)
 
 
 def on(what: str, paths: Sequence[Path]) -> pytest.MarkDecorator:
