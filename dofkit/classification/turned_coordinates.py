@@ -162,6 +162,7 @@ def are_coordinates(group: TurnedGroup, chosen: Collection[str], setting: Settin
 
     Their differentials and the rows of the relations have full rank there: a minor's ball excludes 0.
     """
+    chosen = frozenset(chosen)
     own = [name for name in group.block.coordinates if name in chosen]
     if chosen_at_drawing(group, setting, turning) == own:
         return True
