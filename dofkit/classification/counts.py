@@ -16,7 +16,7 @@ from dofkit.mobility.general_position import General, has_geometry, in_general_p
 from dofkit.mobility.kutzbach import kutzbach_count
 from dofkit.mobility.near_dependence import MOST, nearly_dependent
 from dofkit.mobility.placement import Placement, drawn_placement, measured_placement
-from dofkit.relations.normal.normal_form import Finite
+from dofkit.relations.normal.pieces import Finite
 from dofkit.report import Generic, Mobility
 
 if TYPE_CHECKING:

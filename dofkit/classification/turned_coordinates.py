@@ -29,7 +29,7 @@ from dofkit.relations.blocks import Block
 from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.joint_equations import JointEquation
-from dofkit.relations.normal.normal_form import Finite
+from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import NamedRows, Setting
 from dofkit.system import Rotation
 

@@ -29,7 +29,7 @@ from dofkit.expressions.terms import linear_terms, number_and_rest
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block
-from dofkit.relations.normal.normal_form import Finite, Pfaffian, Piece
+from dofkit.relations.normal.pieces import Finite, Pfaffian, Piece
 from dofkit.relations.setting import Setting
 
 METHOD = "exact elimination over the rationals"

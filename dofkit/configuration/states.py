@@ -30,7 +30,8 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.beside_others import form_rate, rate
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.chart_of_block import aliases
-from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian, linear_form, velocities_of
+from dofkit.relations.normal.normal_form import linear_form, velocities_of
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
 
 #: Draws of one state from which the one that is taken has to come.

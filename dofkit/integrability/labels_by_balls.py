@@ -16,7 +16,7 @@ from dofkit.integrability.lie_algebra_at_points import ball_span
 from dofkit.integrability.pfaffian_system import Codistribution, linear_rows
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
-from dofkit.relations.normal.normal_form import Finite
+from dofkit.relations.normal.pieces import Finite
 
 
 def _gap(span: Span) -> float:

@@ -29,7 +29,7 @@ from dofkit.integrability.shared_forms import CurlAtPoint
 from dofkit.integrability.single_form import proof
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
-from dofkit.relations.normal.normal_form import Finite, Pfaffian, Still, with_constants
+from dofkit.relations.normal.pieces import Finite, Pfaffian, Still, with_constants
 from dofkit.relations.setting import Setting
 
 #: Lie algebras are certified with balls up to this many columns.

@@ -29,7 +29,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, split, uses_time
 from dofkit.relations.chart_of_block import make_chart
-from dofkit.relations.normal.normal_form import Pfaffian
+from dofkit.relations.normal.pieces import Pfaffian
 from dofkit.relations.setting import Setting
 
 #: Decimals that were measured are no exact numbers, to which a form would have to be put.

@@ -35,7 +35,7 @@ from dofkit.integrability.pfaffian_system import Codistribution, codistribution
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.beside_others import RewrittenRow
 from dofkit.relations.blocks import Block, coordinates_of
-from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
 
 #: Velocities of the Lie algebra that are tried at a point, and states at which a reduction is checked.

@@ -21,7 +21,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, uses_time
 from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
-from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
 
 

@@ -23,7 +23,8 @@ from dofkit.expressions.calculus import diff
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.normal_form import Finite, Inequality, Pfaffian, Piece, velocities_of
+from dofkit.relations.normal.normal_form import velocities_of
+from dofkit.relations.normal.pieces import Finite, Inequality, Pfaffian, Piece
 from dofkit.relations.normal.zero_set import never_vanishes
 
 TraitAnswer = tuple[bool | None, Verdict]

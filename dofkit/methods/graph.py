@@ -15,7 +15,7 @@ from dofkit.mobility.placement import general_placement
 from dofkit.mobility.twists import rows_of
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Row, split
-from dofkit.relations.normal.normal_form import Finite
+from dofkit.relations.normal.pieces import Finite
 from dofkit.report import Generic
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene

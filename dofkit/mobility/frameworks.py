@@ -19,7 +19,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.mobility.graph.answers import linkage
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row
-from dofkit.relations.normal.normal_form import Finite
+from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 from dofkit.system import System
 

@@ -23,7 +23,7 @@ from dofkit.mobility.graph.answers import redundant_links
 from dofkit.mobility.placement import Placement, general_placement
 from dofkit.mobility.twists import rows_of
 from dofkit.relations.blocks import Row
-from dofkit.relations.normal.normal_form import Finite
+from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 from dofkit.system import System
 

@@ -10,7 +10,8 @@ if TYPE_CHECKING:
     from dofkit.relations.answer import Answer
     from dofkit.relations.blocks import Block, Row, split
     from dofkit.relations.chart import Chart
-    from dofkit.relations.normal.normal_form import Finite, Nonlinear, Normal, Pfaffian, normalise
+    from dofkit.relations.normal.normal_form import normalise
+    from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian
     from dofkit.relations.reductions import REDUCTIONS
     from dofkit.relations.setting import Setting
 

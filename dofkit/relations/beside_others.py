@@ -19,7 +19,8 @@ from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.edges import given_by
 from dofkit.relations.normal.elimination import combinations_of
-from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Pfaffian, normalise, velocities_of
+from dofkit.relations.normal.normal_form import normalise, velocities_of
+from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes
 
 #: Ways to split the nonlinear relations that are looked at, rounds of reduction, and relations that are combined.

@@ -14,7 +14,8 @@ from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Pfaffian, Piece, linear_form
+from dofkit.relations.normal.normal_form import linear_form
+from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Pfaffian, Piece
 from dofkit.relations.reductions import Reductions
 
 

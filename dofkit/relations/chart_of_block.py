@@ -12,7 +12,7 @@ from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, expressions, uses_time
 from dofkit.relations.chart import Chart
-from dofkit.relations.normal.normal_form import Finite
+from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.reductions import ReductionName
 from dofkit.relations.setting import Setting
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.unwritten import Unwritten
-from dofkit.relations.normal.normal_form import Finite, Normal
+from dofkit.relations.normal.pieces import Finite, Normal
 from dofkit.system import Relation
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from dofkit.expressions.renaming import Template, order_of, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece
+from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece
 
 #: Under which a piece keeps its shape.
 _SHAPE = "_shape"

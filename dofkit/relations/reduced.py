@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from dofkit.relations.normal.normal_form import Inequality, Normal
+from dofkit.relations.normal.pieces import Inequality, Normal
 from dofkit.system import Constraint
 
 

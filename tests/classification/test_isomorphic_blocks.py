@@ -9,7 +9,7 @@ from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock
 from dofkit.expressions.tree import coordinate
 from dofkit.relations.answer import Answer, AnsweredPart
 from dofkit.relations.blocks import Block, Row
-from dofkit.relations.normal.normal_form import Finite
+from dofkit.relations.normal.pieces import Finite
 
 
 def told(coordinates: str, *constraints: str, **more: Any) -> dofkit.Report:

@@ -5,9 +5,13 @@ from __future__ import annotations
 import pytest
 
 from dofkit.classification.freedom.block import answer
+from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.study import study
-from dofkit.relations.blocks import split
+from dofkit.expressions import tree as ex
+from dofkit.relations.answer import Answer
+from dofkit.relations.blocks import Block, Row, split
+from dofkit.relations.normal.pieces import Finite
 from dofkit.scene.lowering import lower
 from dofkit.scene.reading import load
 
@@ -41,3 +45,18 @@ def test_every_part_is_answered_as_by_itself(names: str, constraints: list[str])
             }
             assert found.verdict == by_itself.verdict or found.verdict == "proved"
             assert parts.of(part) is found
+
+
+def test_what_was_not_seen_of_a_branch_is_bounded() -> None:
+    """A relation leaves 4 of 5 coordinates on a part that was not seen, and 3 of 4 of which nothing is known.
+
+    The freedom of the part that was seen, 1, is no bound. The last coordinate is in no relation.
+    """
+    relation = Row(0, Finite(ex.coordinate("a")))
+    seen = Block(("a", "b", "c", "d", "e"), (relation,)), Answer(True, 1, 1, about="component")
+    unknown = Block(("f", "g", "h", "i"), (relation,)), Answer(True)
+    known = Block(("j", "k"), (relation,)), Answer(True, 1, 1)
+    blocks, answers = zip(seen, unknown, known, strict=True)
+    outcome = Outcome([relation], list(blocks), list(answers), ["l"])
+    assert outcome.dof is None
+    assert outcome.unseen == 1 + 4 + 3 + 1

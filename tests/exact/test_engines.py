@@ -35,7 +35,8 @@ from dofkit.expressions.text import Names, parse_expression, parse_relations, to
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.growth_vector import growth
 from dofkit.integrability.lie_algebra import lie_span
-from dofkit.relations.normal.normal_form import Finite, Nonlinear, Normal, Pfaffian, normalise
+from dofkit.relations.normal.normal_form import normalise
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian
 from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.normal.zero_set import never_vanishes, zero_set
 from dofkit.report import Report

@@ -25,7 +25,8 @@ from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals import antiderivative
 from dofkit.integrability.integrals.algebra import Algebra
 from dofkit.integrability.integrals.search import Integral, integrate
-from dofkit.relations.normal.normal_form import Pfaffian, cleared, in_velocities, linear_form
+from dofkit.relations.normal.normal_form import cleared, in_velocities, linear_form
+from dofkit.relations.normal.pieces import Pfaffian
 
 COORDINATES = ("x", "y", "z", "s", "r", "phi", "theta")
 PARAMETERS = ("R", "a", "b", "k", "v", "l", "C")

@@ -7,7 +7,6 @@ import os
 import signal
 import subprocess
 import sys
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -298,7 +297,6 @@ def test_a_killed_run_goes_on_where_it_stopped(tmp_path: Path) -> None:
 
 
 @pytest.mark.sweep
-@pytest.mark.skipif(find_spec("distributed") is None, reason="a cluster: pip install 'dofkit[sweep]'")
 def test_a_cluster_gives_the_same_reports(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     import distributed
 

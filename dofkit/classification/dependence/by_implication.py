@@ -12,7 +12,7 @@ from dofkit.base.verdicts import About
 from dofkit.classification.dependence.circuits import Redundancies, left_open
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.through_reference import all_of
-from dofkit.relations.normal.normal_form import Finite, Normal
+from dofkit.relations.normal.pieces import Finite, Normal
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 

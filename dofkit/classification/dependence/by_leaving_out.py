@@ -19,7 +19,7 @@ from dofkit.classification.dependence.implications import Everywhere, NearDrawin
 from dofkit.classification.freedom.through_reference import all_of
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row
-from dofkit.relations.normal.normal_form import Finite, Still
+from dofkit.relations.normal.pieces import Finite, Still
 from dofkit.relations.setting import Setting
 
 

@@ -19,7 +19,7 @@ from dofkit.exact.solving.ideals import complex_dimension
 from dofkit.expressions import tree as ex
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, coordinates_of
-from dofkit.relations.normal.normal_form import Finite
+from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 

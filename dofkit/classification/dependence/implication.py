@@ -25,7 +25,7 @@ from dofkit.relations.beside_others import MAX_WAYS, Way, form_rate, ways_of
 from dofkit.relations.blocks import Row, coordinates_of, split
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece
+from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece
 from dofkit.relations.setting import Setting
 
 #: No coordinate has this name.

@@ -14,7 +14,7 @@ from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.normal_form import Finite, Inequality, Normal
+from dofkit.relations.normal.pieces import Finite, Inequality, Normal
 from dofkit.relations.setting import Setting
 
 #: Random points at which signs are compared, and how far out they lie.

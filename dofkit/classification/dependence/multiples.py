@@ -16,7 +16,7 @@ from dofkit.exact.ring.canonical import Canon, Poly
 from dofkit.exact.ring.instructions import POW
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import ZERO, Expr
-from dofkit.relations.normal.normal_form import Finite, Normal, Pfaffian
+from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian
 from dofkit.relations.reduced import Reduced
 
 #: Generators of a ring that have a value everywhere.

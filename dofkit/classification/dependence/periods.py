@@ -12,7 +12,7 @@ from dofkit.classification.dependence.implication import follows
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import replace_nodes
 from dofkit.expressions.tree import PI, Expr
-from dofkit.relations.normal.normal_form import Finite, Normal
+from dofkit.relations.normal.pieces import Finite, Normal
 from dofkit.relations.setting import Setting
 
 #: (function, its value) -> the first angle with this value, and the period, in units of pi.

@@ -9,7 +9,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from dofkit.base.components import components
-from dofkit.base.deadline import OutOfTimeError, unless_late
+from dofkit.base.deadline import unless_late
 from dofkit.base.libraries import LateLibrary
 from dofkit.classification.dependence.by_implication import MAX_CHOICES, implied
 from dofkit.classification.dependence.by_rank import analysed, at_a_point, holds_where, joined_parts, without_hidden
@@ -20,7 +20,7 @@ from dofkit.classification.freedom.through_reference import through_reference
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear
+from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 
@@ -56,10 +56,8 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
 
 def _or_open(work: Callable[[], list[Redundancies]], numbers: Sequence[int]) -> list[Redundancies]:
     """What is found of some constraints; where there is no time for it they are left open."""
-    try:
-        return work()
-    except OutOfTimeError:
-        return [left_open(numbers)]
+    found = unless_late(work, None)
+    return [left_open(numbers)] if found is None else found
 
 
 def all_needed(found: Sequence[Redundancies], reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:

@@ -20,7 +20,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.normal_form import Finite, Piece
+from dofkit.relations.normal.pieces import Finite, Piece
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 

@@ -19,7 +19,7 @@ from dofkit.exact.ring.program import values
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.chart_of_block import make_chart
-from dofkit.relations.normal.normal_form import Finite, Normal, Pfaffian, Piece
+from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian, Piece
 from dofkit.relations.normal.polynomial_zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting

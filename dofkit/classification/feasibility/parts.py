@@ -15,7 +15,8 @@ from dofkit.relations.beside_others import form_rate, rate
 from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.integration_constants import with_rows
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.normal_form import Finite, Inequality, Nonlinear, Pfaffian, Still, velocities_of
+from dofkit.relations.normal.normal_form import velocities_of
+from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Pfaffian, Still
 from dofkit.relations.reduced import Reduced
 
 #: Choices of branches that are looked at.

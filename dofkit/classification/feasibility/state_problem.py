@@ -24,7 +24,8 @@ from dofkit.relations.beside_others import form_rate, rate
 from dofkit.relations.blocks import Row
 from dofkit.relations.linear import presolve
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian, velocities_of
+from dofkit.relations.normal.normal_form import velocities_of
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 
 
 @dataclass(frozen=True)

@@ -23,8 +23,8 @@ from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.relations.blocks import Block, Row, blocks_of, split, with_boundaries
 from dofkit.relations.integration_constants import names_in, with_rows
 from dofkit.relations.joint_equations import JointEquation
-from dofkit.relations.normal.normal_form import Inequality, Normal, Still
 from dofkit.relations.normal.one_sided import holds_somewhere
+from dofkit.relations.normal.pieces import Inequality, Normal, Still
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System
@@ -105,7 +105,7 @@ class Outcome:
     def unseen(self) -> int:
         """No part of this branch has more freedom than this, those that were not looked at among them."""
         known = (
-            len(b.coordinates) - bool(b.finite) if a.about == "component" else a.dof or 0
+            _bound(b, a) if a.about == "component" else _most(b, a)
             for b, a in zip(self.blocks, self.answers, strict=True)
         )
         return len(self.untouched) + sum(known)
@@ -117,9 +117,12 @@ class Outcome:
 
 
 def _most(block: Block, a: Answer) -> int:
-    """A bound of a block's freedom: a relation takes at least one away, unless it may hold always unseen."""
-    if a.consistent and a.dof is not None:
-        return a.dof
+    """A block's freedom where it is known, else a bound of it."""
+    return a.dof if a.consistent and a.dof is not None else _bound(block, a)
+
+
+def _bound(block: Block, a: Answer) -> int:
+    """A bound of its freedom on any part: a relation takes at least one away, unless it may hold always unseen."""
     return len(block.coordinates) - (a.doubt is None and bool(block.finite))
 
 

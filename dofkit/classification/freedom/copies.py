@@ -8,7 +8,7 @@ from collections.abc import Hashable, Sequence
 from dofkit.base.deadline import check
 from dofkit.expressions import tree as ex
 from dofkit.relations.joint_equations import JointEquation
-from dofkit.relations.normal.normal_form import Finite, Normal, Pfaffian, Piece
+from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian, Piece
 from dofkit.relations.reduced import Reduced
 
 

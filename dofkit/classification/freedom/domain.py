@@ -37,7 +37,7 @@ from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.normal.domain import DomainCondition, holds_at
 from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.normal_form import Finite
+from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 
 #: Searches for a point, each from other starts.

@@ -13,7 +13,7 @@ from dofkit.integrability.pfaffian_system import Codistribution, codistribution
 from dofkit.integrability.shared_forms import SharedForms, shared_forms
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
-from dofkit.relations.normal.normal_form import Piece
+from dofkit.relations.normal.pieces import Piece
 from dofkit.relations.setting import Setting
 
 #: A part by its coordinates and by which pieces its rows and conditions are.

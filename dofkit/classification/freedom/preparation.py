@@ -17,7 +17,8 @@ from dofkit.expressions.unwritten import Unwritten
 from dofkit.mobility.bridges import Bridges, bridges
 from dofkit.mobility.rows_at_drawing import RowsAtDrawing
 from dofkit.relations.joint_equations import unwritten
-from dofkit.relations.normal.normal_form import Finite, Inequality, Normal, Piece, normalise
+from dofkit.relations.normal.normal_form import normalise
+from dofkit.relations.normal.pieces import Finite, Inequality, Normal, Piece
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
 from dofkit.relations.piece_shapes import NormalTemplate
 from dofkit.relations.reduced import Reduced

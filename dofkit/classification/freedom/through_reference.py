@@ -21,7 +21,8 @@ from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.domain import DomainCondition, has_value, holds_at
-from dofkit.relations.normal.normal_form import Finite, Normal, Piece, normalise, velocities_of
+from dofkit.relations.normal.normal_form import normalise, velocities_of
+from dofkit.relations.normal.pieces import Finite, Normal, Piece
 from dofkit.relations.normal.signs import arguments_of, by_signs
 from dofkit.relations.normal.zero_set import zero_set
 from dofkit.relations.setting import Setting

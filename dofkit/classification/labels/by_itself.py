@@ -16,7 +16,7 @@ from dofkit.classification.labels.entry import LabelledRow
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.integration_constants import with_rows
-from dofkit.relations.normal.normal_form import Inequality, Nonlinear, Pfaffian, Still
+from dofkit.relations.normal.pieces import Inequality, Nonlinear, Pfaffian, Still
 from dofkit.relations.reduced import Reduced
 
 #: Up to this many coordinates, those of one constraint are listed in the scene's order.

@@ -14,7 +14,7 @@ from dofkit.expressions.text import to_text
 from dofkit.integrability.pfaffian_system import codistribution
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, split
-from dofkit.relations.normal.normal_form import Pfaffian
+from dofkit.relations.normal.pieces import Pfaffian
 
 if TYPE_CHECKING:
     from dofkit.integrability import first_integrals

@@ -24,7 +24,7 @@ from dofkit.integrability.modulo_others import label_modulo_others
 from dofkit.relations.answer import GAP
 from dofkit.relations.blocks import Row
 from dofkit.relations.integration_constants import fixed_constants
-from dofkit.relations.normal.normal_form import Nonlinear
+from dofkit.relations.normal.pieces import Nonlinear
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict

@@ -16,16 +16,7 @@ from dofkit.integrability.single_form import Integrability, integrability
 from dofkit.integrability.traits import Traits
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
-from dofkit.relations.normal.normal_form import (
-    Finite,
-    Inequality,
-    Nonlinear,
-    Normal,
-    Pfaffian,
-    Piece,
-    Still,
-    with_constants,
-)
+from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Still, with_constants
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import FORMS, ConstraintEntry, FieldVerdict, Form

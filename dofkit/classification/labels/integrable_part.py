@@ -9,7 +9,7 @@ from dofkit.classification.labels.companions import Companionship
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.expressions.text import to_text
 from dofkit.relations.blocks import Block
-from dofkit.relations.normal.normal_form import Pfaffian
+from dofkit.relations.normal.pieces import Pfaffian
 from dofkit.report import ConstraintEntry, IntegrablePart
 
 

@@ -10,7 +10,7 @@ from dofkit.expressions.tree import TIME
 from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import Answer
 from dofkit.relations.joint_equations import JointEquation
-from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian, Piece
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian, Piece
 from dofkit.relations.piece_shapes import shape_together
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting

@@ -33,7 +33,7 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, expressions
-from dofkit.relations.normal.normal_form import Inequality
+from dofkit.relations.normal.pieces import Inequality
 from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting

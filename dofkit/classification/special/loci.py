@@ -26,7 +26,7 @@ from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, uses_time
 from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
-from dofkit.relations.normal.normal_form import Finite, Pfaffian
+from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.relations.setting import Setting
 
 #: Starts and steps of the search for a real point of a locus; where it is regular a few are enough.

@@ -13,7 +13,7 @@ from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.normal_form import Finite, Normal
+from dofkit.relations.normal.pieces import Finite, Normal
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import SpecialCase

@@ -23,7 +23,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block
-from dofkit.relations.normal.normal_form import Finite, Pfaffian
+from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.relations.setting import Setting
 
 #: Minors, and vectors of the kernel, of which there may be so many; their size.

@@ -22,7 +22,7 @@ from dofkit.motion.lagrange.elimination import ELIMINATIONS
 from dofkit.motion.lagrange.equations import derived_of, read
 from dofkit.motion.lagrange.model import in_velocities
 from dofkit.motion.lagrange.rates import by_time
-from dofkit.relations.normal.normal_form import Finite, Pfaffian
+from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.scene.scene import Scene
 
 #: Points over GF(p), and how many are tried for them.

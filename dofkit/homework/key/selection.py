@@ -13,7 +13,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import ZERO
 from dofkit.methods.classify import classify
-from dofkit.relations.normal.normal_form import Finite, Normal
+from dofkit.relations.normal.pieces import Finite, Normal
 from dofkit.report import Report
 from dofkit.scene.added_equations import read_equations, with_equations
 from dofkit.scene.constraints.equations import Equation

@@ -21,7 +21,7 @@ from dofkit.integrability.integrals.algebra import Algebra, GivenUpError, size
 from dofkit.integrability.integrals.factors import FAMILIES, MAX_VARIABLES
 from dofkit.integrability.integrals.normal_shape import Pair, arranged, cost, shapes, upright
 from dofkit.integrability.integrals.potential import Form, potential
-from dofkit.relations.normal.normal_form import Pfaffian
+from dofkit.relations.normal.pieces import Pfaffian
 
 __all__ = ["Integral", "integrate"]
 

@@ -9,7 +9,8 @@ from dofkit.base.errors import TextError
 from dofkit.expressions import tree as ex
 from dofkit.expressions.differentials import accelerations_of, cleared, in_velocities
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.normal_form import Pfaffian, linear_form, velocities_of
+from dofkit.relations.normal.normal_form import linear_form, velocities_of
+from dofkit.relations.normal.pieces import Pfaffian
 from dofkit.scene.constraints.equations import Equation
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene

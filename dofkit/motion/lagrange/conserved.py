@@ -16,7 +16,7 @@ from dofkit.motion.lagrange.elimination import Remaining
 from dofkit.motion.lagrange.report import Conserved
 from dofkit.motion.lagrange.term_order import ordered
 from dofkit.motion.lagrange.tidying import by_rates, length
-from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 
 #: Seconds for writing the energy shorter.
 SECONDS = 2.0

@@ -19,7 +19,7 @@ from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import ONE, TWO, ZERO, Expr
 from dofkit.motion.lagrange.term_order import ordered
-from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 
 
 class Care(NamedTuple):

@@ -31,7 +31,7 @@ from dofkit.motion.lagrange.energies import Energy
 from dofkit.motion.lagrange.rates import motions
 from dofkit.motion.lagrange.roots import without_roots
 from dofkit.relations.blocks import Row, coordinates_of, split
-from dofkit.relations.normal.normal_form import Finite, Nonlinear, Pfaffian
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
 from dofkit.report import BRANCH_WARNING
 

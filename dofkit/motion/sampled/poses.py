@@ -21,7 +21,7 @@ from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.normal_form import Pfaffian
+from dofkit.relations.normal.pieces import Pfaffian
 from dofkit.system import Coordinate, System
 
 Array = np.ndarray[Any, Any]

@@ -35,14 +35,12 @@ from dofkit.relations.normal.half_lines import (
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.notes import NOWHERE_NOTE, REGION_NOTE, ROOTS_NOTE, SIGNS_NOTE, SQUARED_NOTE
 from dofkit.relations.normal.pieces import (
-    Branches,
     Finite,
     Inequality,
     Nonlinear,
     Normal,
     Pfaffian,
     Piece,
-    Still,
     with_constants,
 )
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE, Conjunction
@@ -58,22 +56,6 @@ from dofkit.relations.normal.signs import (
 )
 from dofkit.relations.normal.velocity_roots import in_one_rate, velocity_branches
 from dofkit.relations.normal.zero_set import zero_set
-
-__all__ = [
-    "Branches",
-    "Finite",
-    "Inequality",
-    "Nonlinear",
-    "Normal",
-    "Pfaffian",
-    "Piece",
-    "Still",
-    "linear_form",
-    "normalise",
-    "relation_of",
-    "velocities_of",
-    "with_constants",
-]
 
 
 def velocities_of(e: Expr) -> list[Expr]:
