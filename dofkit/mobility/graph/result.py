@@ -92,7 +92,7 @@ class Linkage(Displayed):
     @cached_property
     def redundant(self) -> list[Link]:
         """Links that those given before them make superfluous, in the order given."""
-        return [self._graph.link(i) for i in self.redundant_places]
+        return self._graph.links_at(self.redundant_places)
 
     @cached_property
     def circuit_places(self) -> Mapping[int, list[int]]:
