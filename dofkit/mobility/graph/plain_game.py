@@ -131,8 +131,10 @@ class PlainGame:
     def _held(self, a: int, b: int) -> bool:
         """Does one block fix both joints? Then it holds both from now on.
 
-        A joint in no block pays for links of its own alone: it is held by the poles instead, which leaves the paid
-        links independent and their span as it is. All it paid for is in every circuit of the link between a and b.
+        A joint that lies in no block pays for links of its own, and none of them makes the block rigid: in their stead
+        it pays for links to the poles, so that what is paid for stays independent and spans the same. In every circuit
+        of the link between a and b all that such a joint pays for occurs, because three links at least meet at each of
+        its joints, and with it links of the block.
         """
         blocks, of = self.blocks, self.blocks.of
         g, h = of[a], of[b]
