@@ -28,12 +28,17 @@ class LinkageError(DofkitError):
 class Graph(NamedTuple):
     """Joints in the order in which they first occur, links as given, and the numbers of their joints in turn.
 
-    ``links``: tuples, or an array with two columns; ``ends``: a list or an array of integers.
+    ``joints``: names, or an array of integers; ``links``: tuples, or an array with two columns; ``ends``: a list or an
+    array of integers.
     """
 
-    joints: Sequence[Joint]
+    joints: Any
     links: Any
     ends: Any
+
+    def all_joints(self) -> tuple[Joint, ...]:
+        """The joints by their names."""
+        return tuple(self.joints.tolist() if isinstance(self.joints, np.ndarray) else self.joints)
 
     def links_at(self, places: Sequence[int]) -> list[Link]:
         """Some of the links, as tuples."""
@@ -54,7 +59,7 @@ def read(links: Iterable[Link] | Any, joints: Iterable[Joint] = ()) -> Graph:
     graph = found or _numbered(list(map(tuple, given.tolist())) if isinstance(given, np.ndarray) else given, named)
     loops = np.flatnonzero(np.equal(graph.ends[::2], graph.ends[1::2]))
     if len(loops):
-        joint = graph.joints[graph.ends[2 * int(loops[0])]]
+        joint = graph.all_joints()[graph.ends[2 * int(loops[0])]]
         raise LinkageError(f"link number {loops[0] + 1} joins {joint!r} to itself")
     return graph
 
@@ -106,7 +111,7 @@ def _numbered_array(given: Any) -> Graph | None:
     order = np.sort(first[first < len(flat)])
     number = np.empty(span, dtype=np.int32)
     number[places[order]] = np.arange(len(order), dtype=np.int32)
-    return Graph(flat[order].tolist(), given, number[places])
+    return Graph(flat[order], given, number[places])
 
 
 def _whole_numbers(given: Sequence[Link]) -> Any:

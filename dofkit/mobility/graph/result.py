@@ -51,7 +51,7 @@ class Linkage(Displayed):
     @cached_property
     def joints(self) -> tuple[Joint, ...]:
         """As they first occur."""
-        return tuple(self._graph.joints)
+        return self._graph.all_joints()
 
     @cached_property
     def links(self) -> tuple[Link, ...]:
