@@ -7,10 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 
 from dofkit.expressions import Expr, coordinate, sqrt, to_text
-from dofkit.models.model_document import SceneDraft, number
+from dofkit.models.model_document import SceneDraft, number, vector
 from dofkit.models.sketch_copies import MovedCopies
 from dofkit.models.sketch_file import Record, SketchFile
 from dofkit.models.sketch_space import (
@@ -22,12 +21,10 @@ from dofkit.models.sketch_space import (
     SpaceVector,
     fixed_frame,
     fixed_vector,
-    frame_of_turn,
     inner,
     line_between,
     moving_vector,
     squared,
-    unit_turn,
 )
 from dofkit.models.sketch_types import (
     ARC,
@@ -145,11 +142,26 @@ class SketchEntities:
             return None
         if self.file.group_of(handle) == REFERENCES:
             return fixed_frame(drawn)
-        name, exact = drawn_name(handle), unit_turn(drawn)
-        turn = [self.coordinate(f"q{part}_{name}", value) for part, value in zip("wxyz", exact, strict=True)]
-        text = f"{to_text(sum((q * q for q in turn[1:]), turn[0] * turn[0]))} = 1"
-        self.draft.constraint(f"{name}-turn", "equation", record.line, text=text)
-        return frame_of_turn(turn, [float(value) for value in exact])
+        return self._turning_frame(handle, record, fixed_frame(drawn))
+
+    def _turning_frame(self, handle: int, record: Record, drawn: Frame) -> Frame:
+        """Axes that turn freely, told by two points at distance 1 from the origin, across from each other."""
+        name, origin = drawn_name(handle), self.point(record.handle("point[0].v"))
+        start = fixed_vector((0.0, 0.0, 0.0)) if origin is None else origin.place
+        base = vector(start.drawn) if origin is None else origin.written
+        axes = []
+        for letter, axis in (("u", drawn.u), ("v", drawn.v)):
+            at = start.plus(axis).drawn
+            tip = self.draft.particle(f"{name}_{letter}", record.line, at)
+            axes.append(moving_vector([f"{c}_{tip}" for c in "xyz"], at).minus(start))
+            if base is None:
+                text = f"{to_text(squared(axes[-1]))} = 1"
+                self.draft.constraint(f"{name}-turn-{letter}", "equation", record.line, text=text)
+            else:
+                self.draft.constraint(f"{name}-turn-{letter}", "link", record.line, between=[base, tip], length=1)
+        text = f"{to_text(inner(*axes))} = 0"
+        self.draft.constraint(f"{name}-turn-uv", "equation", record.line, text=text)
+        return Frame(axes[0], axes[1], axes[0].cross(axes[1]))
 
     def _frame_of_group(self, group: Record, drawn: Sequence[float]) -> Frame | None:
         """The axes of the workplane that a group is drawn in."""
@@ -221,11 +233,11 @@ class SketchEntities:
             return None
         return self.coordinate(f"radius_{drawn_name(handle)}", record.number("actDistance"))
 
-    def coordinate(self, name: str, drawn: float | Fraction) -> Expr:
+    def coordinate(self, name: str, drawn: float) -> Expr:
         """A coordinate of its own; the same where the name is known."""
         if name not in self.draft.configuration:
             self.draft.coordinates.append(name)
-            self.draft.configuration[name] = str(drawn) if isinstance(drawn, Fraction) else number(drawn)
+            self.draft.configuration[name] = number(drawn)
         return coordinate(name)
 
     def keep_in_plane(self, handle: int, names: Sequence[str]) -> None:

@@ -87,7 +87,8 @@ class SketchScene(ABC):
         """Is an arc made a whole circle, its ends by a constraint of its group in one place?"""
         ends = {arc.handle("point[1].v"), arc.handle("point[2].v")}
         return any(
-            {c.handle("ptA.v"), c.handle("ptB.v")} == ends and c.handle("group.v") == self.file.group_of(arc.handle())
+            {c.handle("ptA.v"), c.handle("ptB.v")} == ends
+            and c.handle("group.v") in (0, self.file.group_of(arc.handle()))
             for c in self.file.constraints.values()
             if c.whole("type") == _COINCIDENT
         )
@@ -98,6 +99,10 @@ class SketchScene(ABC):
 
     def _rest(self) -> None:
         """What of the file no constraint holds, or is derived and not read."""
+        if len({c.handle("group.v") for c in self.file.constraints.values()}) > 1:
+            self.draft.leave_out(
+                "the order of the groups: all hold at once, where SolveSpace keeps what it solved before"
+            )
         if any(is_own(h) and e.whole("type") in CUBICS for h, e in self.file.entities.items()):
             self.draft.leave_out("cubic curves: their points are read, and nothing holds these together")
         drawn = {h for h, g in self.file.groups.items() if g.whole("type") in (IN_SPACE, IN_PLANE)}

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from dofkit.expressions import Expr, coordinate, mul, num
+from dofkit.expressions.tree import ZERO
 from dofkit.expressions.vectors import Vec, cross, dot, minus, plus, scaled, square
-from dofkit.models.model_document import DECIMALS, number, vector
+from dofkit.models.model_document import number, vector
 
 Drawn = tuple[float, ...]
 
@@ -41,6 +42,10 @@ class SpaceVector(NamedTuple):
     def cross(self, other: SpaceVector) -> SpaceVector:
         """The vector product."""
         return SpaceVector(cross(self.parts, other.parts), _drawn(np.cross(self.drawn, other.drawn)))
+
+    def is_along(self, other: SpaceVector) -> bool:
+        """Is it the other one or its opposite, as they are told?"""
+        return self.parts in (other.parts, other.times(-1).parts) or other.parts == self.times(-1).parts
 
     @property
     def constant(self) -> bool:
@@ -121,34 +126,10 @@ def line_between(a: SpacePoint, b: SpacePoint) -> SpaceLine:
     return SpaceLine(a.place.minus(b.place), (a, b), a.plane if a.plane == b.plane else 0)
 
 
-def frame_of_turn(parts: Sequence[Expr], drawn: Sequence[float]) -> Frame:
-    """The axes of a quaternion (w, x, y, z) of length 1."""
-    u, v, n = (SpaceVector(a, d) for a, d in zip(_axes(parts), _axes(drawn), strict=True))
-    return Frame(u, v, n)
-
-
 def fixed_frame(drawn: Sequence[float]) -> Frame:
     """The axes of a quaternion that is given in numbers."""
     u, v, n = map(fixed_vector, _axes(drawn))
     return Frame(u, v, n)
-
-
-def unit_turn(drawn: Sequence[float]) -> tuple[Fraction, ...]:
-    """The fractions nearest to a quaternion whose squares add up to 1; the identity for one that is 0.
-
-    With c its largest part, and p = the others over 1 + |c|: (1 - p.p, 2 p) / (1 + p.p), by the sign of c.
-
-    >>> unit_turn([0.5, 0.5, 0.5, 0.5])[0], sum(part**2 for part in unit_turn([0.3, 0.9, -0.2, 0.1]))
-    (Fraction(1, 2), Fraction(1, 1))
-    """
-    size = float(np.linalg.norm(drawn))
-    parts = [v / size for v in drawn] if size else [1.0, 0.0, 0.0, 0.0]
-    k = max(range(4), key=lambda i: abs(parts[i]))
-    over = 1 + abs(parts[k])
-    own = [Fraction(parts[i] / over).limit_denominator(10**DECIMALS) for i in range(4)]
-    rest = sum((own[i] ** 2 for i in range(4) if i != k), Fraction(0))
-    return tuple((1 - rest if parts[k] > 0 else rest - 1) / (1 + rest) if i == k else 2 * own[i] / (1 + rest)
-                 for i in range(4))  # fmt: skip
 
 
 def squared(a: SpaceVector) -> Expr:
@@ -199,6 +180,8 @@ class Measure(NamedTuple):
 
     def cross(self, a: SpaceVector, b: SpaceVector) -> Expr:
         """a x b in a plane, up to a factor where its frame is no unit."""
+        if a.is_along(b):
+            return ZERO
         (au, av), (bu, bv) = self.pair(a), self.pair(b)
         return mul(au, bv) - mul(av, bu)
 
@@ -218,8 +201,8 @@ class Measure(NamedTuple):
         return sum(inner_drawn(axis, a) * inner_drawn(axis, b) for axis in axes)
 
 
-def _axes(q: Sequence[Any]) -> tuple[tuple[Any, ...], ...]:
-    """The columns of the rotation matrix of a quaternion of length 1, of expressions or of floats."""
+def _axes(q: Sequence[float]) -> tuple[Drawn, Drawn, Drawn]:
+    """The columns of the rotation matrix of a quaternion of length 1."""
     w, x, y, z = q
     return (
         (w * w + x * x - y * y - z * z, 2 * (w * z + x * y), 2 * (x * z - w * y)),

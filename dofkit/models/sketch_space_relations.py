@@ -11,11 +11,12 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
 from dofkit.expressions import Expr, mul, sqrt, to_text
+from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import ONE, ZERO
 from dofkit.models.joint_relations import figures
 from dofkit.models.model_document import number
 from dofkit.models.sketch_relations import Written
-from dofkit.models.sketch_scene import UnreadError
+from dofkit.models.sketch_scene import SOLVED, UnreadError
 from dofkit.models.sketch_space import (
     Frame,
     Measure,
@@ -72,6 +73,12 @@ class SpaceMentions(NamedTuple):
         found = self.lines[0].ends if self.lines else None
         return found or (self.points[0], self.points[1])
 
+    @property
+    def joinable(self) -> bool:
+        """Can a constraint of a scene name its two points? One is a particle, and the other one is another point."""
+        one, other = (p.written for p in self.points)
+        return None not in (one, other) and one != other and not (isinstance(one, list) and isinstance(other, list))
+
     def to(self, line: int, point: int) -> SpaceVector:
         """From the second end of a line to a point."""
         ends = self.lines[line].ends or self.ends
@@ -81,15 +88,14 @@ class SpaceMentions(NamedTuple):
 class SpaceKind(NamedTuple):
     """A kind: what it says, and how many points, lines with ends, normals, planes and rounds it needs.
 
-    ``flat``: only in a workplane; ``metric``: where lengths are known; ``signed``: where areas are, or in space;
-    ``seen``: it says another thing in a workplane than in space.
+    ``flat``: only in a workplane; ``metric``: where lengths are known; ``seen``: in a workplane it says another thing
+    than in space.
     """
 
     says: Callable[[SpaceMentions], Iterator[Written]]
     needs: tuple[tuple[int, int, int, int, int], ...]
     flat: bool = False
     metric: bool = False
-    signed: bool = False
     seen: bool = True
 
     def reads(self, m: SpaceMentions) -> bool:
@@ -98,14 +104,19 @@ class SpaceKind(NamedTuple):
             return not self.flat
         if m.planes and not m.measure.within:
             return False
-        return (m.measure.signed or not self.signed) and (m.measure.metric or not self.metric)
+        return m.measure.metric or not self.metric
 
 
 def _zero(e: Expr) -> Written:
-    return {"type": "equation", "text": f"{to_text(e)} = 0"}
+    return _equal(e, ZERO)
 
 
 def _equal(left: Expr, right: Expr) -> Written:
+    """An equation; of numbers alone one that always holds, where SolveSpace takes it to hold."""
+    if not left.symbols and not right.symbols:
+        one, other = approximate(left), approximate(right)
+        if one is not None and other is not None and abs(one - other) < SOLVED * max(1.0, abs(one)):
+            left = right = ZERO
     return {"type": "equation", "text": f"{to_text(left)} = {to_text(right)}"}
 
 
@@ -116,7 +127,7 @@ def _length(m: SpaceMentions, line: SpaceLine) -> Expr:
 
 def _coincident(m: SpaceMentions) -> Iterator[Written]:
     a, b = m.points
-    if m.measure.frame is None and a.written is not None and b.written is not None and (a.particle or b.particle):
+    if m.measure.frame is None and m.joinable:
         yield {"type": "coincident", "between": [a.written, b.written]}
         return
     yield from map(_zero, m.measure.pair(a.place.minus(b.place)))
@@ -128,7 +139,7 @@ def _distance(m: SpaceMentions) -> Iterator[Written]:
     plain = m.measure.frame is None or m.measure.within
     if abs(m.value) < NO_DISTANCE:
         yield from _coincident(m)
-    elif plain and a.written is not None and b.written is not None and (a.particle or b.particle):
+    elif plain and m.joinable:
         yield {"type": "link", "between": [a.written, b.written], "length": number(abs(m.value))}
     else:
         yield _equal(m.measure.squared(apart), fraction(m.value) ** 2)
@@ -151,7 +162,7 @@ def _line_distance(m: SpaceMentions) -> Iterator[Written]:
     along, to = m.lines[0].along, m.to(0, 0)
     if abs(m.value) < NO_DISTANCE:
         yield from _on_line(m)
-    elif m.measure.frame is None:
+    elif not m.measure.signed:
         yield _equal(m.measure.area_squared(along, to), mul(fraction(m.value) ** 2, squared(along)))
     else:
         side = math.copysign(abs(m.value), m.measure.cross_drawn(along, to))
@@ -159,9 +170,9 @@ def _line_distance(m: SpaceMentions) -> Iterator[Written]:
 
 
 def _projected_distance(m: SpaceMentions) -> Iterator[Written]:
-    """(q - p) . e = value |e|; of a line's own ends it is their distance."""
+    """(q - p) . e = value |e|; of points as far apart as the line is long it is their distance."""
     apart, line = m.points[1].place.minus(m.points[0].place), m.lines[0]
-    if line.ends is not None and {p.place.parts for p in line.ends} == {p.place.parts for p in m.points}:
+    if apart.is_along(line.along) and not line.unit:
         yield from _distance(m._replace(lines=()))
         return
     yield _equal(inner(apart, line.along), _times_length(m.value, line.along, line.unit))
@@ -185,7 +196,7 @@ def _on_line(m: SpaceMentions) -> Iterator[Written]:
 
 def _multiple(m: SpaceMentions, a: SpaceVector, b: SpaceVector) -> Iterator[Written]:
     """a = t b with a new unknown t; of a copy and what it is a copy of two of that always hold."""
-    if all(part.is_zero for part in a.cross(b).parts):
+    if a.is_along(b):
         yield from (_zero(ZERO), _zero(ZERO))
         return
     t = m.fresh(inner_drawn(a, b) / (inner_drawn(b, b) or 1.0))
@@ -217,7 +228,7 @@ def _equal_distances(m: SpaceMentions) -> Iterator[Written]:
     """|c x (p - a)| |d| = |d x (q - b)| |c|, in squares in space."""
     c, d = (line.along for line in m.lines)
     one, other = m.to(0, 0), m.to(1, 1)
-    if m.measure.frame is None:
+    if not m.measure.signed:
         areas = m.measure.area_squared(c, one), m.measure.area_squared(d, other)
         yield _equal(mul(areas[0], squared(d)), mul(areas[1], squared(c)))
         return
@@ -289,7 +300,7 @@ def _on_circle(m: SpaceMentions) -> Iterator[Written]:
     one = m.rounds[0]
     to = m.points[0].place.minus(one.centre.place)
     seen = Measure(one.frame, m.points[0].plane == one.centre.plane != 0)
-    if one.frame is None or not seen.metric:
+    if not (seen.metric if one.frame is not None else seen.within):
         raise UnreadError("how its circle is turned is not read")
     yield _equal(seen.squared(to), one.squared)
 
@@ -310,6 +321,11 @@ def _angle(m: SpaceMentions) -> Iterator[Written]:
         return
     if m.value % 180 == 0:
         yield from _parallel(m)
+        return
+    if a.constant and b.constant:
+        turned = (-1 if m.others[0] else 1) * m.measure.dot_drawn(a, b)
+        size = math.sqrt(m.measure.dot_drawn(a, a) * m.measure.dot_drawn(b, b))
+        yield _zero(fraction(turned - size * math.cos(math.radians(m.value))))
         return
     angle = f"{'-' if m.value < 0 else ''}pi*{figures(abs(m.value))}/180"
     dot = m.measure.dot(a, b)
@@ -380,14 +396,14 @@ SPACE_KINDS: Mapping[int, SpaceKind] = {
     20: SpaceKind(_coincident, ((2, 0, 0, 0, 0),)),
     30: SpaceKind(_distance, ((2, 0, 0, 0, 0),), metric=True),
     31: SpaceKind(_plane_distance, ((1, 0, 0, 1, 0),), seen=False),
-    32: SpaceKind(_line_distance, ((1, 1, 0, 0, 0),), signed=True),
+    32: SpaceKind(_line_distance, ((1, 1, 0, 0, 0),), metric=True),
     34: SpaceKind(_projected_distance, ((2, 1, 0, 0, 0), (2, 0, 1, 0, 0)), seen=False),
     41: SpaceKind(_in_plane, ((1, 0, 0, 1, 0),), seen=False),
     42: SpaceKind(_on_line, ((1, 1, 0, 0, 0),)),
     50: SpaceKind(_equal_length, ((0, 2, 0, 0, 0),), metric=True),
     51: SpaceKind(_length_ratio, ((0, 2, 0, 0, 0),), metric=True),
     52: SpaceKind(_length_and_distance, ((1, 2, 0, 0, 0),), metric=True),
-    53: SpaceKind(_equal_distances, ((2, 2, 0, 0, 0),), signed=True),
+    53: SpaceKind(_equal_distances, ((2, 2, 0, 0, 0),), metric=True),
     54: SpaceKind(_equal_angle, _ANGLES, metric=True),
     56: SpaceKind(_length_difference, ((0, 2, 0, 0, 0),), metric=True),
     60: SpaceKind(_symmetric, ((2, 0, 0, 1, 0),)),

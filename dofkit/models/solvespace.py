@@ -30,10 +30,10 @@ def read(file: ModelFile) -> ModelDocument:
     best: tuple[ModelDocument, tuple[int, int]] | None = None
     for scene in scenes:
         document = scene.document()
-        unread = sum(told.startswith(BINDING) for told in scene.draft.left_out)
-        if best is None or (scene.missed, unread) < best[1]:
-            best = document, (scene.missed, unread)
-        if not scene.missed and not unread:
+        lost = (scene.missed, sum(told.startswith(BINDING) for told in scene.draft.left_out))
+        if best is None or lost < best[1] or (scene.missed and lost == best[1]):
+            best = document, lost
+        if not any(lost):
             break
     if best is None or "particles" not in best[0].value:
         hint = "draw something: points, lines, circles"
@@ -44,4 +44,4 @@ def read(file: ModelFile) -> ModelDocument:
 def _planes(file: SketchFile) -> Counter[int]:
     """The workplanes in which points were drawn, and how many."""
     drawn = [e for h, e in file.entities.items() if is_own(h) and e.whole("type") == POINT_2D]
-    return Counter(e.handle("workplane.v") for e in drawn)
+    return Counter(plane for e in drawn if (plane := e.handle("workplane.v")) in file.entities)

@@ -1,7 +1,7 @@
-"""Random SolveSpace sketches in space: their files, and the rank of what SolveSpace solves, by its own formulas in floats.
+"""Random SolveSpace sketches in space: their files, and the rank of what SolveSpace solves, by its formulas in floats.
 
-Unknowns are SolveSpace's own: u and v of points in workplanes, quaternions of workplanes, vectors of extrusions, and the
-factors of points on lines and of parallel lines. Copies move with what they are copies of.
+Unknowns are SolveSpace's own: u and v of points in workplanes, quaternions of workplanes, vectors of extrusions, and
+the factors of points on lines and of parallel lines. Copies move with what they are copies of.
 """
 
 from __future__ import annotations
@@ -147,7 +147,7 @@ class RandomSpace(RandomSketch):
         """A workplane with its normal: of given axes, or turned by numbers."""
         kind, turn = how
         drawn = {f"actNormal_{k}": v for k, v in zip(("w", "vx", "vy", "vz"), turn, strict=True)}
-        self.entity(normal, kind, drawn)
+        self.entity(normal, kind, drawn, point_0=origin.handle)
         axes = axes or _axes_of(lambda q: turn)
         found = Plane(handle, origin.at, axes)
         self.planes.append(found)
@@ -185,7 +185,7 @@ class RandomSpace(RandomSketch):
         centre = self.point(base + 1, place)
         axes = self.free_axes(turn)
         drawn = {f"actNormal_{k}": v for k, v in zip(("w", "vx", "vy", "vz"), turn, strict=True)}
-        self.entity(base + 32, 3000, drawn)
+        self.entity(base + 32, 3000, drawn, point_0=base + 1)
         self.entity(base + 64, 4000, {"actDistance": radius})
         self.entity(base, 13000, point_0=base + 1, normal_v=base + 32, distance_v=base + 64)
         self.normals.append((Line(base + 32, axes[2]), axes))
@@ -258,7 +258,7 @@ def _quaternion(axes: Sequence[Vector]) -> list[float]:
 
 
 def random_space(seed: int) -> RandomSpace:
-    """Lines and circles in space, in workplanes that are fixed, turn or lie on copies, and constraints of every kind."""
+    """Lines and circles in space, in workplanes that are fixed, turn or lie on copies, and constraints."""
     rng = random.Random(f"space {seed}")
     s = RandomSpace()
 
@@ -315,7 +315,7 @@ def _seen(s: RandomSpace, rng: random.Random, planes: Sequence[int], flat: bool 
     """The workplane in which a constraint is seen: that of all it mentions, another one, or none."""
     if len({*planes}) == 1 and planes[0]:
         return next(p for p in s.planes if p.handle == planes[0])
-    fixed = [p for p in s.planes if not p.handle >> 16 == 0x8000 + ON_LINES]
+    fixed = [p for p in s.planes if p.handle >> 16 != 0x8000 + ON_LINES]
     return rng.choice(fixed) if flat or rng.random() < 0.3 else None
 
 
@@ -404,7 +404,7 @@ def line_distance(s: RandomSpace, rng: random.Random) -> None:
     if _size(s.now(along)) < 1e-9:
         return
     d, t = s.now(along), s.now(to)
-    value = float(np.linalg.norm(np.cross(d, t)) / _size(d))
+    value = float(max(d @ d * (t @ t) - (d @ t) ** 2, 0.0) ** 0.5 / _size(d))
     if value > 1e-9:
         signed = float(np.real(away([complex(v) for v in s.drawn])))
         s.add(32, lambda q: [away(q) - signed], value, ptA=a.handle, entityA=line.handle, **_in(plane))
@@ -501,7 +501,7 @@ def symmetric(s: RandomSpace, rng: random.Random) -> None:
     plane = rng.choice(s.planes)
     pairs = [(a, b) for a in s.places for b in s.places if a.handle < b.handle]
     for a, b in rng.sample(pairs, min(30, len(pairs))):
-        u, v, n = plane.axes
+        u, v, _ = plane.axes
         common = a.plane if a.plane == b.plane else 0
         if common == plane.handle:
             continue

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from models.sketches import RandomSketch, distance, random_sketch
+from models.sketches import PLANE, RandomSketch, distance, random_sketch
 
 import dofkit
 from dofkit.base.errors import SceneError
@@ -73,37 +73,51 @@ def test_a_constraint_that_is_not_read_is_a_warning() -> None:
     sketch = square()
     sketch.add(110, lambda q: [0j])
     report = dofkit.classify(load(sketch.text()))
-    assert any("less freedom: constraint c005: of kind same-orientation" in told for told in report.warnings)
+    assert any("less freedom: constraint c005-same-orientation" in told for told in report.warnings)
 
 
-def in_space(sketch: RandomSketch) -> None:
-    """A point of a sketch in space, whose group stands last."""
-    sketch.record("Group", h_v="00000009", type="5000", name="sketch-in-3d")
-    sketch.record("Request", h_v="00000777", type="100", group_v="00000009")
-    sketch.record("Entity", h_v="07770000", type="2000", actPoint_z="3.0")
-
-
-def test_sketches_in_space_are_told_by_name() -> None:
-    sketch = square()
-    in_space(sketch)
-    told = load(sketch.text()).left_out
-    assert any(one.startswith("1 points outside the plane") for one in told)
-    assert any(one.startswith("sketch-in-3d: sketches in space") for one in told)
-
-
-def test_a_file_with_nothing_but_a_sketch_in_space_says_so_in_its_line() -> None:
+def test_text_keeps_its_shape() -> None:
+    """Four corners have 8 coordinates; of a text the place, the size and the turn are free."""
     sketch = RandomSketch()
-    in_space(sketch)
-    with pytest.raises(SceneError, match="sketch-in-3d is drawn in space") as raised:
-        load(sketch.text())
-    assert raised.value.faults[0].line == 1 + sketch.text().split("\n").index("Group.h.v=00000009")
+    base = sketch.request(600)
+    for k, corner in enumerate([(-5.0, 5.0), (-5.0, -5.0), (23.9, -5.0), (23.9, 5.0)], 1):
+        sketch.point(base + k, *corner)
+    corners = {f"point_{k}": f"{base + 1 + k:08x}" for k in range(4)}
+    sketch.record("Entity", h_v=f"{base:08x}", type="15000", workplane_v=f"{PLANE:08x}", **corners)
+    scene = load(sketch.text())
+    assert dofkit.classify(scene).dof == 4
+    assert [c.name for c in scene.constraints][:2] == ["r004-bottom-u", "r004-bottom-v"]
+
+
+def test_an_arc_that_is_a_whole_circle_is_told_once() -> None:
+    """Its ends in one place are as far from the centre: 6 coordinates less 2."""
+    sketch = RandomSketch()
+    sketch.arc((0.0, 0.0), 1.0, (0.0, math.tau))
+    (h, a), (i, b) = sketch.points[1:]
+    sketch.add(20, equal((a, b), (a + 1, b + 1)), ptA=h, ptB=i)
+    report = dofkit.classify(load(sketch.text()))
+    assert (report.dof, report.redundant) == (4, [])
+
+
+def test_what_is_seen_in_another_workplane_is_not_read_as_in_its_own() -> None:
+    """Two points of the plane x, y in the same place as seen along x: only y is the same."""
+    sketch = square()
+    (h, a), (i, b) = sketch.points[0], sketch.points[2]
+    sketch.record("Entity", h_v="00030000", type="10000", point_0="00010001", normal_v="00030020")
+    half = {f"actNormal_{k}": "0.5" for k in ("w", "vx", "vy", "vz")}
+    sketch.record("Entity", h_v="00030020", type="3000", **half)
+    sketch.record("Request", h_v="00000003", type="100", group_v="00000001")
+    sketch.add(20, equal((a + 1, b + 1)), ptA=h, ptB=i, workplane=0x30000)
+    scene = load(sketch.text())
+    assert scene.dimension == 3
+    assert dofkit.classify(scene).dof == 7
 
 
 START = "\xb1\xb2\xb3SolveSpaceREVa\n"
 POINT = "Entity.h.v=00010001\nEntity.type={}\nAddEntity\n"
 FAULTS = {
     "no entity": START,
-    "no point of this file is drawn in a workplane": START + POINT.format(2000),
+    "no point that is read": START + POINT.format(2001),
     "line 2, column 1: Entity.type is 'no'": START + POINT.format("no"),
 }
 
