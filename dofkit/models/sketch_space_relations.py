@@ -8,22 +8,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from typing import NamedTuple
 
 from dofkit.expressions import Expr, mul, sqrt, to_text
-from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import ONE, ZERO
 from dofkit.models.joint_relations import figures
 from dofkit.models.model_document import number
+from dofkit.models.sketch_mentions import SpaceKind, SpaceMentions, equal, zero
 from dofkit.models.sketch_relations import Written
-from dofkit.models.sketch_scene import SOLVED, UnreadError
+from dofkit.models.sketch_scene import UnreadError
 from dofkit.models.sketch_space import (
-    Frame,
     Measure,
     SpaceLine,
-    SpacePlane,
-    SpacePoint,
-    SpaceRound,
     SpaceVector,
     fixed_vector,
     fraction,
@@ -36,90 +31,6 @@ from dofkit.models.sketch_space import (
 NO_DISTANCE = 1e-12
 
 
-class SpaceMentions(NamedTuple):
-    """What a constraint mentions: points, lines and normals, the frames of normals, planes, circles and arcs.
-
-    ``fresh`` makes a coordinate of a drawn value; ``others``: its two choices; ``origin``: of the workplane in which it
-    is ``measure``d.
-    """
-
-    points: tuple[SpacePoint, ...]
-    lines: tuple[SpaceLine, ...]
-    frames: tuple[Frame, ...]
-    planes: tuple[SpacePlane, ...]
-    rounds: tuple[SpaceRound, ...]
-    fresh: Callable[[float], Expr]
-    value: float
-    others: tuple[bool, bool]
-    measure: Measure = Measure(None, False)
-    origin: SpaceVector | None = None
-
-    @property
-    def counted(self) -> tuple[int, int, int, int, int]:
-        """How many points, lines with ends, normals, planes and rounds there are."""
-        ends = sum(line.ends is not None for line in self.lines)
-        return len(self.points), ends, len(self.frames), len(self.planes), len(self.rounds)
-
-    @property
-    def common_plane(self) -> int:
-        """The workplane in which all of it is drawn; 0 where there is none."""
-        on_rounds = [p for one in self.rounds for p in (one.centre, *(one.ends or ()))]
-        seen = {p.plane for p in (*self.points, *on_rounds)} | {line.plane for line in self.lines}
-        return seen.pop() if len(seen) == 1 else 0
-
-    @property
-    def ends(self) -> tuple[SpacePoint, SpacePoint]:
-        """The ends of its line, or its two points."""
-        found = self.lines[0].ends if self.lines else None
-        return found or (self.points[0], self.points[1])
-
-    @property
-    def joinable(self) -> bool:
-        """Can a constraint of a scene name its two points? One is a particle, and the other one is another point."""
-        one, other = (p.written for p in self.points)
-        return None not in (one, other) and one != other and not (isinstance(one, list) and isinstance(other, list))
-
-    def to(self, line: int, point: int) -> SpaceVector:
-        """From the second end of a line to a point."""
-        ends = self.lines[line].ends or self.ends
-        return self.points[point].place.minus(ends[1].place)
-
-
-class SpaceKind(NamedTuple):
-    """A kind: what it says, and how many points, lines with ends, normals, planes and rounds it needs.
-
-    ``flat``: only in a workplane; ``metric``: where lengths are known; ``seen``: in a workplane it says another thing
-    than in space.
-    """
-
-    says: Callable[[SpaceMentions], Iterator[Written]]
-    needs: tuple[tuple[int, int, int, int, int], ...]
-    flat: bool = False
-    metric: bool = False
-    seen: bool = True
-
-    def reads(self, m: SpaceMentions) -> bool:
-        """Can it be told as its mentions are measured? A plane is seen from a workplane where that holds the rest."""
-        if m.measure.frame is None:
-            return not self.flat
-        if m.planes and not m.measure.within:
-            return False
-        return m.measure.metric or not self.metric
-
-
-def _zero(e: Expr) -> Written:
-    return _equal(e, ZERO)
-
-
-def _equal(left: Expr, right: Expr) -> Written:
-    """An equation; of numbers alone one that always holds, where SolveSpace takes it to hold."""
-    if not left.symbols and not right.symbols:
-        one, other = approximate(left), approximate(right)
-        if one is not None and other is not None and abs(one - other) < SOLVED * max(1.0, abs(one)):
-            left = right = ZERO
-    return {"type": "equation", "text": f"{to_text(left)} = {to_text(right)}"}
-
-
 def _length(m: SpaceMentions, line: SpaceLine) -> Expr:
     """The length of a line as it is seen."""
     return ONE if line.unit and m.measure.frame is None else sqrt(m.measure.squared(line.along))
@@ -130,7 +41,7 @@ def _coincident(m: SpaceMentions) -> Iterator[Written]:
     if m.measure.frame is None and m.joinable:
         yield {"type": "coincident", "between": [a.written, b.written]}
         return
-    yield from map(_zero, m.measure.pair(a.place.minus(b.place)))
+    yield from map(zero, m.measure.pair(a.place.minus(b.place)))
 
 
 def _distance(m: SpaceMentions) -> Iterator[Written]:
@@ -142,19 +53,19 @@ def _distance(m: SpaceMentions) -> Iterator[Written]:
     elif plain and m.joinable:
         yield {"type": "link", "between": [a.written, b.written], "length": number(abs(m.value))}
     else:
-        yield _equal(m.measure.squared(apart), fraction(m.value) ** 2)
+        yield equal(m.measure.squared(apart), fraction(m.value) ** 2)
 
 
 def _plane_distance(m: SpaceMentions) -> Iterator[Written]:
     """n . (p - o) = value."""
     plane = m.planes[0]
     away = inner(plane.frame.n, m.points[0].place.minus(plane.origin))
-    yield _equal(away, _times_length(m.value, plane.frame.n, plane.frame.unit))
+    yield equal(away, _times_length(m.value, plane.frame.n, plane.frame.unit))
 
 
 def _in_plane(m: SpaceMentions) -> Iterator[Written]:
     plane = m.planes[0]
-    yield _zero(inner(plane.frame.n, m.points[0].place.minus(plane.origin)))
+    yield zero(inner(plane.frame.n, m.points[0].place.minus(plane.origin)))
 
 
 def _line_distance(m: SpaceMentions) -> Iterator[Written]:
@@ -163,10 +74,10 @@ def _line_distance(m: SpaceMentions) -> Iterator[Written]:
     if abs(m.value) < NO_DISTANCE:
         yield from _on_line(m)
     elif not m.measure.signed:
-        yield _equal(m.measure.area_squared(along, to), mul(fraction(m.value) ** 2, squared(along)))
+        yield equal(m.measure.area_squared(along, to), mul(fraction(m.value) ** 2, squared(along)))
     else:
         side = math.copysign(abs(m.value), m.measure.cross_drawn(along, to))
-        yield _equal(m.measure.cross(along, to), mul(fraction(side), _length(m, m.lines[0])))
+        yield equal(m.measure.cross(along, to), mul(fraction(side), _length(m, m.lines[0])))
 
 
 def _projected_distance(m: SpaceMentions) -> Iterator[Written]:
@@ -175,7 +86,7 @@ def _projected_distance(m: SpaceMentions) -> Iterator[Written]:
     if apart.is_along(line.along) and not line.unit:
         yield from _distance(m._replace(lines=()))
         return
-    yield _equal(inner(apart, line.along), _times_length(m.value, line.along, line.unit))
+    yield equal(inner(apart, line.along), _times_length(m.value, line.along, line.unit))
 
 
 def _times_length(value: float, a: SpaceVector, unit: bool) -> Expr:
@@ -189,7 +100,7 @@ def _on_line(m: SpaceMentions) -> Iterator[Written]:
     """p = b + t (a - b); in a plane (a - b) x (p - b) = 0."""
     along, to = m.lines[0].along, m.to(0, 0)
     if m.measure.frame is not None:
-        yield _zero(m.measure.cross(along, to))
+        yield zero(m.measure.cross(along, to))
         return
     yield from _multiple(m, to, along)
 
@@ -197,31 +108,31 @@ def _on_line(m: SpaceMentions) -> Iterator[Written]:
 def _multiple(m: SpaceMentions, a: SpaceVector, b: SpaceVector) -> Iterator[Written]:
     """a = t b with a new unknown t; of a copy and what it is a copy of two of that always hold."""
     if a.is_along(b):
-        yield from (_zero(ZERO), _zero(ZERO))
+        yield from (zero(ZERO), zero(ZERO))
         return
     t = m.fresh(inner_drawn(a, b) / (inner_drawn(b, b) or 1.0))
     for one, other in zip(a.parts, b.parts, strict=True):
-        yield _equal(one, mul(t, other))
+        yield equal(one, mul(t, other))
 
 
 def _equal_length(m: SpaceMentions) -> Iterator[Written]:
-    yield _equal(*(m.measure.squared(line.along) for line in m.lines))
+    yield equal(*(m.measure.squared(line.along) for line in m.lines))
 
 
 def _length_ratio(m: SpaceMentions) -> Iterator[Written]:
     a, b = (m.measure.squared(line.along) for line in m.lines)
-    yield _equal(a, mul(fraction(m.value) ** 2, b))
+    yield equal(a, mul(fraction(m.value) ** 2, b))
 
 
 def _length_difference(m: SpaceMentions) -> Iterator[Written]:
     a, b = (_length(m, line) for line in m.lines)
-    yield _equal(a - b, fraction(m.value))
+    yield equal(a - b, fraction(m.value))
 
 
 def _length_and_distance(m: SpaceMentions) -> Iterator[Written]:
     """|a|^2 |d|^2 = |d x (p - s)|^2."""
     a, d = (line.along for line in m.lines)
-    yield _equal(mul(m.measure.squared(a), m.measure.squared(d)), m.measure.area_squared(d, m.to(1, 0)))
+    yield equal(mul(m.measure.squared(a), m.measure.squared(d)), m.measure.area_squared(d, m.to(1, 0)))
 
 
 def _equal_distances(m: SpaceMentions) -> Iterator[Written]:
@@ -230,12 +141,12 @@ def _equal_distances(m: SpaceMentions) -> Iterator[Written]:
     one, other = m.to(0, 0), m.to(1, 1)
     if not m.measure.signed:
         areas = m.measure.area_squared(c, one), m.measure.area_squared(d, other)
-        yield _equal(mul(areas[0], squared(d)), mul(areas[1], squared(c)))
+        yield equal(mul(areas[0], squared(d)), mul(areas[1], squared(c)))
         return
     side = math.copysign(1, m.measure.cross_drawn(c, one) * m.measure.cross_drawn(d, other))
     left, right = m.measure.cross(c, one), m.measure.cross(d, other)
     lengths = [_length(m, line) for line in m.lines]
-    yield _equal(mul(left, lengths[1]), mul(fraction(side), right, lengths[0]))
+    yield equal(mul(left, lengths[1]), mul(fraction(side), right, lengths[0]))
 
 
 def _equal_angle(m: SpaceMentions) -> Iterator[Written]:
@@ -243,26 +154,26 @@ def _equal_angle(m: SpaceMentions) -> Iterator[Written]:
     a, b, c, d = (line.along for line in m.lines)
     sizes = [_length(m, line) for line in m.lines]
     left = mul(fraction(-1 if m.others[0] else 1), m.measure.dot(a, b), sizes[2], sizes[3])
-    yield _equal(left, mul(m.measure.dot(c, d), sizes[0], sizes[1]))
+    yield equal(left, mul(m.measure.dot(c, d), sizes[0], sizes[1]))
 
 
 def _symmetric(m: SpaceMentions) -> Iterator[Written]:
     """The middle lies in the plane, and the points are across it; in a workplane along its trace."""
     (a, b), plane = (p.place for p in m.points), m.planes[0]
-    yield _zero(inner(plane.frame.n, a.plus(b).minus(plane.origin.times(2))))
+    yield zero(inner(plane.frame.n, a.plus(b).minus(plane.origin.times(2))))
     if m.measure.frame is None:
-        yield _zero(inner(plane.frame.u, a.minus(b)))
-        yield _zero(inner(plane.frame.v, a.minus(b)))
+        yield zero(inner(plane.frame.u, a.minus(b)))
+        yield zero(inner(plane.frame.v, a.minus(b)))
     else:
-        yield _zero(inner(plane.frame.n.cross(m.measure.frame.n), a.minus(b)))
+        yield zero(inner(plane.frame.n.cross(m.measure.frame.n), a.minus(b)))
 
 
 def _mirrored_on_axis(along: int) -> Callable[[SpaceMentions], Iterator[Written]]:
     def says(m: SpaceMentions) -> Iterator[Written]:
         a, b = (p.place for p in m.points)
         middle = a.plus(b) if m.origin is None else a.plus(b).minus(m.origin.times(2))
-        yield _zero(m.measure.pair(a.minus(b))[1 - along])
-        yield _zero(m.measure.pair(middle)[along])
+        yield zero(m.measure.pair(a.minus(b))[1 - along])
+        yield zero(m.measure.pair(middle)[along])
 
     return says
 
@@ -270,29 +181,29 @@ def _mirrored_on_axis(along: int) -> Callable[[SpaceMentions], Iterator[Written]
 def _mirrored(m: SpaceMentions) -> Iterator[Written]:
     """The line through the points is across the line of symmetry, which goes through their middle."""
     along = m.lines[0].along
-    yield _zero(m.measure.dot(along, m.points[0].place.minus(m.points[1].place)))
-    yield _zero(m.measure.cross(along, m.to(0, 0)) + m.measure.cross(along, m.to(0, 1)))
+    yield zero(m.measure.dot(along, m.points[0].place.minus(m.points[1].place)))
+    yield zero(m.measure.cross(along, m.to(0, 0)) + m.measure.cross(along, m.to(0, 1)))
 
 
 def _midpoint(m: SpaceMentions) -> Iterator[Written]:
     a, b = (p.place for p in m.lines[0].ends or m.points)
     if m.planes:
-        yield _zero(inner(m.planes[0].frame.n, a.plus(b).minus(m.planes[0].origin.times(2))))
+        yield zero(inner(m.planes[0].frame.n, a.plus(b).minus(m.planes[0].origin.times(2))))
     else:
-        yield from map(_zero, m.measure.pair(a.plus(b).minus(m.points[0].place.times(2))))
+        yield from map(zero, m.measure.pair(a.plus(b).minus(m.points[0].place.times(2))))
 
 
 def _level(which: int) -> Callable[[SpaceMentions], Iterator[Written]]:
     def says(m: SpaceMentions) -> Iterator[Written]:
         a, b = (p.place for p in m.ends)
-        yield _zero(m.measure.pair(a.minus(b))[which])
+        yield zero(m.measure.pair(a.minus(b))[which])
 
     return says
 
 
 def _diameter(m: SpaceMentions) -> Iterator[Written]:
     (one,) = m.rounds
-    yield _equal(one.squared, (fraction(m.value / 2)) ** 2) if one.ends else _equal(2 * one.radius, fraction(m.value))
+    yield equal(one.squared, (fraction(m.value / 2)) ** 2) if one.ends else equal(2 * one.radius, fraction(m.value))
 
 
 def _on_circle(m: SpaceMentions) -> Iterator[Written]:
@@ -302,7 +213,7 @@ def _on_circle(m: SpaceMentions) -> Iterator[Written]:
     seen = Measure(one.frame, m.points[0].plane == one.centre.plane != 0)
     if not (seen.metric if one.frame is not None else seen.within):
         raise UnreadError("how its circle is turned is not read")
-    yield _equal(seen.squared(to), one.squared)
+    yield equal(seen.squared(to), one.squared)
 
 
 def _same_orientation(m: SpaceMentions) -> Iterator[Written]:
@@ -310,7 +221,7 @@ def _same_orientation(m: SpaceMentions) -> Iterator[Written]:
     one, other = m.frames
     yield from _multiple(m, one.n, other.n)
     across = min((other.v, other.u), key=lambda axis: abs(inner_drawn(one.u, axis)))
-    yield _zero(inner(one.u, across))
+    yield zero(inner(one.u, across))
 
 
 def _angle(m: SpaceMentions) -> Iterator[Written]:
@@ -325,7 +236,7 @@ def _angle(m: SpaceMentions) -> Iterator[Written]:
     if a.constant and b.constant:
         turned = (-1 if m.others[0] else 1) * m.measure.dot_drawn(a, b)
         size = math.sqrt(m.measure.dot_drawn(a, a) * m.measure.dot_drawn(b, b))
-        yield _zero(fraction(turned - size * math.cos(math.radians(m.value))))
+        yield zero(fraction(turned - size * math.cos(math.radians(m.value))))
         return
     angle = f"{'-' if m.value < 0 else ''}pi*{figures(abs(m.value))}/180"
     dot = m.measure.dot(a, b)
@@ -343,20 +254,20 @@ def _angle(m: SpaceMentions) -> Iterator[Written]:
 def _parallel(m: SpaceMentions) -> Iterator[Written]:
     a, b = (line.along for line in m.lines)
     if m.measure.frame is not None:
-        yield _zero(m.measure.cross(a, b))
+        yield zero(m.measure.cross(a, b))
     else:
         yield from _multiple(m, a, b)
 
 
 def _perpendicular(m: SpaceMentions) -> Iterator[Written]:
-    yield _zero(m.measure.dot(m.lines[0].along, m.lines[1].along))
+    yield zero(m.measure.dot(m.lines[0].along, m.lines[1].along))
 
 
 def _tangent_line(m: SpaceMentions) -> Iterator[Written]:
     """The line is across the radius to the arc's end."""
     (arc,), (line,) = m.rounds, m.lines
     if arc.ends is not None:
-        yield _zero(inner(line.along, arc.centre.place.minus(arc.ends[m.others[0]].place)))
+        yield zero(inner(line.along, arc.centre.place.minus(arc.ends[m.others[0]].place)))
 
 
 def _tangent_arcs(m: SpaceMentions) -> Iterator[Written]:
@@ -367,11 +278,11 @@ def _tangent_arcs(m: SpaceMentions) -> Iterator[Written]:
             one.ends[m.others[0]].place.minus(one.centre.place),
             other.ends[m.others[1]].place.minus(other.centre.place),
         )
-        yield _zero(m.measure.cross(*radii))
+        yield zero(m.measure.cross(*radii))
 
 
 def _equal_radius(m: SpaceMentions) -> Iterator[Written]:
-    yield _equal(m.rounds[0].squared, m.rounds[1].squared)
+    yield equal(m.rounds[0].squared, m.rounds[1].squared)
 
 
 def _dragged(m: SpaceMentions) -> Iterator[Written]:
@@ -380,7 +291,7 @@ def _dragged(m: SpaceMentions) -> Iterator[Written]:
         yield {"type": "fixed", "point": point.particle}
         return
     for part, axis in zip(m.measure.pair(point.place), _axes_of(m.measure), strict=True):
-        yield _equal(part, fraction(inner_drawn(axis, point.place)))
+        yield equal(part, fraction(inner_drawn(axis, point.place)))
 
 
 def _axes_of(measure: Measure) -> tuple[SpaceVector, ...]:

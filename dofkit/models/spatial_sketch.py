@@ -12,10 +12,11 @@ from dofkit.expressions import Expr, to_text
 from dofkit.models.model_document import number
 from dofkit.models.sketch_entities import SketchEntities
 from dofkit.models.sketch_file import Record
+from dofkit.models.sketch_mentions import SpaceMentions
 from dofkit.models.sketch_relations import Written
 from dofkit.models.sketch_scene import SketchScene, UnreadError
 from dofkit.models.sketch_space import Measure, SpacePoint, inner, inner_drawn, squared
-from dofkit.models.sketch_space_relations import SPACE_KINDS, SpaceMentions
+from dofkit.models.sketch_space_relations import SPACE_KINDS
 from dofkit.models.sketch_types import ARC, CIRCLE, NORMALS, POINTS, RECTANGLES, WORKPLANE, drawn_name, is_own
 
 _Read = TypeVar("_Read")
