@@ -14,7 +14,7 @@ from dofkit.models.sketch_file import Record
 from dofkit.models.sketch_geometry import Arrow, Round, SketchPoint, fixed_point, particle_point
 from dofkit.models.sketch_relations import KINDS, SketchMentions, Written
 from dofkit.models.sketch_scene import SketchScene, UnreadError
-from dofkit.models.sketch_space import Frame, fixed_frame
+from dofkit.models.sketch_space import PlaneFrame, fixed_frame
 from dofkit.models.sketch_types import (
     ARC,
     LINE,
@@ -99,8 +99,7 @@ class PlaneSketch(SketchScene):
             distance = self.file.entities.get(record.handle("distance.v"))
             radius = f"radius_{drawn_name(handle)}"
             if distance is not None and is_own(handle):
-                self.draft.coordinates.append(radius)
-                self.draft.configuration[radius] = number(distance.number("actDistance"))
+                self.draft.coordinate(radius, distance.number("actDistance"))
                 self.rounds[handle] = Round(ends[0], f"{radius}^2", radius)
 
     def _rectangle(self, handle: int, record: Record, ends: list[SketchPoint]) -> None:
@@ -146,6 +145,6 @@ class PlaneSketch(SketchScene):
         super()._rest()
 
 
-def _axes(frame: Frame) -> np.ndarray:
+def _axes(frame: PlaneFrame) -> np.ndarray:
     """The directions u and v of a plane."""
     return np.array([frame.u.drawn, frame.v.drawn])

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from dofkit.expressions import to_text
-from dofkit.models.model_document import SceneDraft, number
+from dofkit.models.model_document import SceneDraft
 from dofkit.models.sketch_file import Record, SketchFile
 from dofkit.models.sketch_space import SpacePlane, SpacePoint, SpaceVector, inner, moving_vector
 from dofkit.models.sketch_types import EXTRUDE, TRANSLATE, group_name
@@ -36,12 +36,16 @@ class MovedCopies:
     vectors: dict[int, SpaceVector] = field(default_factory=dict)
     _tables: dict[int, dict[int, tuple[int, int]]] = field(default_factory=dict)
 
-    def copy(self, group: Record, handle: int) -> Copy | None:
-        """What an entity of the group is a copy of; None where that is not read."""
+    def source(self, group: Record, handle: int) -> tuple[int, int] | None:
+        """What an entity of the group was made of, and which copy it is."""
         own = group.handle()
         if own not in self._tables:
             self._tables[own] = {made: (source, which) for made, source, which in group.copies}
-        found = self._tables[own].get(handle & 0xFFFF)
+        return self._tables[own].get(handle & 0xFFFF)
+
+    def copy(self, group: Record, handle: int) -> Copy | None:
+        """What an entity of the group is a copy of; None where that is not read."""
+        found = self.source(group, handle)
         steps = None if found is None else _steps(group, found[1])
         return None if found is None or steps is None else Copy(found[0], steps)
 
@@ -64,8 +68,8 @@ class MovedCopies:
         if own in self.vectors:
             return self.vectors[own]
         names = [f"{c}_g{own:03x}" for c in "xyz"]
-        self.draft.coordinates += names
-        self.draft.configuration |= {name: number(value) for name, value in zip(names, drawn, strict=True)}
+        for name, value in zip(names, drawn, strict=True):
+            self.draft.coordinate(name, value)
         vector = self.vectors[own] = moving_vector(names, drawn)
         if plane is None:
             if group.handle("predef.entityB.v") and group.whole("subtype") not in _SKEWED:

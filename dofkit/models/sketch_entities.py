@@ -8,20 +8,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from dofkit.expressions import Expr, coordinate, sqrt, to_text
-from dofkit.models.model_document import SceneDraft, number, vector
+from dofkit.expressions import Expr, coordinate, sqrt
+from dofkit.models.model_document import SceneDraft
 from dofkit.models.sketch_copies import MovedCopies
 from dofkit.models.sketch_file import Record, SketchFile
+from dofkit.models.sketch_frames import frame_of_lines, turning_frame
 from dofkit.models.sketch_space import (
-    Frame,
+    PlaneFrame,
     SpaceLine,
     SpacePlane,
     SpacePoint,
     SpaceRound,
-    SpaceVector,
     fixed_frame,
     fixed_vector,
-    inner,
     line_between,
     moving_vector,
     squared,
@@ -62,7 +61,7 @@ class SketchEntities:
     file: SketchFile
     draft: SceneDraft
     points: dict[int, SpacePoint | None] = field(default_factory=dict)
-    frames: dict[int, Frame | None] = field(default_factory=dict)
+    frames: dict[int, PlaneFrame | None] = field(default_factory=dict)
     members: dict[int, list[str]] = field(default_factory=dict)
     copied: dict[int, SpacePoint | None] = field(default_factory=dict)
     _depth: int = 0
@@ -116,7 +115,7 @@ class SketchEntities:
         origin, frame = self.point(record.handle("point[0].v")), self.frame(record.handle("normal.v"))
         return None if origin is None or frame is None else SpacePlane(origin.place, frame, handle)
 
-    def frame(self, handle: int) -> Frame | None:
+    def frame(self, handle: int) -> PlaneFrame | None:
         """The axes that a normal stands for."""
         if handle not in self.frames:
             record = self.file.entities.get(handle)
@@ -127,7 +126,7 @@ class SketchEntities:
                 self._depth -= 1
         return self.frames[handle]
 
-    def _frame(self, handle: int, record: Record) -> Frame | None:
+    def _frame(self, handle: int, record: Record) -> PlaneFrame | None:
         kind, drawn = record.whole("type"), record.turn("actNormal")
         if not is_own(handle):
             group = self.file.groups.get(self.file.group_of(handle))
@@ -142,28 +141,10 @@ class SketchEntities:
             return None
         if self.file.group_of(handle) == REFERENCES:
             return fixed_frame(drawn)
-        return self._turning_frame(handle, record, fixed_frame(drawn))
+        origin = self.point(record.handle("point[0].v"))
+        return turning_frame(self.draft, record, origin, drawn_name(handle))
 
-    def _turning_frame(self, handle: int, record: Record, drawn: Frame) -> Frame:
-        """Axes that turn freely, told by two points at distance 1 from the origin, across from each other."""
-        name, origin = drawn_name(handle), self.point(record.handle("point[0].v"))
-        start = fixed_vector((0.0, 0.0, 0.0)) if origin is None else origin.place
-        base = vector(start.drawn) if origin is None else origin.written
-        axes = []
-        for letter, axis in (("u", drawn.u), ("v", drawn.v)):
-            at = start.plus(axis).drawn
-            tip = self.draft.particle(f"{name}_{letter}", record.line, at)
-            axes.append(moving_vector([f"{c}_{tip}" for c in "xyz"], at).minus(start))
-            if base is None:
-                text = f"{to_text(squared(axes[-1]))} = 1"
-                self.draft.constraint(f"{name}-turn-{letter}", "equation", record.line, text=text)
-            else:
-                self.draft.constraint(f"{name}-turn-{letter}", "link", record.line, between=[base, tip], length=1)
-        text = f"{to_text(inner(*axes))} = 0"
-        self.draft.constraint(f"{name}-turn-uv", "equation", record.line, text=text)
-        return Frame(axes[0], axes[1], axes[0].cross(axes[1]))
-
-    def _frame_of_group(self, group: Record, drawn: Sequence[float]) -> Frame | None:
+    def _frame_of_group(self, group: Record, drawn: Sequence[float]) -> PlaneFrame | None:
         """The axes of the workplane that a group is drawn in."""
         how = group.whole("subtype")
         if how == _BY_TURN:
@@ -176,26 +157,8 @@ class SketchEntities:
             return None
         if all(line.along.constant for line in known):
             return fixed_frame(drawn)
-        return self._frame_of_lines(group, known[0].along, known[1].along)
-
-    def _frame_of_lines(self, group: Record, u: SpaceVector, other: SpaceVector) -> Frame:
-        """The directions of a workplane through two lines: the first along one, n = u x other, and v = n x u."""
         name = group_name(self.file, group.handle())
-        u = self._vector(name, "u", u.near_unit(), group.line)
-        n = self._vector(name, "n", u.cross(other).near_unit(), group.line)
-        v = self._vector(name, "v", n.cross(u), group.line)
-        first, second = (v, u) if group.whole("predef.swapUV") else (u, v)
-        signs = [-1 if group.whole(f"predef.negate{letter}") else 1 for letter in "UV"]
-        side = signs[0] * signs[1] * (-1 if first is v else 1)
-        return Frame(first.times(signs[0]), second.times(signs[1]), n.times(side), unit=False)
-
-    def _vector(self, group: str, letter: str, told: SpaceVector, line: int) -> SpaceVector:
-        """A vector as three coordinates, which equations tell."""
-        names = [f"{letter}{c}_{group.partition('-')[0]}" for c in "xyz"]
-        for name, value, part in zip(names, told.drawn, told.parts, strict=True):
-            text = f"{to_text(self.coordinate(name, value))} = {to_text(part)}"
-            self.draft.constraint(f"{group}-{name[:2]}", "equation", line, text=text)
-        return moving_vector(names, told.drawn)
+        return frame_of_lines(self.draft, group, name, (known[0].along, known[1].along))
 
     def line(self, handle: int) -> SpaceLine | None:
         """A line by its ends, or the direction of a normal."""
@@ -231,27 +194,4 @@ class SketchEntities:
         record = self.file.entities.get(handle)
         if record is None or not is_own(handle):
             return None
-        return self.coordinate(f"radius_{drawn_name(handle)}", record.number("actDistance"))
-
-    def coordinate(self, name: str, drawn: float) -> Expr:
-        """A coordinate of its own; the same where the name is known."""
-        if name not in self.draft.configuration:
-            self.draft.coordinates.append(name)
-            self.draft.configuration[name] = number(drawn)
-        return coordinate(name)
-
-    def keep_in_plane(self, handle: int, names: Sequence[str]) -> None:
-        """The particles of a workplane stay in it: n . (p - o) = 0."""
-        plane, line = self.plane(handle), self.file.entities[handle].line
-        if plane is None:
-            return
-        named = drawn_name(handle) if is_own(handle) else group_name(self.file, self.file.group_of(handle))
-        fixed = plane.frame.constant and plane.origin.constant
-        for name in ("",) if fixed else names:
-            letters = [f"{c}_{name}" if name else c for c in "xyz"]
-            here = moving_vector(letters, (0.0, 0.0, 0.0)).minus(plane.origin)
-            text = f"{to_text(inner(plane.frame.n, here))} = 0"
-            if name:
-                self.draft.constraint(f"in-{named}-{name}", "equation", line, text=text)
-            else:
-                self.draft.constraint(f"in-{named}", "on", line, members=[*names], surface=text)
+        return coordinate(self.draft.coordinate(f"radius_{drawn_name(handle)}", record.number("actDistance")))

@@ -10,7 +10,15 @@ from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import ZERO
 from dofkit.models.sketch_relations import Written
 from dofkit.models.sketch_scene import SOLVED
-from dofkit.models.sketch_space import Frame, Measure, SpaceLine, SpacePlane, SpacePoint, SpaceRound, SpaceVector
+from dofkit.models.sketch_space import (
+    PlaneFrame,
+    Projection,
+    SpaceLine,
+    SpacePlane,
+    SpacePoint,
+    SpaceRound,
+    SpaceVector,
+)
 
 
 class SpaceMentions(NamedTuple):
@@ -22,13 +30,13 @@ class SpaceMentions(NamedTuple):
 
     points: tuple[SpacePoint, ...]
     lines: tuple[SpaceLine, ...]
-    frames: tuple[Frame, ...]
+    frames: tuple[PlaneFrame, ...]
     planes: tuple[SpacePlane, ...]
     rounds: tuple[SpaceRound, ...]
     fresh: Callable[[float], Expr]
     value: float
     others: tuple[bool, bool]
-    measure: Measure = Measure(None, False)
+    measure: Projection = Projection(None, False)
     origin: SpaceVector | None = None
 
     @property
@@ -85,6 +93,7 @@ class SpaceKind(NamedTuple):
 
 
 def zero(e: Expr) -> Written:
+    """The equation e = 0."""
     return equal(e, ZERO)
 
 

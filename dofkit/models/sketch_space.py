@@ -10,7 +10,7 @@ import numpy as np
 
 from dofkit.expressions import Expr, coordinate, mul, num
 from dofkit.expressions.tree import ZERO
-from dofkit.expressions.vectors import Vec, cross, dot, minus, plus, scaled, square
+from dofkit.expressions.vectors import Vec, cross, dot, is_zero, minus, plus, scaled, square
 from dofkit.models.model_document import number, vector
 
 Drawn = tuple[float, ...]
@@ -45,7 +45,7 @@ class SpaceVector(NamedTuple):
 
     def is_along(self, other: SpaceVector) -> bool:
         """Is it the other one or its opposite, as they are told?"""
-        return self.parts in (other.parts, other.times(-1).parts) or other.parts == self.times(-1).parts
+        return is_zero(self.plus(other).parts) or is_zero(self.minus(other).parts)
 
     @property
     def constant(self) -> bool:
@@ -89,7 +89,7 @@ class SpaceLine(NamedTuple):
     unit: bool = False
 
 
-class Frame(NamedTuple):
+class PlaneFrame(NamedTuple):
     """The axes u and v of a workplane and its normal n = u x v; ``unit``: they have length 1, else only directions."""
 
     u: SpaceVector
@@ -107,7 +107,7 @@ class SpacePlane(NamedTuple):
     """A workplane: its origin, its frame and the handle of its entity."""
 
     origin: SpaceVector
-    frame: Frame
+    frame: PlaneFrame
     handle: int
 
 
@@ -117,7 +117,7 @@ class SpaceRound(NamedTuple):
     centre: SpacePoint
     squared: Expr
     radius: Expr
-    frame: Frame | None
+    frame: PlaneFrame | None
     ends: tuple[SpacePoint, SpacePoint] | None = None
 
 
@@ -126,10 +126,10 @@ def line_between(a: SpacePoint, b: SpacePoint) -> SpaceLine:
     return SpaceLine(a.place.minus(b.place), (a, b), a.plane if a.plane == b.plane else 0)
 
 
-def fixed_frame(drawn: Sequence[float]) -> Frame:
+def fixed_frame(drawn: Sequence[float]) -> PlaneFrame:
     """The axes of a quaternion that is given in numbers."""
     u, v, n = map(fixed_vector, _axes(drawn))
-    return Frame(u, v, n)
+    return PlaneFrame(u, v, n)
 
 
 def squared(a: SpaceVector) -> Expr:
@@ -147,13 +147,13 @@ def inner_drawn(a: SpaceVector, b: SpaceVector) -> float:
     return float(np.dot(a.drawn, b.drawn))
 
 
-class Measure(NamedTuple):
+class Projection(NamedTuple):
     """How vectors are measured: in space (no ``frame``), or as they are seen in a workplane.
 
     ``within``: all that is measured lies in that plane, where both are the same.
     """
 
-    frame: Frame | None
+    frame: PlaneFrame | None
     within: bool
 
     @property

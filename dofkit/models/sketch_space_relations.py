@@ -17,7 +17,7 @@ from dofkit.models.sketch_mentions import SpaceKind, SpaceMentions, equal, zero
 from dofkit.models.sketch_relations import Written
 from dofkit.models.sketch_scene import UnreadError
 from dofkit.models.sketch_space import (
-    Measure,
+    Projection,
     SpaceLine,
     SpaceVector,
     fixed_vector,
@@ -210,7 +210,7 @@ def _on_circle(m: SpaceMentions) -> Iterator[Written]:
     """On the cylinder over the circle."""
     one = m.rounds[0]
     to = m.points[0].place.minus(one.centre.place)
-    seen = Measure(one.frame, m.points[0].plane == one.centre.plane != 0)
+    seen = Projection(one.frame, m.points[0].plane == one.centre.plane != 0)
     if not (seen.metric if one.frame is not None else seen.within):
         raise UnreadError("how its circle is turned is not read")
     yield equal(seen.squared(to), one.squared)
@@ -294,7 +294,7 @@ def _dragged(m: SpaceMentions) -> Iterator[Written]:
         yield equal(part, fraction(inner_drawn(axis, point.place)))
 
 
-def _axes_of(measure: Measure) -> tuple[SpaceVector, ...]:
+def _axes_of(measure: Projection) -> tuple[SpaceVector, ...]:
     if measure.frame is None:
         return tuple(fixed_vector(float(i == k) for i in range(3)) for k in range(3))
     return measure.frame.u, measure.frame.v
@@ -308,9 +308,11 @@ SPACE_KINDS: Mapping[int, SpaceKind] = {
     30: SpaceKind(_distance, ((2, 0, 0, 0, 0),), metric=True),
     31: SpaceKind(_plane_distance, ((1, 0, 0, 1, 0),), seen=False),
     32: SpaceKind(_line_distance, ((1, 1, 0, 0, 0),), metric=True),
+    33: SpaceKind(_plane_distance, ((1, 0, 0, 1, 0),), seen=False),
     34: SpaceKind(_projected_distance, ((2, 1, 0, 0, 0), (2, 0, 1, 0, 0)), seen=False),
     41: SpaceKind(_in_plane, ((1, 0, 0, 1, 0),), seen=False),
     42: SpaceKind(_on_line, ((1, 1, 0, 0, 0),)),
+    43: SpaceKind(_in_plane, ((1, 0, 0, 1, 0),), seen=False),
     50: SpaceKind(_equal_length, ((0, 2, 0, 0, 0),), metric=True),
     51: SpaceKind(_length_ratio, ((0, 2, 0, 0, 0),), metric=True),
     52: SpaceKind(_length_and_distance, ((1, 2, 0, 0, 0),), metric=True),

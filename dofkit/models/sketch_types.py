@@ -8,7 +8,7 @@ from dofkit.models.sketch_file import DERIVED, SketchFile
 POINT_3D, POINT_2D, NORMAL_3D, NORMAL_2D, WORKPLANE = 2000, 2001, 3000, 3001, 10000
 LINE, CIRCLE, ARC = 11000, 13000, 14000
 CUBICS, RECTANGLES = (12000, 12001), (15000, 16000)
-POINTS, NORMALS = range(2000, 3000), range(3000, 4000)
+POINTS, NORMALS, FACES = range(2000, 3000), range(3000, 4000), range(5000, 6000)
 #: Types of groups: drawn in space and in a workplane, and those that move copies along.
 IN_SPACE, IN_PLANE, EXTRUDE, TRANSLATE = 5000, 5001, 5100, 5201
 #: The group of the axes.

@@ -8,16 +8,29 @@ from typing import TypeVar
 
 from typing_extensions import override
 
-from dofkit.expressions import Expr, to_text
+from dofkit.expressions import Expr, coordinate, to_text
 from dofkit.models.model_document import number
 from dofkit.models.sketch_entities import SketchEntities
+from dofkit.models.sketch_faces import face
 from dofkit.models.sketch_file import Record
+from dofkit.models.sketch_frames import keep_in_plane
 from dofkit.models.sketch_mentions import SpaceMentions
 from dofkit.models.sketch_relations import Written
 from dofkit.models.sketch_scene import SketchScene, UnreadError
-from dofkit.models.sketch_space import Measure, SpacePoint, inner, inner_drawn, squared
+from dofkit.models.sketch_space import Projection, SpacePlane, SpacePoint, inner, inner_drawn, squared
 from dofkit.models.sketch_space_relations import SPACE_KINDS
-from dofkit.models.sketch_types import ARC, CIRCLE, NORMALS, POINTS, RECTANGLES, WORKPLANE, drawn_name, is_own
+from dofkit.models.sketch_types import (
+    ARC,
+    CIRCLE,
+    FACES,
+    NORMALS,
+    POINTS,
+    RECTANGLES,
+    WORKPLANE,
+    drawn_name,
+    group_name,
+    is_own,
+)
 
 _Read = TypeVar("_Read")
 #: Under which name what is no point, line or normal is mentioned.
@@ -46,7 +59,7 @@ class SpatialSketch(SketchScene):
             if record.whole("type") in POINTS:
                 self.missed += self.found.point(handle) is None and is_own(handle)
         for plane, names in self.found.members.items():
-            self.found.keep_in_plane(plane, names)
+            self._keep_in_plane(plane, names)
         for handle, record in own:
             kind = record.whole("type")
             if kind in NORMALS:
@@ -57,6 +70,13 @@ class SpatialSketch(SketchScene):
                 self._arc(handle, record)
             elif kind in RECTANGLES:
                 self._rectangle(handle, record)
+
+    def _keep_in_plane(self, handle: int, names: list[str]) -> None:
+        plane, line = self.found.plane(handle), self.file.entities[handle].line
+        group = self.file.group_of(handle)
+        name = drawn_name(handle) if is_own(handle) else group_name(self.file, group)
+        if plane is not None:
+            keep_in_plane(self.draft, plane, names, name, line)
 
     def _arc(self, handle: int, record: Record) -> None:
         """An arc's ends are as far from its centre."""
@@ -104,15 +124,20 @@ class SpatialSketch(SketchScene):
         for handle in self.mentioned(record):
             entity = self.file.entities.get(handle)
             kind = 0 if entity is None else entity.whole("type")
-            by_kind[_PLACES.get(kind, "points" if kind in POINTS else "lines")].append(handle)
+            place = "points" if kind in POINTS else "planes" if kind in FACES else "lines"
+            by_kind[_PLACES.get(kind, place)].append(handle)
             by_kind["normals"] += [handle] if kind in NORMALS else []
         read = self.found
         return SpaceMentions(
             _read(by_kind["points"], read.point), _read(by_kind["lines"], read.line),
-            _read(by_kind["normals"], read.frame), _read(by_kind["planes"], read.plane),
+            _read(by_kind["normals"], read.frame), _read(by_kind["planes"], self._plane),
             _read(by_kind["rounds"], read.round),
             self._fresh(record), record.number("valA"), (bool(record.whole("other")), bool(record.whole("other2"))),
         )  # fmt: skip
+
+    def _plane(self, handle: int) -> SpacePlane | None:
+        """A workplane, or a face."""
+        return self.found.plane(handle) or face(self.found, handle)
 
     def _measured(self, found: SpaceMentions, record: Record) -> SpaceMentions:
         """With the workplane in which it is seen: the one it names, else that of all that it mentions."""
@@ -123,11 +148,11 @@ class SpatialSketch(SketchScene):
         plane = self.found.plane(seen)
         if plane is None:
             raise UnreadError("it is seen in a workplane that is not read")
-        return found._replace(measure=Measure(plane.frame, seen == common), origin=plane.origin)
+        return found._replace(measure=Projection(plane.frame, seen == common), origin=plane.origin)
 
     def _fresh(self, record: Record) -> Callable[[float], Expr]:
         """What makes the unknown of a constraint."""
-        return lambda drawn: self.found.coordinate(f"t_c{record.handle():03x}", drawn)
+        return lambda drawn: coordinate(self.draft.coordinate(f"t_c{record.handle():03x}", drawn))
 
 
 def _read(handles: Iterable[int], reader: Callable[[int], _Read | None]) -> tuple[_Read, ...]:

@@ -88,6 +88,7 @@ class RandomSpace(RandomSketch):
     normals: list[tuple[Line, tuple[At, At, At]]] = field(default_factory=list)
     planes: list[Plane] = field(default_factory=list)
     rings: list[Circle] = field(default_factory=list)
+    faces: list[Plane] = field(default_factory=list)
     group: int = 3
 
     def __post_init__(self) -> None:
@@ -210,6 +211,16 @@ class RandomSpace(RandomSketch):
                 count += 1
                 table.append(f"    {count} {line.handle:08x} {which}")
                 made.append((base + count, copies))
+        faces = []
+        for line in lines:
+            count += 1
+            table.append(f"    {count} {line.handle:08x} 1004")
+            faces.append((base + count, 5001, line.ends[0], _side(line, k)))
+        ends_at = {which: made[i * len(lines)][1][0] for i, (which, _) in enumerate(ends)}
+        for which, point in ends_at.items():
+            count += 1
+            table.append(f"    {count} 00000000 {which}")
+            faces.append((base + count, 5000, point, plane.axes[2]))
         how = {"type": "5100", "name": "extrude", "predef_entityB_v": f"{plane.handle:08x}", "scale": "1.0"}
         self.record("Group", h_v=f"{COPIES:08x}", subtype="7001" if two_sided else "7000", **how)
         self.records[-1] = self.records[-1].replace("AddGroup", "\n".join(["Group.remap={", *table, "}", "AddGroup"]))
@@ -217,6 +228,20 @@ class RandomSpace(RandomSketch):
             for one in copies:
                 self.placed(one, 2010)
             self.segment(handle, copies[0], copies[1])
+        for handle, kind, point, normal in faces:
+            drawn = {f"actNormal_v{c}": v for c, v in zip("xyz", self.now(normal), strict=True)}
+            self.entity(handle, kind, drawn, point_0=point.handle)
+            self.faces.append(Plane(handle, point.at, (normal, normal, normal)))
+
+
+def _side(line: Line, vector: Sequence[int]) -> At:
+    """The normal of a face that a line makes."""
+
+    def normal(q: Values) -> Vector:
+        found = np.cross(np.array([q[i] for i in vector]), -line.along(q))
+        return found / _size(found)
+
+    return normal
 
 
 def _moved(at: At, steps: int, vector: Sequence[int]) -> At:
@@ -362,18 +387,19 @@ def distance(s: RandomSpace, rng: random.Random) -> None:
 
 
 def plane_distance(s: RandomSpace, rng: random.Random) -> None:
-    a, plane = rng.choice(s.places), rng.choice(s.planes)
+    a, plane = rng.choice(s.places), rng.choice([*s.planes, *s.faces])
     if a.plane == plane.handle:
         return
+    by_face = 2 if plane in s.faces else 0
 
     def away(q: Values) -> Any:
         return plane.axes[2](q) @ (a.at(q) - plane.origin(q))
 
     value = float(np.real(away([complex(v) for v in s.drawn])))
     if abs(value) > 1e-9:
-        s.add(31, lambda q: [away(q) - value], value, ptA=a.handle, entityA=plane.handle)
+        s.add(31 + by_face, lambda q: [away(q) - value], value, ptA=a.handle, entityA=plane.handle)
     else:
-        s.add(41, lambda q: [away(q)], ptA=a.handle, entityA=plane.handle)
+        s.add(41 + by_face, lambda q: [away(q)], ptA=a.handle, entityA=plane.handle)
 
 
 def projected(s: RandomSpace, rng: random.Random) -> None:
