@@ -16,6 +16,8 @@ from dofkit.models.sketch_types import CUBICS, IN_PLANE, IN_SPACE, is_own
 #: SolveSpace stops where its equations hold to within this.
 SOLVED = 1e-6
 _COMMENT, _COINCIDENT = 1000, 20
+#: Kinds that have a number, which a group may make all of them measure.
+_DIMENSIONS = frozenset({*range(30, 35), 51, 56, 90, 120, *range(210, 214)})
 _MENTIONS = ("ptA", "ptB", "entityA", "entityB", "entityC", "entityD")
 
 
@@ -66,12 +68,8 @@ class SketchScene(ABC):
             self.draft.leave_out(f"{number}: of kind {record.whole('type')}, which is not read", binding=True)
             return
         name = f"{number}-{kind.name}"
-        group = self.file.groups.get(record.handle("group.v"))
-        if record.whole("reference"):
-            self.draft.leave_out(f"{name}: a reference dimension, which only measures")
-            return
-        if group is not None and group.whole("relaxConstraints") and record.whole("type") != _COINCIDENT:
-            self.draft.leave_out(f"{name}: its group is relaxed, so that it does not hold")
+        if idle := self._idle(record):
+            self.draft.leave_out(f"{name}: {idle}")
             return
         try:
             written = list(self._written(record))
@@ -82,6 +80,15 @@ class SketchScene(ABC):
             called = name if len(written) == 1 else f"{name}-{'abcd'[k]}"
             fields = {key: part for key, part in one.items() if key != "type"}
             self.draft.constraint(called, one["type"], record.line, **fields)
+
+    def _idle(self, record: Record) -> str:
+        """Why a constraint says nothing in SolveSpace either; empty where it does."""
+        kind, group = record.whole("type"), self.file.groups.get(record.handle("group.v"))
+        measures = group is not None and kind in _DIMENSIONS and group.whole("allDimsReference")
+        if record.whole("reference") or measures:
+            return "a reference dimension, which only measures"
+        relaxed = group is not None and group.whole("relaxConstraints") and kind != _COINCIDENT
+        return "its group is relaxed, so that it does not hold" if relaxed else ""
 
     def is_whole_circle(self, arc: Record) -> bool:
         """Is an arc made a whole circle, its ends by a constraint of its group in one place?"""

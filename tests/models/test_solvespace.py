@@ -69,6 +69,17 @@ def test_a_reference_dimension_only_measures() -> None:
     assert any("reference dimension" in told for told in scene.left_out)
 
 
+@pytest.mark.parametrize(("flag", "dof"), [("allDimsReference", 7), ("relaxConstraints", 8), ("allowRedundant", 6)])
+def test_a_group_may_make_its_dimensions_measure_or_be_relaxed(flag: str, dof: int) -> None:
+    """Of a square's 8 a length and a level edge leave 6: what measures leaves the edge, what is relaxed nothing."""
+    sketch = square()
+    (h, _), (i, _) = sketch.points[:2]
+    sketch.add(30, lambda q: [0j], 2.0, ptA=h, ptB=i, group=2)
+    sketch.add(81, lambda q: [0j], entityA=sketch.lines[1][0], group=2)
+    text = sketch.text().replace("Group.name=sketch-in-plane", f"Group.name=sketch-in-plane\nGroup.{flag}=1")
+    assert dofkit.classify(load(text)).dof == dof
+
+
 def test_a_constraint_that_is_not_read_is_a_warning() -> None:
     sketch = square()
     sketch.add(110, lambda q: [0j])
