@@ -11,12 +11,13 @@ from typing_extensions import override
 from dofkit.models.joint_relations import figures
 from dofkit.models.model_document import number
 from dofkit.models.sketch_file import Record
-from dofkit.models.sketch_geometry import Arrow, Round, SketchPoint, fixed_point, particle_point
+from dofkit.models.sketch_geometry import Arrow, Cubic, Round, SketchPoint, fixed_point, particle_point
 from dofkit.models.sketch_relations import KINDS, SketchMentions, Written
 from dofkit.models.sketch_scene import SketchScene, UnreadError
 from dofkit.models.sketch_space import PlaneFrame, fixed_frame
 from dofkit.models.sketch_types import (
     ARC,
+    CUBIC,
     LINE,
     POINT_2D,
     POINTS,
@@ -37,6 +38,7 @@ class PlaneSketch(SketchScene):
     points: dict[int, SketchPoint] = field(default_factory=dict)
     lines: dict[int, Arrow] = field(default_factory=dict)
     rounds: dict[int, Round] = field(default_factory=dict)
+    cubics: dict[int, Cubic] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         plane = self.file.entities.get(self.plane)
@@ -55,8 +57,7 @@ class PlaneSketch(SketchScene):
             if record.whole("type") in POINTS:
                 self._point(handle, record)
         for handle, record in self.file.entities.items():
-            kind = record.whole("type")
-            count = corners(kind)
+            count = corners(record)
             ends = [self.points.get(record.handle(f"point[{k}].v")) for k in range(count)]
             known = [end for end in ends if end is not None]
             if count and len(known) == count:
@@ -87,6 +88,8 @@ class PlaneSketch(SketchScene):
         kind = record.whole("type")
         if kind == LINE:
             self.lines[handle] = Arrow(ends[0], ends[1])
+        elif kind == CUBIC:
+            self.cubics[handle] = Cubic((Arrow(ends[1], ends[0]), Arrow(ends[-2], ends[-1])))
         elif kind in RECTANGLES:
             self._rectangle(handle, record, ends)
         elif kind == ARC:
@@ -121,8 +124,9 @@ class PlaneSketch(SketchScene):
         if record.handle("workplane.v") not in (0, self.plane):
             raise UnreadError("it is seen in another workplane than that which is read")
         mentioned = self._mentioned(record)
-        given = len(mentioned.points), len(mentioned.lines), len(mentioned.rounds)
-        if given not in kind.needs or sum(given) != len(self.mentioned(record)):
+        given = len(mentioned.points), len(mentioned.lines), len(mentioned.curves)
+        fits = given in kind.needs and all(isinstance(one, kind.curves) for one in mentioned.curves)
+        if not fits or sum(given) != len(self.mentioned(record)):
             raise UnreadError("it mentions what is not in the plane that is read")
         return kind.says(mentioned)
 
@@ -132,7 +136,7 @@ class PlaneSketch(SketchScene):
         return SketchMentions(
             tuple(p for p in points if p is not None),
             tuple(self.lines[e] for e in entities if e in self.lines),
-            tuple(self.rounds[e] for e in entities if e in self.rounds),
+            tuple(one for e in entities if (one := self.rounds.get(e) or self.cubics.get(e)) is not None),
             record.number("valA"),
             bool(record.whole("other")),
             bool(record.whole("other2")),

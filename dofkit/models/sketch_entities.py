@@ -15,6 +15,7 @@ from dofkit.models.sketch_file import Record, SketchFile
 from dofkit.models.sketch_frames import frame_of_lines, turning_frame
 from dofkit.models.sketch_space import (
     PlaneFrame,
+    SpaceCubic,
     SpaceLine,
     SpacePlane,
     SpacePoint,
@@ -28,6 +29,7 @@ from dofkit.models.sketch_space import (
 from dofkit.models.sketch_types import (
     ARC,
     CIRCLE,
+    CUBIC,
     IN_PLANE,
     LINE,
     NORMAL_2D,
@@ -178,7 +180,7 @@ class SketchEntities:
         record = self.file.entities.get(handle)
         if record is None or not is_own(handle) or record.whole("type") not in (CIRCLE, ARC):
             return None
-        count = corners(record.whole("type"))
+        count = corners(record)
         known = [p for k in range(count) if (p := self.point(record.handle(f"point[{k}].v"))) is not None]
         frame = self.frame(record.handle("normal.v"))
         if len(known) < count:
@@ -188,6 +190,19 @@ class SketchEntities:
             return None if radius is None else SpaceRound(known[0], radius * radius, radius, frame)
         size = squared(known[1].place.minus(known[0].place))
         return SpaceRound(known[0], size, sqrt(size), frame, (known[1], known[2]))
+
+    def curve(self, handle: int) -> SpaceRound | SpaceCubic | None:
+        """A circle, an arc or a cubic that was drawn."""
+        record = self.file.entities.get(handle)
+        if record is None or not is_own(handle) or record.whole("type") != CUBIC:
+            return self.round(handle)
+        count = corners(record)
+        known = [p for k in range(count) if (p := self.point(record.handle(f"point[{k}].v"))) is not None]
+        if len(known) < count:
+            return None
+        tangents = known[0].place.minus(known[1].place), known[-1].place.minus(known[-2].place)
+        planes = {p.plane for p in known}
+        return SpaceCubic(tangents, planes.pop() if len(planes) == 1 else 0)
 
     def radius(self, handle: int) -> Expr | None:
         """The radius of a circle that was drawn."""

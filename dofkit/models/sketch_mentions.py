@@ -13,6 +13,7 @@ from dofkit.models.sketch_scene import SOLVED
 from dofkit.models.sketch_space import (
     PlaneFrame,
     Projection,
+    SpaceCubic,
     SpaceLine,
     SpacePlane,
     SpacePoint,
@@ -32,7 +33,7 @@ class SpaceMentions(NamedTuple):
     lines: tuple[SpaceLine, ...]
     frames: tuple[PlaneFrame, ...]
     planes: tuple[SpacePlane, ...]
-    rounds: tuple[SpaceRound, ...]
+    curves: tuple[SpaceRound | SpaceCubic, ...]
     fresh: Callable[[float], Expr]
     value: float
     others: tuple[bool, bool]
@@ -40,16 +41,33 @@ class SpaceMentions(NamedTuple):
     origin: SpaceVector | None = None
 
     @property
+    def rounds(self) -> tuple[SpaceRound, ...]:
+        """Its circles and arcs."""
+        return tuple(one for one in self.curves if isinstance(one, SpaceRound))
+
+    @property
+    def directions(self) -> tuple[SpaceVector, ...]:
+        """Where its curves meet: across arcs, along cubics."""
+        found = []
+        for one, end in zip(self.curves, self.others, strict=False):
+            if isinstance(one, SpaceCubic):
+                found.append(one.tangents[end])
+            elif one.ends is not None:
+                found.append(one.ends[end].place.minus(one.centre.place))
+        return tuple(found)
+
+    @property
     def counted(self) -> tuple[int, int, int, int, int]:
-        """How many points, lines with ends, normals, planes and rounds there are."""
+        """How many points, lines with ends, normals, planes and curves there are."""
         ends = sum(line.ends is not None for line in self.lines)
-        return len(self.points), ends, len(self.frames), len(self.planes), len(self.rounds)
+        return len(self.points), ends, len(self.frames), len(self.planes), len(self.curves)
 
     @property
     def common_plane(self) -> int:
         """The workplane in which all of it is drawn; 0 where there is none."""
         on_rounds = [p for one in self.rounds for p in (one.centre, *(one.ends or ()))]
         seen = {p.plane for p in (*self.points, *on_rounds)} | {line.plane for line in self.lines}
+        seen |= {one.plane for one in self.curves if isinstance(one, SpaceCubic)}
         return seen.pop() if len(seen) == 1 else 0
 
     @property
@@ -71,10 +89,10 @@ class SpaceMentions(NamedTuple):
 
 
 class SpaceKind(NamedTuple):
-    """A kind: what it says, and how many points, lines with ends, normals, planes and rounds it needs.
+    """A kind: what it says, and how many points, lines with ends, normals, planes and curves it needs.
 
     ``flat``: only in a workplane; ``metric``: where lengths are known; ``seen``: in a workplane it says another thing
-    than in space.
+    than in space; ``curves``: of which types its curves are.
     """
 
     says: Callable[[SpaceMentions], Iterator[Written]]
@@ -82,9 +100,12 @@ class SpaceKind(NamedTuple):
     flat: bool = False
     metric: bool = False
     seen: bool = True
+    curves: tuple[type, ...] = (SpaceRound,)
 
     def reads(self, m: SpaceMentions) -> bool:
         """Can it be told as its mentions are measured? A plane is seen from a workplane where that holds the rest."""
+        if not all(isinstance(one, self.curves) for one in m.curves):
+            return False
         if m.measure.frame is None:
             return not self.flat
         if m.planes and not m.measure.within:

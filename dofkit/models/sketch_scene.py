@@ -11,7 +11,7 @@ import numpy as np
 from dofkit.models.model_document import COARSEST, FINEST, ModelDocument, SceneDraft, listed
 from dofkit.models.sketch_file import Record, SketchFile
 from dofkit.models.sketch_relations import KINDS, Written
-from dofkit.models.sketch_types import CUBICS, IN_PLANE, IN_SPACE, is_own
+from dofkit.models.sketch_types import CUBIC, CUBIC_RING, IN_PLANE, IN_SPACE, is_own
 
 #: SolveSpace stops where its equations hold to within this.
 SOLVED = 1e-6
@@ -73,6 +73,8 @@ class SketchScene(ABC):
             return
         try:
             written = list(self._written(record))
+            if not written:
+                raise UnreadError("what it mentions has no such ends")
         except UnreadError as why:
             self.draft.leave_out(f"{name}: {why}", binding=True)
             return
@@ -110,8 +112,8 @@ class SketchScene(ABC):
             self.draft.leave_out(
                 "the order of the groups: all hold at once, where SolveSpace keeps what it solved before"
             )
-        if any(is_own(h) and e.whole("type") in CUBICS for h, e in self.file.entities.items()):
-            self.draft.leave_out("cubic curves: their points are read, and nothing holds these together")
+        if any(is_own(h) and e.whole("type") in (CUBIC, CUBIC_RING) for h, e in self.file.entities.items()):
+            self.draft.leave_out("cubic curves: their points are read, and what is tangent at their ends")
         drawn = {h for h, g in self.file.groups.items() if g.whole("type") in (IN_SPACE, IN_PLANE)}
         groups = [g.values.get("name", "") for h, g in self.file.groups.items() if h not in drawn | self._derived()]
         if groups:

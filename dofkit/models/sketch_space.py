@@ -121,6 +121,13 @@ class SpaceRound(NamedTuple):
     ends: tuple[SpacePoint, SpacePoint] | None = None
 
 
+class SpaceCubic(NamedTuple):
+    """A cubic curve: its tangents at its two ends, and the workplane it is drawn in (0: none)."""
+
+    tangents: tuple[SpaceVector, SpaceVector]
+    plane: int
+
+
 def line_between(a: SpacePoint, b: SpacePoint) -> SpaceLine:
     """The line through two points, its direction as SolveSpace has it: from the second to the first."""
     return SpaceLine(a.place.minus(b.place), (a, b), a.plane if a.plane == b.plane else 0)

@@ -18,7 +18,9 @@ from dofkit.models.sketch_relations import Written
 from dofkit.models.sketch_scene import UnreadError
 from dofkit.models.sketch_space import (
     Projection,
+    SpaceCubic,
     SpaceLine,
+    SpaceRound,
     SpaceVector,
     fixed_vector,
     fraction,
@@ -252,7 +254,10 @@ def _angle(m: SpaceMentions) -> Iterator[Written]:
 
 
 def _parallel(m: SpaceMentions) -> Iterator[Written]:
-    a, b = (line.along for line in m.lines)
+    yield from _along(m, m.lines[0].along, m.lines[1].along)
+
+
+def _along(m: SpaceMentions, a: SpaceVector, b: SpaceVector) -> Iterator[Written]:
     if m.measure.frame is not None:
         yield zero(m.measure.cross(a, b))
     else:
@@ -270,15 +275,17 @@ def _tangent_line(m: SpaceMentions) -> Iterator[Written]:
         yield zero(inner(line.along, arc.centre.place.minus(arc.ends[m.others[0]].place)))
 
 
-def _tangent_arcs(m: SpaceMentions) -> Iterator[Written]:
-    """The radii to the ends where they meet are parallel."""
-    one, other = m.rounds
-    if one.ends is not None and other.ends is not None:
-        radii = (
-            one.ends[m.others[0]].place.minus(one.centre.place),
-            other.ends[m.others[1]].place.minus(other.centre.place),
-        )
-        yield zero(m.measure.cross(*radii))
+def _tangent_cubic(m: SpaceMentions) -> Iterator[Written]:
+    """The line is along the cubic's end."""
+    for along in m.directions:
+        yield from _along(m, along, m.lines[0].along)
+
+
+def _tangent_curves(m: SpaceMentions) -> Iterator[Written]:
+    """Radii of arcs to where they meet are parallel, and so are tangents of cubics; one of each are perpendicular."""
+    found = m.directions
+    if len(found) == len(m.curves):
+        yield zero(inner(*found) if len(m.rounds) == 1 else m.measure.cross(*found))
 
 
 def _equal_radius(m: SpaceMentions) -> Iterator[Written]:
@@ -332,8 +339,9 @@ SPACE_KINDS: Mapping[int, SpaceKind] = {
     120: SpaceKind(_angle, _VECTORS, metric=True),
     121: SpaceKind(_parallel, _VECTORS),
     122: SpaceKind(_perpendicular, _VECTORS, metric=True),
+    124: SpaceKind(_tangent_cubic, ((0, 1, 0, 0, 1),), curves=(SpaceCubic,)),
     123: SpaceKind(_tangent_line, ((0, 1, 0, 0, 1),), seen=False),
-    125: SpaceKind(_tangent_arcs, ((0, 0, 0, 0, 2),), flat=True),
+    125: SpaceKind(_tangent_curves, ((0, 0, 0, 0, 2),), flat=True, curves=(SpaceRound, SpaceCubic)),
     130: SpaceKind(_equal_radius, ((0, 0, 0, 0, 2),), seen=False),
     200: SpaceKind(_dragged, ((1, 0, 0, 0, 0),)),
 }

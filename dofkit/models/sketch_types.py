@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dofkit.models.sketch_file import DERIVED, SketchFile
+from dofkit.models.sketch_file import DERIVED, Record, SketchFile
 
 #: Types of entities.
 POINT_3D, POINT_2D, NORMAL_3D, NORMAL_2D, WORKPLANE = 2000, 2001, 3000, 3001, 10000
 LINE, CIRCLE, ARC = 11000, 13000, 14000
-CUBICS, RECTANGLES = (12000, 12001), (15000, 16000)
+CUBIC, CUBIC_RING, RECTANGLES = 12000, 12001, (15000, 16000)
+#: A cubic has so many points at the least, and at the most.
+_CUBIC_POINTS = 4, 12
 POINTS, NORMALS, FACES = range(2000, 3000), range(3000, 4000), range(5000, 6000)
 #: Types of groups: drawn in space and in a workplane, and those that move copies along.
 IN_SPACE, IN_PLANE, EXTRUDE, TRANSLATE = 5000, 5001, 5100, 5201
@@ -17,8 +19,11 @@ REFERENCES = 1
 _ROLES = {LINE: ("start", "end"), CIRCLE: ("centre",), ARC: ("centre", "start", "end")}
 
 
-def corners(kind: int) -> int:
+def corners(record: Record) -> int:
     """How many points something drawn is told by; 0 where it is not read."""
+    kind, (least, most) = record.whole("type"), _CUBIC_POINTS
+    if kind == CUBIC:
+        return min(max(least, least + record.whole("extraPoints")), most)
     return 4 if kind in RECTANGLES else len(_ROLES.get(kind, ()))
 
 

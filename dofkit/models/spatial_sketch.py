@@ -22,6 +22,7 @@ from dofkit.models.sketch_space_relations import SPACE_KINDS
 from dofkit.models.sketch_types import (
     ARC,
     CIRCLE,
+    CUBIC,
     FACES,
     NORMALS,
     POINTS,
@@ -34,7 +35,7 @@ from dofkit.models.sketch_types import (
 
 _Read = TypeVar("_Read")
 #: Under which name what is no point, line or normal is mentioned.
-_PLACES = {WORKPLANE: "planes", CIRCLE: "rounds", ARC: "rounds"}
+_PLACES = {WORKPLANE: "planes", CIRCLE: "curves", ARC: "curves", CUBIC: "curves"}
 
 
 @dataclass
@@ -120,7 +121,7 @@ class SpatialSketch(SketchScene):
 
     def _mentions(self, record: Record) -> SpaceMentions:
         """What a constraint mentions. Raises UnreadError where some of that is not read."""
-        by_kind: dict[str, list[int]] = {"points": [], "lines": [], "normals": [], "planes": [], "rounds": []}
+        by_kind: dict[str, list[int]] = {"points": [], "lines": [], "normals": [], "planes": [], "curves": []}
         for handle in self.mentioned(record):
             entity = self.file.entities.get(handle)
             kind = 0 if entity is None else entity.whole("type")
@@ -131,7 +132,7 @@ class SpatialSketch(SketchScene):
         return SpaceMentions(
             _read(by_kind["points"], read.point), _read(by_kind["lines"], read.line),
             _read(by_kind["normals"], read.frame), _read(by_kind["planes"], self._plane),
-            _read(by_kind["rounds"], read.round),
+            _read(by_kind["curves"], read.curve),
             self._fresh(record), record.number("valA"), (bool(record.whole("other")), bool(record.whole("other2"))),
         )  # fmt: skip
 

@@ -100,6 +100,38 @@ def test_text_keeps_its_shape() -> None:
     assert [c.name for c in scene.constraints][:2] == ["r004-bottom-u", "r004-bottom-v"]
 
 
+def cubic(sketch: RandomSketch, corners: list[tuple[float, float]]) -> int:
+    """A cubic of four points."""
+    base = sketch.request(300)
+    for k, corner in enumerate(corners, 1):
+        sketch.point(base + k, *corner)
+    names = {f"point_{k}": f"{base + 1 + k:08x}" for k in range(4)}
+    sketch.record("Entity", h_v=f"{base:08x}", type="12000", **names)
+    return base
+
+
+@pytest.mark.parametrize("end", [0, 1])
+def test_lines_and_arcs_are_tangent_to_cubics(end: int) -> None:
+    """8 coordinates of a cubic, 4 of a line, 6 of an arc less its radius; a tangent line, then a tangent arc."""
+    sketch = RandomSketch()
+    curve = cubic(sketch, [(0.0, 0.0), (1.0, 1.0), (2.0, 1.0), (3.0, 0.0)])
+    sketch.line((0.0, 0.0), (-1.0, -1.0) if end == 0 else (1.0, -1.0))
+    sketch.arc((0.0, 1.0), 1.0, (-math.pi / 4, math.pi / 4) if end == 0 else (math.pi / 4, math.pi / 2))
+    sketch.add(124, lambda q: [0j], entityA=curve, entityB=sketch.lines[0][0], other=end)
+    assert dofkit.classify(load(sketch.text())).dof == 8 + 4 + 5 - 1
+    sketch.add(125, lambda q: [0j], entityA=curve, entityB=sketch.arcs[0][0], other=end, other2=0)
+    report = dofkit.classify(load(sketch.text()))
+    assert (report.dof, report.redundant) == (8 + 4 + 5 - 2, [])
+
+
+def test_a_circle_has_no_end_to_be_tangent_at() -> None:
+    sketch = square()
+    sketch.circle((0.0, 0.0), 1.0)
+    sketch.add(123, lambda q: [0j], entityA=sketch.circles[0][0], entityB=sketch.lines[0][0])
+    told = dofkit.classify(load(sketch.text())).warnings
+    assert any("constraint c005-arc-line-tangent: what it mentions has no such ends" in one for one in told)
+
+
 def test_an_arc_that_is_a_whole_circle_is_told_once() -> None:
     """Its ends in one place are as far from the centre: 6 coordinates less 2."""
     sketch = RandomSketch()
@@ -143,10 +175,10 @@ def test_faults(message: str, tmp_path: Path) -> None:
 
 
 def test_every_kind_that_is_read_has_a_random_sketch() -> None:
-    """But two, whose equations are those of distances and angles."""
+    """But those whose equations are those of distances and angles, and cubics."""
     met = {line.rpartition("=")[2] for seed in range(200) for line in random_sketch(seed).text().split("\n")
            if line.startswith("Constraint.type")}  # fmt: skip
-    assert {str(k) for k, kind in KINDS.items() if kind.says is not None} - met == {"52", "53", "54"}
+    assert {str(k) for k, kind in KINDS.items() if kind.says is not None} - met == {"52", "53", "54", "124"}
 
 
 def compared(seed: int) -> str:

@@ -15,8 +15,8 @@ from dofkit.models.sketch_file import read_sketch
 from dofkit.models.sketch_space_relations import SPACE_KINDS
 from dofkit.models.spatial_sketch import SpatialSketch
 
-#: Kinds that random sketches in a plane have, read as in space.
-FLAT = {"52", "53", "61", "62", "63", "123", "125", "130"}
+#: Kinds that random sketches in a plane have, read as in space; cubics have a test of their own.
+FLAT = {"52", "53", "61", "62", "63", "123", "124", "125", "130"}
 SEEDS = (1, 2)
 
 
@@ -48,6 +48,21 @@ def test_three_legs_of_given_length_hold_a_point() -> None:
     report = dofkit.classify(scene)
     assert (report.dof, report.redundant) == (0, [])
     assert scene.particles[0].name == "r004"
+
+
+def test_a_line_is_tangent_to_a_cubic_in_space() -> None:
+    """Four points (12) and a line (6) that begins where the cubic does (3) and goes on along it (2)."""
+    s = RandomSpace()
+    base = s.request(300)
+    ends = [s.point(base + k, at) for k, at in enumerate([(0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (2.0, 0.0, 1.0),
+                                                         (3.0, 0.0, 0.0)], 1)]  # fmt: skip
+    s.entity(base, 12000, **{f"point_{k}": end.handle for k, end in enumerate(ends)})
+    s.drawn_line((0.0, 0.0, 0.0), (-2.0, -2.0, -2.0))
+    line = s.segments[0]
+    s.add(20, lambda q: [0j], ptA=ends[0].handle, ptB=line.ends[0].handle)
+    s.add(124, lambda q: [0j], entityA=base, entityB=line.handle)
+    report = dofkit.classify(load(s))
+    assert (report.dof, report.redundant) == (13, [])
 
 
 def test_a_sketch_on_a_face_moves_with_what_was_extruded() -> None:
