@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -94,13 +95,14 @@ class SketchScene(ABC):
 
     def is_whole_circle(self, arc: Record) -> bool:
         """Is an arc made a whole circle, its ends by a constraint of its group in one place?"""
-        ends = {arc.handle("point[1].v"), arc.handle("point[2].v")}
-        return any(
-            {c.handle("ptA.v"), c.handle("ptB.v")} == ends
-            and c.handle("group.v") in (0, self.file.group_of(arc.handle()))
-            for c in self.file.constraints.values()
-            if c.whole("type") == _COINCIDENT
-        )
+        ends = frozenset((arc.handle("point[1].v"), arc.handle("point[2].v")))
+        return not self._joined.isdisjoint({(ends, 0), (ends, self.file.group_of(arc.handle()))})
+
+    @cached_property
+    def _joined(self) -> set[tuple[frozenset[int], int]]:
+        """The points that constraints put in one place, by the group of each constraint."""
+        together = [c for c in self.file.constraints.values() if c.whole("type") == _COINCIDENT]
+        return {(frozenset((c.handle("ptA.v"), c.handle("ptB.v"))), c.handle("group.v")) for c in together}
 
     def mentioned(self, record: Record) -> list[int]:
         """The handles of what a constraint mentions."""
