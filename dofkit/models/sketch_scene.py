@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from dofkit.expressions.text.limits import MAX_CHARACTERS
 from dofkit.models.model_document import COARSEST, FINEST, ModelDocument, SceneDraft, listed
 from dofkit.models.sketch_file import Record, SketchFile
 from dofkit.models.sketch_relations import KINDS, Written
@@ -76,6 +77,8 @@ class SketchScene(ABC):
             written = list(self._written(record))
             if not written:
                 raise UnreadError("what it mentions has no such ends")
+            if any(len(one.get("text", "")) > MAX_CHARACTERS for one in written):
+                raise UnreadError("its equation is longer than a scene's texts may be")
         except UnreadError as why:
             self.draft.leave_out(f"{name}: {why}", binding=True)
             return

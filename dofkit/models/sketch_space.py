@@ -173,17 +173,22 @@ class Projection(NamedTuple):
         """Are areas known with their signs?"""
         return self.frame is not None and self.frame.unit
 
+    @property
+    def _plain(self) -> bool:
+        """Is it shorter in space: in no workplane, or within one that turns?"""
+        return self.frame is None or (self.within and not (self.signed and self.frame.constant))
+
     def pair(self, a: SpaceVector) -> tuple[Expr, ...]:
         """The components that are seen, up to factors where the frame is no unit."""
         return a.parts if self.frame is None else (inner(self.frame.u, a), inner(self.frame.v, a))
 
     def dot(self, a: SpaceVector, b: SpaceVector) -> Expr:
         """a . b."""
-        return dot(self.pair(a), self.pair(b)) if self.signed else inner(a, b)
+        return inner(a, b) if self._plain else dot(self.pair(a), self.pair(b))
 
     def squared(self, a: SpaceVector) -> Expr:
         """a . a."""
-        return square(self.pair(a)) if self.signed else squared(a)
+        return squared(a) if self._plain else square(self.pair(a))
 
     def cross(self, a: SpaceVector, b: SpaceVector) -> Expr:
         """a x b in a plane, up to a factor where its frame is no unit."""
@@ -194,7 +199,7 @@ class Projection(NamedTuple):
 
     def area_squared(self, a: SpaceVector, b: SpaceVector) -> Expr:
         """The square of |a x b|."""
-        return self.cross(a, b) ** 2 if self.signed else squared(a.cross(b))
+        return squared(a.cross(b)) if self._plain else self.cross(a, b) ** 2
 
     def cross_drawn(self, a: SpaceVector, b: SpaceVector) -> float:
         """a x b in a plane, in the drawing."""

@@ -125,6 +125,16 @@ def test_workplanes_that_rest_on_each_other_are_not_read() -> None:
     assert [p.name for p in scene.particles if p.name[-2] != "_"] == ["r004"]
 
 
+def test_an_equation_that_is_too_long_is_told_and_no_fault(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("dofkit.models.sketch_scene.MAX_CHARACTERS", 30)
+    s = RandomSpace()
+    s.drawn_line((0.0, 0.0, 0.0), (1.0, 2.0, 3.0))
+    s.drawn_line((1.0, 0.0, 0.0), (3.0, 2.0, 1.0))
+    s.add(50, lambda q: [0j], entityA=s.segments[0].handle, entityB=s.segments[1].handle)
+    told = dofkit.classify(load(s)).warnings
+    assert any("constraint c001-eq-length: its equation is longer than a scene's texts" in one for one in told)
+
+
 def compared(sketch: RandomSketch, scene: dofkit.Scene) -> str:
     """How a random sketch compares: right, open, or what is wrong."""
     j = sketch.jacobian()
