@@ -72,14 +72,44 @@ class IntegralSearch:
     def candidates(self, monomials: Sequence[Monomial]) -> Iterator[Expr]:
         """Combinations that are constant along D, the simplest first."""
         first = self.sample()
-        equations = None if first is None else self._along_curve(monomials, first) or self._at_points(monomials)
-        if first is None or equations is None:
+        if first is None:
+            return
+        if self.solver is not None:
+            monomials = self._distinct(monomials)
+        equations = self._along_curve(monomials, first) or self._at_points(monomials)
+        if equations is None:
             return
         null, nullity = equations.nullspace()
         for weights in _simplest_first(null, nullity, len(monomials), first.p):
             written = self._written(monomials, weights, first.p)
             if written is not None:
                 yield written
+
+    def _distinct(self, monomials: Sequence[Monomial]) -> list[Monomial]:
+        """Of products that are one function on the finite relations the simplest; those that move nowhere are left out.
+
+        Where theta = alpha, theta x is alpha x: it makes no integral that alpha x does not make. Functions are told
+        apart at as many points as there are equations for the products that are left.
+        """
+        while True:
+            like = self._likeness()
+            found: dict[Monomial, Monomial] = {}
+            for m in monomials:
+                key = tuple(sorted([like[i] for i in m]))
+                if any(i not in self.constant for i in key):
+                    found.setdefault(key, m)
+            if self._sample(len(found) + SPARE - 1) is None or self._likeness() == like:
+                return list(found.values())
+
+    def _likeness(self) -> dict[int, int]:
+        """For every function the first that has its value at all points, before others one that is constant."""
+        first: dict[tuple[int, ...], int] = {}
+        for i in sorted(self.functions, key=lambda i: i not in self.constant):
+            first.setdefault(self._values_of(i), i)
+        return {i: first[self._values_of(i)] for i in self.functions}
+
+    def _values_of(self, function: int) -> tuple[int, ...]:
+        return tuple([int(sample.at[function]) for sample in self.points])
 
     def _at_points(self, monomials: Sequence[Monomial]) -> nmod_mat | None:
         """The slopes of the products at points, each a column; None where there are not enough points."""
@@ -290,10 +320,11 @@ def _simplest_first(null: nmod_mat, nullity: int, number: int, p: int) -> Iterat
     """
     if not nullity:
         return
-    hardest_first = [null[number - 1 - m, c] for c in range(nullity) for m in range(number)]
+    entries, width = null.entries(), null.ncols()
+    hardest_first = [entry for c in range(nullity) for entry in entries[c::width][::-1]]
     reduced, rank = nmod_mat(nullity, number, hardest_first, p).rref()
-    for r in reversed(range(rank)):
-        yield [reduced[r, number - 1 - m] for m in range(number)]
+    for row in reversed(reduced.table()[:rank]):
+        yield row[::-1]
 
 
 def _rational(value: int, p: int) -> Fraction | None:
