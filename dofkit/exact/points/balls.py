@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -63,7 +64,11 @@ class _RealPoint:
     def __init__(self, symbols: Mapping[Expr, Any], seed: int) -> None:
         self.symbols = dict(symbols)
         self.seed = seed
-        self.rng = random.Random(f"dofkit functions {seed}")
+
+    @cached_property
+    def rng(self) -> random.Random:
+        """What else is drawn at this point."""
+        return random.Random(f"dofkit functions {self.seed}")
 
 
 class FloatPoint(_RealPoint):
