@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
 from dofkit.base.errors import Fault, SceneError
+from dofkit.base.records import dataclass
 from dofkit.models.model_document import (
     COARSEST,
     FINEST,

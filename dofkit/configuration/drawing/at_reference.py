@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any
 
 from flint import arb, ctx
 
+from dofkit.base.records import dataclass
 from dofkit.base.verdicts import VERDICTS
 from dofkit.configuration.drawing.dependent_classes import DependentClass, chart_of, dependent_parts, widened
 from dofkit.configuration.drawing.fewer_coordinates import smaller
