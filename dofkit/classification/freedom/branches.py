@@ -60,9 +60,10 @@ class Outcome:
 
     @property
     def consistent(self) -> bool | None:
-        if self.impossible or any(a.consistent is False for a in self.answers):
+        told = [a.consistent for a in self.answers]
+        if self.impossible or False in told:
             return False
-        return None if self.unsettled or any(a.consistent is None for a in self.answers) else True
+        return None if self.unsettled or None in told else True
 
     @property
     def parts(self) -> list[AnsweredPart]:

@@ -23,6 +23,8 @@ from dofkit.expressions.tree import Expr
 #: Bits of a ball; numbers of more bits than the second ask for as many more, twice: what they differ by may be as small
 #: as they are long.
 PRECISION, SHORT = 256, 64
+#: Whole numbers up to this need no rounding.
+WHOLE = 1 << 16
 _bits: ContextVar[int | None] = ContextVar("ball_bits", default=None)
 _more: ContextVar[int] = ContextVar("ball_bits_more", default=0)
 
@@ -112,7 +114,8 @@ class BallPoint(_RealPoint):
     """Ball values: what is computed contains what is true."""
 
     def number(self, value: Fraction) -> arb:
-        return arb(fmpq(value.numerator, value.denominator))
+        above, below = value.numerator, value.denominator
+        return arb(above) if below == 1 and -WHOLE < above < WHOLE else arb(fmpq(above, below))
 
     def generator(self, var: Var, args: Sequence[Scalar]) -> arb:
         value = self._value(var, args)

@@ -303,10 +303,11 @@ def _sample_at(forms: Codistribution, point: FieldPoint | RandomCurve | None) ->
         heads = [[v.coefficient(0) for v in row] for row in matrix] if isinstance(point, RandomCurve) else matrix
         frame = field_frame(heads, len(columns), p)
         basis = kernel(matrix, frame, one * 0) if frame.free else []
-        gradients = {}
-        for v in ring.vars:
-            plain = v.kind == "symbol"
-            g = {v.index: one} if plain else gradient(ring, at, point, [(ring.var_node[v.index], one)])
+        gradients, moving = {}, {ring.var_node[c] for c in columns if c >= 0}
+        for v, node in zip(ring.vars, ring.var_node, strict=True):
+            g = {v.index: one} if v.kind == "symbol" else {}
+            if not (g or moving.isdisjoint(ring.order((node,)))):
+                g = gradient(ring, at, point, [(node, one)])
             gradients[v.index] = {place: g[c] for place, c in enumerate(columns) if c in g}
         at_vars = [at[ring.var_node[v.index]] for v in ring.vars]
     except NoValueError:
