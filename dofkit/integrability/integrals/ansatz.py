@@ -80,8 +80,7 @@ class IntegralSearch:
         equations = self._along_curve(monomials, first) or self._at_points(monomials)
         if equations is None:
             return
-        null, nullity = equations.nullspace()
-        for weights in _simplest_first(null, nullity, len(monomials), first.p):
+        for weights in _simplest_first(equations):
             written = self._written(monomials, weights, first.p)
             if written is not None:
                 yield written
@@ -315,18 +314,23 @@ def _sample_at(forms: Codistribution, point: FieldPoint | RandomCurve | None) ->
     return FormSample(point, p, one, at_vars, gradients, basis, matrix)
 
 
-def _simplest_first(null: nmod_mat, nullity: int, number: int, p: int) -> Iterator[list[nmod]]:
-    """A basis of the null space, whose vectors are columns, by its last monomial, the simplest first.
+def _simplest_first(equations: nmod_mat) -> Iterator[list[nmod]]:
+    """A basis of the null space by its last monomial, the simplest first.
 
-    Monomials run from simple to hard, so elimination from the hard end leaves one hard monomial to each vector.
+    Monomials, which are the columns, run from simple to hard; each that depends on those before it is a vector's last.
     """
-    if not nullity:
-        return
-    entries, width = null.entries(), null.ncols()
-    hardest_first = [entry for c in range(nullity) for entry in entries[c::width][::-1]]
-    reduced, rank = nmod_mat(nullity, number, hardest_first, p).rref()
-    for row in reversed(reduced.table()[:rank]):
-        yield row[::-1]
+    reduced, rank = equations.rref()
+    rows, kept = reduced.table()[:rank], list[int]()
+    zero, one = nmod(0, equations.modulus()), nmod(1, equations.modulus())
+    for column in range(equations.ncols()):
+        if len(kept) < rank and rows[len(kept)][column] != 0:
+            kept.append(column)
+            continue
+        weights = [zero] * equations.ncols()
+        weights[column] = one
+        for row, pivot in zip(rows, kept, strict=False):
+            weights[pivot] = -row[column]
+        yield weights
 
 
 def _rational(value: int, p: int) -> Fraction | None:
