@@ -323,7 +323,7 @@ def _simplest_first(equations: nmod_mat) -> Iterator[list[nmod]]:
     rows, kept = reduced.table()[:rank], list[int]()
     zero, one = nmod(0, equations.modulus()), nmod(1, equations.modulus())
     for column in range(equations.ncols()):
-        if len(kept) < rank and rows[len(kept)][column] != 0:
+        if len(kept) < rank and rows[len(kept)][column]:
             kept.append(column)
             continue
         weights = [zero] * equations.ncols()
