@@ -26,13 +26,13 @@ def search_of(scene: dict[str, Any], seed: int) -> IntegralSearch:
     return IntegralSearch(found.company.parts.forms(block, ()), seed)
 
 
-@pytest.mark.parametrize("degree, every, left", [(1, 3, 2), (2, 21, 13), (3, 82, 47)])
+@pytest.mark.parametrize(("degree", "every", "left"), [(1, 3, 2), (2, 21, 13), (3, 82, 47)])
 def test_what_equals_a_constant_moves_nothing(degree: int, every: int, left: int) -> None:
     """theta is alpha: y and phi move, beside R, alpha, cos(alpha) and sin(alpha), of which sines occur once.
 
-    Of degree 1: y, theta, phi. Of degree 2 also theirs with the four constants (3 * 4) and with each other (6). Of degree 3
-    three of them (10), two with a constant (6 * 4), one with two constants but sin^2 (3 * 9): 61 more. Without theta 2;
-    2 * 4 + 3 more; 4 + 3 * 4 + 2 * 9 more.
+    Of degree 1: y, theta, phi. Of degree 2 also theirs with the four constants (3 * 4) and with each other (6). Of
+    degree 3 three of them (10), two with a constant (6 * 4), one with two constants but sin^2 (3 * 9): 61 more. Without
+    theta 2; 2 * 4 + 3 more; 4 + 3 * 4 + 2 * 9 more.
     """
     search = search_of(ALONG, 0)
     monomials = search.monomials(degree)
