@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from copy import copy
+from functools import lru_cache
 from typing import Any, Literal, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, PrivateAttr, model_validator
@@ -63,12 +64,13 @@ class FieldVerdict(ToldModel):
             raise ValueError(f"{self.verdict!r} without a bound")
         return self
 
-    @classmethod
-    def of(cls, claim: Claim) -> Self:
-        """What is told of a claim."""
+    @staticmethod
+    @lru_cache(maxsize=1024)
+    def of(claim: Claim) -> FieldVerdict:
+        """What is told of a claim: one object for all that claim the same."""
         if claim.verdict == "undecided":
-            return cls(verdict="undecided")
-        return cls(verdict=claim.verdict, argument=claim.argument, bound=claim.bound, about=claim.about)
+            return FieldVerdict(verdict="undecided")
+        return FieldVerdict(verdict=claim.verdict, argument=claim.argument, bound=claim.bound, about=claim.about)
 
 
 class Count(ToldModel):

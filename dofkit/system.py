@@ -6,10 +6,11 @@ Everything after this module works on `System` and never reads the scene again.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from fractions import Fraction
 from typing import Any, Literal, NamedTuple, Protocol
 
+from dofkit.base.records import dataclass
 from dofkit.expressions.terms import longest_number
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.unwritten import Unwritten

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
+
+from dofkit.base.records import dataclass
 
 #: ``cannot``: the method never answers such a question or scene; ``undecided``: it tried, or failed on the way.
 Outcome = Literal["right", "wrong", "undecided", "timed out", "cannot"]

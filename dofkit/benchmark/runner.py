@@ -6,10 +6,11 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import lru_cache
 from typing import Protocol
 
+from dofkit.base.records import dataclass
 from dofkit.base.workers import MEMORY, Job, Pool
 from dofkit.base.workers import JobOutcome as Ended
 from dofkit.base.workers.crews import Cluster, Crew, StoppedError, Threads

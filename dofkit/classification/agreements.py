@@ -8,9 +8,9 @@ defect is logged.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+from dofkit.base.records import dataclass
 from dofkit.base.verdicts import OPEN
 from dofkit.relations.answer import DEFECTS
 from dofkit.report import ConstraintEntry, FieldVerdict, Redundancy

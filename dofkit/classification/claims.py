@@ -124,7 +124,7 @@ def _claim(told: FieldVerdict) -> Claim:
 
 def _counted(claim: Claim) -> Claim:
     """A number that is counted from another: a proof of it is a proof by counting."""
-    return replace(claim, argument="count") if claim.verdict == "proved" else claim
+    return Claim("proved", "count", claim.bits, claim.gap, claim.about) if claim.verdict == "proved" else claim
 
 
 def _dependence(study: Study, free: Claim, some: bool) -> Claim:

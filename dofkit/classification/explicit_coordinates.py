@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
 
+from dofkit.base.records import dataclass
 from dofkit.expressions import tree as ex
+from dofkit.expressions.renaming import shape_of
 from dofkit.expressions.tree import Expr
 
 #: Relations and coordinates up to so many are looked at.
@@ -22,7 +23,7 @@ def explicit(relations: Sequence[Expr], names: Sequence[str], count: int, most: 
     """
     if len(relations) > MOST or len(names) > MOST:
         return None
-    left = [_Reading(_degrees(g)) for g in relations]
+    left = _readings(relations)
     solved: set[str] = set()
     while len(solved) < count:
         open_ = [n for n in reversed(names) if n not in solved]
@@ -48,6 +49,19 @@ class _Reading:
         if name not in self.of:
             return self
         return _Reading({**{n: k for n, k in self.of.items() if n != name}, **{n: OTHER for n in by.of if n != name}})
+
+
+def _readings(relations: Iterable[Expr]) -> list[_Reading]:
+    """How coordinates occur in every relation; looked at once in those that are the same up to names."""
+    known: dict[Expr, list[tuple[int, int]]] = {}
+    found = []
+    for g in relations:
+        shape = shape_of(g)
+        if shape.skeleton not in known:
+            place = {name: k for k, name in enumerate(shape.names)}
+            known[shape.skeleton] = [(place[name], degree) for name, degree in _degrees(g).items()]
+        found.append(_Reading({shape.names[k]: degree for k, degree in known[shape.skeleton]}))
+    return found
 
 
 def _degrees(g: Expr) -> dict[str, int]:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from dofkit.base.deadline import expired
-from dofkit.base.libraries import np
+from dofkit.base.libraries import LateLibrary, np
 from dofkit.classification.explicit_coordinates import MOST, PLAIN, QUADRATIC, explicit
 from dofkit.classification.freedom.bridged_blocks import with_still_parts
 from dofkit.classification.turned_coordinates import (
@@ -21,7 +21,6 @@ from dofkit.configuration.drawing.at_reference import ball_point
 from dofkit.configuration.drawing.rigid_orbit import RigidOrbit
 from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
-from dofkit.configuration.local.neighbourhood import damped
 from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.engines import BOTH
 from dofkit.exact.matrices.certified import ball_part
@@ -39,6 +38,11 @@ from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 from dofkit.system import Rotation
+
+if TYPE_CHECKING:
+    from dofkit.configuration.local import neighbourhood
+else:
+    neighbourhood = LateLibrary("dofkit.configuration.local.neighbourhood")
 
 #: How far a singular or special configuration is left to look at the set nearby, and what counts as 0 there.
 AWAY, ZERO = (0.05, 0.05, 0.05, 0.05, 0.3, 0.6, 0.6, 1.0), 1e-7
@@ -98,8 +102,7 @@ def _dependent_at_drawing(block: Block, a: Answer, setting: Setting) -> tuple[st
     if found is None:
         return ()
     own = frozenset(block.coordinates)
-    roles = ("x", "y", "z") if not a.parts else ()
-    places = frozenset(c.name for c in setting.roles if c.name in own and c.role in roles)
+    places = frozenset(c.name for c in setting.roles if not a.parts and c.name in own and c.role in ("x", "y", "z"))
     names = sorted(block.coordinates, key=places.__contains__)
     place = {name: k for k, name in enumerate(names)}
     rows = [{place[name]: v for name, v in row.items()} for row in found.rows]
@@ -241,7 +244,7 @@ def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int, power: i
             return True
         if len(errors) > STALLED and min(errors[-STALLED:]) > min(errors[:-STALLED]) / 2:
             break
-        for u, s in zip(search.unknowns, damped(j, f, power), strict=True):
+        for u, s in zip(search.unknowns, neighbourhood.damped(j, f, power), strict=True):
             symbols[u] += float(s)
     return errors[-1] < 1e-13
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import DEFAULT_SECONDS, limited, part, unless_late
 from dofkit.base.memory import unhurried
+from dofkit.base.records import dataclass
 from dofkit.base.verdicts import weakest
 from dofkit.classification import report as fields
 from dofkit.classification.agreements import agreed

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
+from typing import TYPE_CHECKING
 
 from dofkit.base.deadline import unless_late
+from dofkit.base.libraries import LateLibrary
 from dofkit.base.wording import many, verb
 from dofkit.classification.dependence.redundancy import merged
 from dofkit.classification.freedom.branches import Outcome
@@ -16,13 +18,17 @@ from dofkit.classification.turned_coordinates import partly_turned, turned_toget
 from dofkit.expressions.text import to_text
 from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.mobility.textbook_count import CountedFacts, count
-from dofkit.mobility.tree_pose import free_coordinates
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import uses_time
 from dofkit.relations.integration_constants import about_constants
 from dofkit.relations.normal.pieces import Finite
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, Count, ForceEntry, IntegrablePart, Redundancy
 from dofkit.system import BINDING, System
+
+if TYPE_CHECKING:
+    from dofkit.mobility import tree_pose
+else:
+    tree_pose = LateLibrary("dofkit.mobility.tree_pose")
 
 
 def instantaneous_dof(study: Study) -> int | None:
@@ -87,7 +93,7 @@ def generalized_coordinates(study: Study) -> list[str] | None:
 
 
 def _on_tree(study: Study) -> list[str] | None:
-    found = None if not study.outcome.dof else free_coordinates(study.system, study.setting.positive)
+    found = None if not study.outcome.dof else tree_pose.free_coordinates(study.system, study.setting.positive)
     return found if found is not None and len(found) == study.outcome.dof else None
 
 

@@ -82,7 +82,8 @@ def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variet
         return _by(found, "one relation") if found.dimension >= least else _near(found)
     given, left = explicit_relations(chart.relations)
     parts = parts_of(left, [s for s in chart.symbols if s != ex.TIME])
-    cases = [_cases(part, chart) for part in parts]
+    fibres = [_is_fibre(part, chart.positive) for part in parts]
+    cases = [_cases(part, chart, fibre) for part, fibre in zip(parts, fibres, strict=True)]
     if None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS:
         return near(found)
     loose = chart.coordinates - len(given) - sum(len(part.unknowns) for part in parts)
@@ -103,8 +104,7 @@ def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variet
         return replace(best, dimension=None, verdict="undecided", reasons=[*best.reasons, LARGER])
     if open_:
         return near(best) if best is found else _near_its_point(chart, best)
-    fibres = all(_is_fibre(part, chart.positive) for part in parts)
-    best = _by(best, "graph" if not parts else "generic fibre" if fibres else "cases")
+    best = _by(best, "graph" if not parts else "generic fibre" if all(fibres) else "cases")
     exact = all(case.exact for c in cases for case in c or ())
     return best if exact else replace(best, verdict=weakest(best.verdict, "probable"))
 
@@ -128,7 +128,8 @@ def by_cases(chart: Chart, found: Variety, look: Callable[[Chart], Variety]) -> 
     if not 1 < len(chart.relations) <= MAX_RELATIONS:
         return found
     given, left = explicit_relations(chart.relations)
-    cases = [_cases(part, chart) for part in parts_of(left, [s for s in chart.symbols if s != ex.TIME])]
+    parts = parts_of(left, [s for s in chart.symbols if s != ex.TIME])
+    cases = [_cases(part, chart, _is_fibre(part, chart.positive)) for part in parts]
     if [] in cases:
         own = [g for g in left if any(s.args[0] == "parameter" for s in g.symbols)]
         return Variety(False, None, "probable" if own else "proved", reasons=[NO_CASE], argument="cases")
@@ -289,9 +290,9 @@ def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[Relatio
     return parts
 
 
-def _cases(part: RelationPart, chart: Chart) -> list[all_cases.BoundedCase] | None:
-    """The cases of a part with the bounds of their dimensions."""
-    if _is_fibre(part, chart.positive):
+def _cases(part: RelationPart, chart: Chart, fibre: bool) -> list[all_cases.BoundedCase] | None:
+    """The cases of a part with the bounds of their dimensions; a ``fibre`` is a generic one."""
+    if fibre:
         return [all_cases.BoundedCase(part.relations, len(part.unknowns) - len(part.relations), True)]
     try:
         own = [g for g in part.relations if is_identically_zero(g, chart.positive) is not True]

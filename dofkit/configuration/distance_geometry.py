@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations, islice, pairwise
 from typing import Any
@@ -19,6 +18,7 @@ from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import nx
+from dofkit.base.records import dataclass
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr

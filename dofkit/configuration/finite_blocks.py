@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from math import isfinite
+from typing import TYPE_CHECKING
 
+from dofkit.base.libraries import LateLibrary
 from dofkit.configuration.drawing.at_reference import AtReference, at_reference, ball_matrix
-from dofkit.configuration.drawing.measured import MISSED, measure
 from dofkit.configuration.drawing.measured_blocks import drawing_of_block, is_measured, is_tree
 from dofkit.configuration.generic_points import field_jacobian
 from dofkit.configuration.search import find
@@ -27,6 +28,11 @@ from dofkit.relations.blocks import Block
 from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.setting import Setting
+
+if TYPE_CHECKING:
+    from dofkit.configuration.drawing import measured as measured_drawing
+else:
+    measured_drawing = LateLibrary("dofkit.configuration.drawing.measured")
 
 OFF_REFERENCE = (
     "the reference configuration does not satisfy all finite relations: the answer is for configurations that do, "
@@ -155,14 +161,14 @@ def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answ
     """Measured geometry: the rank within the tolerance."""
     if "balls" not in setting.engines:
         return Answer(None, verdict="undecided", reasons=["measured geometry has no points over GF(p)"])
-    told = measure(chart, _floats(found), setting, found.rigid)
+    told = measured_drawing.measure(chart, _floats(found), setting, found.rigid)
     result = Answer(True, told.dimension, told.dimension, "numeric" if told.dimension is not None else "undecided")
     result.argument, result.gap, result.about = "singular values", told.gap, "reference"
     result.method = "singular values within the tolerance at the given configuration"
     result.instantaneous = told.instantaneous
     if told.still:
         result.consistent, result.verdict, result.argument = False, "numeric", "time fixed"
-    elif told.dimension is None and (chart.time is not None or told.reason == MISSED):
+    elif told.dimension is None and (chart.time is not None or told.reason == measured_drawing.MISSED):
         result.consistent = None
     exact = "no singular value but 0 itself is taken for 0"
     gap = f"the gap between singular values is {told.gap:.1e}" if isfinite(told.gap) else exact

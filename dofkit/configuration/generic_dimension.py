@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from dofkit.base.deadline import check
+from dofkit.base.libraries import LateLibrary
 from dofkit.base.verdicts import ArgumentKey, Verdict
 from dofkit.configuration.generic_points import field_jacobian, generators_of
-from dofkit.configuration.local.dimension import local_at
 from dofkit.configuration.reality import BALL_COLUMNS, real_point, with_reality
 from dofkit.configuration.variety import Variety
 from dofkit.exact.matrices.modular import rank_of
@@ -17,6 +18,11 @@ from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.relations.chart import Chart
+
+if TYPE_CHECKING:
+    from dofkit.configuration.local import dimension as local_dimension
+else:
+    local_dimension = LateLibrary("dofkit.configuration.local.dimension")
 
 
 def variety_at(
@@ -36,7 +42,7 @@ def variety_at(
     argument: ArgumentKey | None = "regular point"
     reasons: list[str] = []
     if rank < len(chart.nodes) and not _smooth(chart, samples[0], solver):
-        local = local_at(chart, samples[0], None, 0, chart.time, drawn=False)
+        local = local_dimension.local_at(chart, samples[0], None, 0, chart.time, drawn=False)
         if local.dimension is None or local.confined or local.dimension < columns - rank:
             bound = _free_dimension(chart, solver)
             exact = None if local.confined else local.dimension

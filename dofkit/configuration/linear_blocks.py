@@ -10,12 +10,13 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 from flint import fmpq
 
+from dofkit.base.records import dataclass
 from dofkit.configuration.reality import BALL_COLUMNS
 from dofkit.exact.engines import BOTH
 from dofkit.exact.matrices.modular import without_time

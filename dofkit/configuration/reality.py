@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from flint import arb
 
+from dofkit.base.libraries import LateLibrary
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.generic_points import generators_of
-from dofkit.configuration.singular_points import numeric_local
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
@@ -19,6 +20,11 @@ from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
+
+if TYPE_CHECKING:
+    from dofkit.configuration import singular_points
+else:
+    singular_points = LateLibrary("dofkit.configuration.singular_points")
 
 #: Blocks with more columns than this are not certified with balls.
 BALL_COLUMNS = 60
@@ -113,7 +119,7 @@ def _without_reality(chart: Chart, found: Variety) -> Variety:
 def near_singular_point(chart: Chart, found: Variety) -> Variety:
     """All real points that were found are singular: the dimension is that of the set near one of them."""
     real = found.real
-    local = None if real is None else numeric_local(chart, real)
+    local = None if real is None else singular_points.numeric_local(chart, real)
     if local is None or local.dimension is None or local.confined:
         found.consistent = None
         found.verdict, found.dimension = "undecided", None

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from dofkit.base.records import dataclass
 from dofkit.base.verdicts import About, ArgumentKey, Verdict
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealPoint

@@ -8,11 +8,11 @@ with a constant C that the initial state sets. What is found is proved: dF/dt - 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import chain
 from itertools import product as cartesian
 
 from dofkit.base.errors import TextError
+from dofkit.base.records import dataclass
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.zero.identity import certainly_nonzero, zero_and_verdict
 from dofkit.expressions import tree as ex

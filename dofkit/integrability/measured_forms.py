@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from dofkit.base.libraries import np
+from dofkit.base.records import dataclass
 from dofkit.configuration.drawing.measured import independent_rows
 from dofkit.configuration.drawing.measured_blocks import drawing_of_block
 from dofkit.configuration.drawing.measured_relations import SLACK, MeasuredRelations

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING
 
 from dofkit.base.libraries import LateLibrary
+from dofkit.base.records import dataclass
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import zero_and_verdict
 from dofkit.exact.zero.independence import odd_constants

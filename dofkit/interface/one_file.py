@@ -121,9 +121,10 @@ def _told(whole: Scene, scene: Scene, report: Report, given: Given, start: float
     if given.certificate is not None:
         report = _written_certificate(scene, report, given.certificate)
     changes = () if whole is scene or given.telling.as_json else _changes(whole, report, given)
-    missed = _used("unmet")(scene, report) if scene.expect else []
+    told = report.model_dump(mode="json") if scene.expect or given.telling.as_json else {}
+    missed = _used("unmet")(scene, told) if scene.expect else []
     more = (*changes, *_used("unexpected")(missed)) if missed else changes
-    text = _report_text(report, scene.title, given, more)
+    text = _told_line(told, given) if given.telling.as_json else _report_text(report, scene.title, given, more)
     seconds = time.perf_counter() - start
     counted = {**outcome_of(report), "expects": bool(scene.expect), "unmet": missed, "seconds": seconds}
     return streams(text, outcome=counted)
@@ -170,14 +171,19 @@ def streams(out: str = "", err: str = "", failed: bool = False, outcome: Json = 
 def _report_text(report: Report, title: str | None, given: Given, more: Sequence[SheetSection] = ()) -> str:
     telling = given.telling
     if telling.as_json:
-        told = report.model_dump(mode="json")
-        return _line(_used("selection_of")(told, telling.only) if telling.only else told, given)
+        return _told_line(report.model_dump(mode="json"), given)
     if telling.only:
         return str(_used("selected_line")(report, telling.only)) + "\n"
     if telling.brief:
         return show.brief_line(report, given.widest, _screen(given)) + "\n"
     sheet = show.sheet_of_report(report, title, telling.how)
     return show.as_text(sheet._replace(sections=(*more, *sheet.sections)), _screen(given)) + "\n\n"
+
+
+def _told_line(told: dict[str, Any], given: Given) -> str:
+    """A report, or the fields of it that are asked for, as a line of JSON."""
+    only = given.telling.only
+    return _line(_used("selection_of")(told, only) if only else told, given)
 
 
 def _screen(given: Given) -> Screen:

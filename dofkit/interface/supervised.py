@@ -12,11 +12,12 @@ import stat
 import sys
 from collections import Counter
 from collections.abc import Callable, Generator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, NamedTuple, Protocol
 
 from dofkit.base.deadline import DEFAULT_SECONDS, limit
 from dofkit.base.documents.document import MOST_BYTES
+from dofkit.base.records import dataclass
 from dofkit.base.workers import Job, JobOutcome, Json, Worker
 from dofkit.base.workers.processes import can_fork
 from dofkit.interface.presentation import Telling

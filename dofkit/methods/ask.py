@@ -6,7 +6,6 @@ What is answered is what `classify` says too.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from flint import ctx
@@ -14,6 +13,7 @@ from flint import ctx
 from dofkit.base.arguments import description_of, require_one_of, seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
 from dofkit.base.errors import ArgumentError
+from dofkit.base.records import dataclass
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.classification.dependence.equivalence import Sameness, compare

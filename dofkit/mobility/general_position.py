@@ -8,9 +8,9 @@ generic one, and equal to it but for a chance of degree/p [SchwartzZippel].
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from dofkit.base.deadline import check
+from dofkit.base.records import dataclass
 from dofkit.base.verdicts import Verdict
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows

@@ -9,10 +9,11 @@ where it is smaller the loop closes by fewer: all hinges parallel or through one
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 
 from dofkit.base.libraries import nx
+from dofkit.base.records import dataclass
 from dofkit.base.wording import many, verb
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.mobility.placement import Placement

@@ -7,10 +7,10 @@ a chance of degree/p; of measured numbers (p = 0, lengths in units of the scene'
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
+from dofkit.base.records import dataclass
 from dofkit.exact.matrices.rows import Numbers, cross, spanning
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.expressions.text import to_text

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+from dofkit.base.records import dataclass
 from dofkit.base.wording import many, verb
 from dofkit.report import ConstraintEntry, Count
 from dofkit.system import System

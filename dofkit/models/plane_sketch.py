@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 from typing_extensions import override
 
+from dofkit.base.records import dataclass
 from dofkit.models.joint_relations import figures
 from dofkit.models.model_document import number
 from dofkit.models.sketch_file import Record

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple
 
+from dofkit.base.records import dataclass
 from dofkit.expressions import to_text
 from dofkit.models.model_document import SceneDraft
 from dofkit.models.sketch_file import Record, SketchFile

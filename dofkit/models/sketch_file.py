@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from dofkit.base.errors import Fault, SceneError
+from dofkit.base.records import dataclass
 from dofkit.models.model_document import ModelFile
 
 #: A file of more records is refused.

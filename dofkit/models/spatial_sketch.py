@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from typing import TypeVar
 
 from typing_extensions import override
 
+from dofkit.base.records import dataclass
 from dofkit.expressions import Expr, coordinate, to_text
 from dofkit.models.model_document import number
 from dofkit.models.sketch_entities import SketchEntities

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections import deque
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from dofkit.base.errors import Fault, SceneError
+from dofkit.base.records import dataclass
 from dofkit.base.spelling import nearest
 from dofkit.models.markup import Element, read_markup
 from dofkit.models.model_document import ModelFile, listed
@@ -134,9 +134,7 @@ class Robot:
         still = Transform(np.eye(3), np.zeros(3))
         pose = {name: still for name in self.links if name not in children}
         order, frame, joint_of, closing = [*pose], dict[str, Transform](), dict[str, RobotJoint](), []
-        left = deque(order)
-        while left:
-            name = left.popleft()
+        for name in order:
             for joint in below.get(name, ()):
                 frame[joint.name] = pose[name].after(joint.origin)
                 if joint.child in pose:
@@ -145,7 +143,6 @@ class Robot:
                 pose[joint.child] = frame[joint.name].after(_moved(joint, drawn.get(joint.name, 0.0)))
                 joint_of[joint.child] = joint
                 order.append(joint.child)
-                left.append(joint.child)
         return Poses(tuple(order), pose, frame, joint_of, tuple(closing))
 
 

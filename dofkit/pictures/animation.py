@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from dofkit.base.records import dataclass
 from dofkit.methods.classify import classify
 from dofkit.pictures.coordinates import MOST, gauge_sketch, is_bare
 from dofkit.pictures.layout import page_of, standpoint_of

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, pairwise
 
@@ -12,6 +11,7 @@ import networkx as nx
 import numpy as np
 
 from dofkit.base.errors import DofkitError
+from dofkit.base.records import dataclass
 from dofkit.expressions.tree import TIME, Expr, coordinate, parameter
 from dofkit.motion.sampled.configurations import configurations
 from dofkit.pictures.evaluation import derivatives, evaluated, values_at, with_unit_rows

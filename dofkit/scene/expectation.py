@@ -12,7 +12,6 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import Expr
-from dofkit.report import Report
 from dofkit.scene.names import vocabulary_of
 from dofkit.scene.scene import Scene
 
@@ -20,9 +19,11 @@ from dofkit.scene.scene import Scene
 _SETS = frozenset({"redundant", "conflicting", "infeasible", "generalized_coordinates", "circuit"})
 
 
-def unmet(scene: Scene, report: Report) -> list[str]:
-    """Every field that the scene expects and the report does not tell, as ``KEY: ... expected, ... told``."""
-    told = report.model_dump(mode="json")
+def unmet(scene: Scene, told: Mapping[str, Any]) -> list[str]:
+    """Every field that the scene expects and a report does not tell, as ``KEY: ... expected, ... told``.
+
+    ``told``: the report as it is written in JSON.
+    """
     entries = {entry["name"]: entry for entry in told["constraints"]}
     return [
         f"{key}: {wanted} expected, {found} told"

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple, Protocol
 
 from dofkit.base.errors import Fault
+from dofkit.base.records import dataclass
 from dofkit.base.spelling import nearest
 from dofkit.expressions.text import Names, spelled, valid_name
 from dofkit.expressions.tree import Expr, num, parameter

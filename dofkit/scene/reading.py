@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,6 +17,7 @@ from dofkit.base.documents import Document, read_document
 from dofkit.base.documents.fast_flow import DEEPEST
 from dofkit.base.errors import ArgumentError, Fault, SceneError
 from dofkit.base.memory import undisturbed
+from dofkit.base.records import dataclass
 from dofkit.models.formats import is_model, read_model
 from dofkit.models.model_document import ModelFile
 from dofkit.scene.constraints.equations import as_equation

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import weakref
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import chain
 from typing import Any, Protocol
 
 from dofkit.base.errors import Fault
 from dofkit.base.memory import unhurried
+from dofkit.base.records import dataclass
 from dofkit.expressions.text import Names
 from dofkit.expressions.tree import Expr
 from dofkit.report import Report

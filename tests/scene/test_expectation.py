@@ -29,7 +29,7 @@ RIGHT: dict[str, Any] = {
 
 def missed(expect: dict[str, Any]) -> list[str]:
     scene = dofkit.load({**SCENE, "expect": expect})
-    return unmet(scene, dofkit.classify(scene))
+    return unmet(scene, dofkit.classify(scene).model_dump(mode="json"))
 
 
 def test_what_is_right_is_met() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from typing import Any
 
@@ -13,6 +13,7 @@ from dofkit.base.documents import yaml
 from dofkit.base.documents.fast_block import BlockReader
 from dofkit.base.documents.fast_flow import FlowReader, Path, Places, UnusualError
 from dofkit.base.errors import Fault
+from dofkit.base.records import dataclass
 
 #: A longer input is refused.
 MOST_BYTES = 64_000_000

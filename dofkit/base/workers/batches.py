@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass
 from typing import Generic, NamedTuple, Protocol, TypeVar
 
+from dofkit.base.records import dataclass
 from dofkit.base.workers.crews import Crew
 
 #: Seconds that a batch should take, and the most things and bytes in one.
-BATCH_SECONDS, MOST_IN_BATCH, MOST_BYTES = 0.5, 256, 1_000_000
+BATCH_SECONDS, MOST_IN_BATCH, MOST_BYTES = 0.25, 256, 1_000_000
 #: Batches under way for each worker.
 AHEAD = 3
 
@@ -55,7 +55,8 @@ class BatchCrew(Generic[Item, Told]):
 def in_order(crew: BatchCrew[Item, Told], items: Iterable[Item]) -> Iterator[tuple[Item, Told]]:
     """Everything with what is told of it, in order; no more is taken than the workers can use soon.
 
-    Batches are so large that each takes about half a second: what is in one makes no difference to what is told.
+    Batches are so large that each takes about a quarter of a second, for which a worker may wait at the end; what is in
+    one makes no difference to what is told.
     """
     stream = iter(items)
     under_way: deque[tuple[list[Item], Future[Worked[Told]]]] = deque()

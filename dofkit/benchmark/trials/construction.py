@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
+from dofkit.base.records import dataclass
 from dofkit.benchmark.trials.trial import Trial, Truth
 from dofkit.methods.names import Question
 

@@ -7,7 +7,7 @@ parameters.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dofkit.base.records import dataclass
 
 
 @dataclass(frozen=True)

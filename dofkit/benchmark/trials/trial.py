@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
+from dofkit.base.records import dataclass
 from dofkit.methods.names import Question
 
 #: ``dof``: a number (-1: the constraints contradict each other); ``integrability``: whether each constraint is

@@ -9,11 +9,12 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from itertools import combinations
 
 from dofkit.base.components import components
 from dofkit.base.deadline import check
+from dofkit.base.records import dataclass
 from dofkit.base.verdicts import About, Verdict
 from dofkit.classification.dependence.sufficient_sets import Implication, SufficientSets
 from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing

@@ -7,10 +7,11 @@ configuration is given; time and parameters may be as they like, so that what is
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import partial
 
 from dofkit.base.deadline import limited, unless_late
+from dofkit.base.records import dataclass
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.feasibility.parts import Part, parts_of
 from dofkit.classification.feasibility.refutation import contradictory, refuted

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import partial
 from itertools import product as cartesian
 from math import prod
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
+from dofkit.base.records import dataclass
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.copies import copies
 from dofkit.classification.freedom.domain import restricted_to_domain
@@ -59,9 +60,10 @@ class Outcome:
 
     @property
     def consistent(self) -> bool | None:
-        if self.impossible or any(a.consistent is False for a in self.answers):
+        told = [a.consistent for a in self.answers]
+        if self.impossible or False in told:
             return False
-        return None if self.unsettled or any(a.consistent is None for a in self.answers) else True
+        return None if self.unsettled or None in told else True
 
     @property
     def parts(self) -> list[AnsweredPart]:

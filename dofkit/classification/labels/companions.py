@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import chain, count, islice
 from typing import TYPE_CHECKING
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.libraries import LateLibrary
+from dofkit.base.records import dataclass
 from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.expressions.text import to_text
 from dofkit.integrability.pfaffian_system import codistribution

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
+from dofkit.base.records import dataclass
 from dofkit.base.verdicts import OPEN, VERDICTS, Claim, Verdict, weakest
 from dofkit.classification.labels.entry_claims import FoundLabels, Ground, claim_of_dependence, claims_of_labels
 from dofkit.classification.labels.reasons import Labels, Others, joined, reason_of

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+from dofkit.base.records import dataclass
 from dofkit.integrability.single_form import Integrability
 from dofkit.report import Form
 

@@ -33,12 +33,10 @@ class SharedEntries:
         """The labels that a piece carries by itself."""
         if isinstance(piece, JointEquation):
             return STILL
-        if not isinstance(piece, Pfaffian):
-            return traits(piece, self._setting.positive, self._setting.engines)
-        key = shape_together((piece,))
+        key: Hashable = shape_together((piece,)) if isinstance(piece, Pfaffian) else piece
         found = self._traits.get(key)
         if found is None:
-            opened = self._parts.is_open(piece)
+            opened = isinstance(piece, Pfaffian) and self._parts.is_open(piece)
             found = self._traits[key] = traits(piece, self._setting.positive, self._setting.engines, opened)
         return found
 

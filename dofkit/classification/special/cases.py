@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 from dofkit.base.deadline import OutOfTimeError, expired, limited
 from dofkit.base.errors import DofkitError
+from dofkit.base.records import dataclass
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.isomorphic_blocks import Likenesses
@@ -318,13 +319,17 @@ def _at_values(
 ) -> SpecialCase | None:
     """What the answer becomes, where all values that satisfy the conditions give the same one."""
     system = told.system
-    try:
-        reports = [again(at_values(system, way)) for way in ways]
-    except (DofkitError, *_UNFINISHED):
-        return None
-    said = [differences(told.report, r, condition.integrals) for r in reports]
-    if not said[0] or any(other != said[0] for other in said[1:]):
-        return None
+    reports: list[Report] = []
+    said: list[str] = []
+    for way in ways:
+        try:
+            reports.append(again(at_values(system, way)))
+        except (DofkitError, *_UNFINISHED):
+            return None
+        becomes = differences(told.report, reports[-1], condition.integrals)
+        said = said or becomes
+        if not becomes or becomes != said:
+            return None
     names = changed(told.report, reports[0]) or list(condition.integrals)
     if not names:
         symbols = frozenset().union(*(way.keys() for way in ways))
@@ -332,4 +337,4 @@ def _at_values(
     sure = weakest(told.report.verdict, *(r.verdict for r in reports))
     if sure == "undecided":
         return None
-    return SpecialCase(where=at, kind="parameters", what="; ".join(said[0]), constraints=names, verdict=sure)
+    return SpecialCase(where=at, kind="parameters", what="; ".join(said), constraints=names, verdict=sure)

@@ -8,10 +8,10 @@ zero set. What never vanishes for the values that the scene allows has no leaf.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import product as cartesian
 
 from dofkit.base.deadline import check
+from dofkit.base.records import dataclass
 from dofkit.exact.errors import TooLargeError
 from dofkit.exact.ring.canonical import Canon, Poly
 from dofkit.expressions import tree as ex

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product as cartesian
 
+from dofkit.base.records import dataclass
 from dofkit.classification.special.common_zeros import Leaf, Reals
 from dofkit.classification.special.wording import tuple_of
 from dofkit.exact.ring.canonical import Canon, Poly

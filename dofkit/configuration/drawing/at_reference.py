@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any
+from dataclasses import field, replace
+from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx
 
+from dofkit.base.libraries import LateLibrary
+from dofkit.base.records import dataclass
 from dofkit.base.verdicts import VERDICTS
 from dofkit.configuration.drawing.dependent_classes import DependentClass, chart_of, dependent_parts, widened
 from dofkit.configuration.drawing.fewer_coordinates import smaller
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
-from dofkit.configuration.local.dimension import local_at, numeric_dimension
-from dofkit.configuration.local.first_order import INDEPENDENT, WHOLE
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
 from dofkit.exact.errors import NoValueError
@@ -32,9 +32,15 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import FollowedClasses
 from dofkit.relations.chart import Chart
 
+if TYPE_CHECKING:
+    from dofkit.configuration.local import dimension as local_dimension
+    from dofkit.configuration.local import first_order
+else:
+    first_order = LateLibrary("dofkit.configuration.local.first_order")
+    local_dimension = LateLibrary("dofkit.configuration.local.dimension")
+
 #: A gap between singular values that tells them apart.
 CLEAR = 1e3
-RIGID = f"what is dependent is rigid: {WHOLE}"
 EXPLICIT = "every relation gives a coordinate by others, so the set is a graph"
 
 
@@ -112,7 +118,7 @@ def _by_field(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtRefere
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)
     if rank < len(matrix) and "balls" in chart.engines:
         ball = ball_point(chart, known, point.rng)
-    local = _at_fixed_time(local_at(chart, point, ball, rigid, chart.time), timed)
+    local = _at_fixed_time(local_dimension.local_at(chart, point, ball, rigid, chart.time), timed)
     return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball)
 
 
@@ -133,7 +139,7 @@ def _with_fewer(
     kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]
     rigid = rank_of([[field[i] for i in kept] for field in fields], point.p)
     ball = ball_point(small, known, here.rng) if "balls" in chart.engines else None
-    local = local_at(small, here, ball, rigid)
+    local = local_dimension.local_at(small, here, ball, rigid)
     return replace(local, dimension=None if local.dimension is None else local.dimension + free), spared
 
 
@@ -147,7 +153,8 @@ def _by_parts(
     """
     dimension = len(chart.columns) - rank
     if rank == len(matrix):
-        return LocalDimension(dimension, "proved", INDEPENDENT, argument="independent relations"), FollowedClasses(rank)
+        regular = LocalDimension(dimension, "proved", first_order.INDEPENDENT, argument="independent relations")
+        return regular, FollowedClasses(rank)
     reduced = echelon(matrix, p, supports=True)
     parts = dependent_parts(chart, reduced)
     if len(parts) == 1 and len(parts[0].rows) == len(matrix) and not chart.within:
@@ -162,14 +169,19 @@ def _by_parts(
         if local is None:
             return None
         found.append(local)
-        followed += 0 if local.reason == RIGID else own.coordinates - spared
+        followed += 0 if local.reason == _rigid() else own.coordinates - spared
         more += spared
     reasons = dict.fromkeys(local.reason for local in found)
     looked_at = {row for part in parts for row in part.rows}
     weak = max(found, key=lambda local: VERDICTS.index(local.verdict))
     local = LocalDimension(dimension, weak.verdict, "; ".join(reasons), argument=weak.argument)
-    rigid = sum(local.reason == RIGID for local in found)
+    rigid = sum(local.reason == _rigid() for local in found)
     return local, FollowedClasses(len(matrix) - len(looked_at), rigid, len(found) - rigid, followed, more)
+
+
+def _rigid() -> str:
+    """Why what depends on itself does not move."""
+    return f"what is dependent is rigid: {first_order.WHOLE}"
 
 
 def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[LocalDimension | None, int]:
@@ -184,7 +196,7 @@ def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[Local
     fields = rigid_fields(chart, point)
     rigid = rank_of(fields, point.p)
     if left == rigid:
-        return LocalDimension(left, "proved", RIGID, argument="rigid to first order"), 0
+        return LocalDimension(left, "proved", _rigid(), argument="rigid to first order"), 0
     local, spared = _with_fewer(chart, known, point, fields)
     return (local if local.dimension == left else None), spared
 
@@ -234,7 +246,7 @@ def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReferen
 
 def _dimension_along_curves(manifold: Manifold, rigid: int, time: int | None) -> LocalDimension:
     try:
-        return numeric_dimension(manifold, rigid, time)
+        return local_dimension.numeric_dimension(manifold, rigid, time)
     except NoValueError:
         return LocalDimension(
             None, "undecided", "the relations could not be followed along a curve through this configuration"

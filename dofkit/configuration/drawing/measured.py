@@ -10,11 +10,12 @@ the relations along it, excludes it beyond what the tolerance may hide. All else
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
+from dofkit.base.records import dataclass
 from dofkit.configuration.drawing.measured_branches import branch_dimension
 from dofkit.configuration.drawing.measured_flexes import StressForms
 from dofkit.configuration.drawing.measured_paths import LONGEST, ON, follow, runs_through, stride_of

@@ -7,9 +7,9 @@ the germ (`germ.Germ`) and a row here; its theorem is a line of `dofkit/THEOREMS
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Literal
 
+from dofkit.base.records import dataclass
 from dofkit.base.verdicts import ArgumentKey, Verdict, weakest
 from dofkit.configuration.local import first_order, higher_order, second_order
 from dofkit.configuration.local.germ import Conclusion, Germ

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -22,6 +23,8 @@ from dofkit.expressions.tree import Expr
 #: Bits of a ball; numbers of more bits than the second ask for as many more, twice: what they differ by may be as small
 #: as they are long.
 PRECISION, SHORT = 256, 64
+#: Whole numbers up to this need no rounding.
+WHOLE = 1 << 16
 _bits: ContextVar[int | None] = ContextVar("ball_bits", default=None)
 _more: ContextVar[int] = ContextVar("ball_bits_more", default=0)
 
@@ -63,7 +66,11 @@ class _RealPoint:
     def __init__(self, symbols: Mapping[Expr, Any], seed: int) -> None:
         self.symbols = dict(symbols)
         self.seed = seed
-        self.rng = random.Random(f"dofkit functions {seed}")
+
+    @cached_property
+    def rng(self) -> random.Random:
+        """What else is drawn at this point."""
+        return random.Random(f"dofkit functions {self.seed}")
 
 
 class FloatPoint(_RealPoint):
@@ -107,7 +114,8 @@ class BallPoint(_RealPoint):
     """Ball values: what is computed contains what is true."""
 
     def number(self, value: Fraction) -> arb:
-        return arb(fmpq(value.numerator, value.denominator))
+        above, below = value.numerator, value.denominator
+        return arb(above) if below == 1 and -WHOLE < above < WHOLE else arb(fmpq(above, below))
 
     def generator(self, var: Var, args: Sequence[Scalar]) -> arb:
         value = self._value(var, args)

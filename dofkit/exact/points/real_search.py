@@ -9,12 +9,12 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
+from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.certified import ORDERED, PivotedPart, ball_part
 from dofkit.exact.matrices.singular_values import independent_part
@@ -134,21 +134,21 @@ class RealSearch:
                 return None
             f, j = found
             reach = max(1.0, math.hypot(*(symbols[u] for u in self.unknowns)))
-            scale = np.abs(j).max(axis=1, initial=0) + 1e-300
-            residual = float(np.max(np.abs(f) / scale)) / reach
-            if not (math.isfinite(residual) and np.isfinite(scale).all()):
+            scale = np.maximum.reduce(abs(j), axis=1, initial=0.0) + 1e-300
+            residual = float(np.maximum.reduce(abs(f) / scale)) / reach
+            if not (math.isfinite(residual) and math.isfinite(np.maximum.reduce(scale))):
                 return None
             fast, stands = residual <= previous / 8, residual >= 0.9 * previous
             if residual == 0 or (residual < 1e-13 and (fast or stands)) or (residual < 1e-11 and stands):
                 return j
             previous = residual
             step = np.linalg.lstsq(j / scale[:, None], -f / scale, rcond=1e-12)[0]
-            length = float(np.linalg.norm(step))
+            length = math.sqrt(step.dot(step))
             if length > 4 * reach:
                 step *= 4 * reach / length
             base = {u: symbols[u] for u in self.unknowns}
-            for u, s in zip(self.unknowns, step, strict=True):
-                symbols[u] += float(s)
+            for u, s in zip(self.unknowns, step.tolist(), strict=True):
+                symbols[u] += s
         return j if previous < 1e-13 else None
 
     def _within_domain(
@@ -240,9 +240,9 @@ class RealSearch:
                     break
             radius = arb(0, arb(2) ** -(precision() // 2))
             boxed = {**exact, **{u: exact[u] + radius for u in unknowns}}
-            f, _ = self._ball_system(exact, nodes, indices, seed)
+            at = values(self.ring, BallPoint(exact, seed), self.upto)
             _, j = self._ball_system(boxed, nodes, indices, seed)
-            step = _solution(j, f)
+            step = _solution(j, arb_mat([[at[n]] for n in nodes]))
         except NoValueError:
             return None
         inside = True  # [KrawczykNewton]

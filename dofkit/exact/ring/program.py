@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import reduce
 from math import prod
+from operator import add, mul
 
 from flint import arb
 
@@ -45,14 +47,10 @@ def values(ring: Ring, point: Point, upto: int | None = None) -> list[Scalar]:
     push = out.append
     for op, payload in ring.code[:upto]:
         if op == MUL:
-            total = out[payload[0]]
-            for i in payload[1:]:
-                total = total * out[i]
+            total = out[payload[0]] * out[payload[1]] if len(payload) == 2 else _folded(mul, payload, out)
             push(total)
         elif op == ADD:
-            total = out[payload[0]]
-            for i in payload[1:]:
-                total = total + out[i]
+            total = out[payload[0]] + out[payload[1]] if len(payload) == 2 else _folded(add, payload, out)
             push(total)
         elif op == VAR:
             var = ring.vars[payload]
@@ -63,6 +61,11 @@ def values(ring: Ring, point: Point, upto: int | None = None) -> list[Scalar]:
             base, exponent = payload
             push(integer_power(out[base], exponent) if exponent > 0 else 1 / integer_power(out[base], -exponent))
     return out
+
+
+def _folded(operation: Callable[[Scalar, Scalar], Scalar], payload: Sequence[int], out: Sequence[Scalar]) -> Scalar:
+    """The values of some instructions put together, from the first to the last."""
+    return reduce(operation, [out[i] for i in payload])
 
 
 def integer_power(value: Scalar, n: int) -> Scalar:

@@ -81,16 +81,6 @@ class Ring(Instructions):
         self._split = split_logs((e for e in given if "log" in e.functions), positive)
         self._memo: dict[Expr, int] = {}
         self._turns: dict[Expr, tuple[int, int]] = {}
-        self._building: dict[str, Callable[[Expr], int]] = {
-            "num": lambda e: self.emit(NUM, e.args[0]),
-            "sym": self.symbol,
-            "const": self._constant,
-            "add": lambda e: self.emit(ADD, self._nodes(e.args)),
-            "mul": lambda e: self.emit(MUL, self._nodes(e.args)),
-            "pow": self._power,
-            "fn": self._function,
-            "call": self._call,
-        }
 
     def another(self) -> Ring:
         """An empty ring that splits arguments in the same way, so that a point of one is a point of the other."""
@@ -102,8 +92,16 @@ class Ring(Instructions):
         """The number of the instruction that computes ``e``; raises PoleError where it divides by 0."""
         found = self._memo.get(e)
         if found is None:
-            found = self._memo[e] = self._building[e.op](e)
+            op = e.op
+            if op == "add" or op == "mul":
+                found = self.emit(ADD if op == "add" else MUL, self._nodes(e.args))
+            else:
+                found = _BUILDING[op](self, e)
+            self._memo[e] = found
         return found
+
+    def _number(self, e: Expr) -> int:
+        return self.emit(NUM, e.args[0])
 
     def _nodes(self, parts: Iterable[Expr]) -> tuple[int, ...]:
         memo = self._memo
@@ -230,3 +228,14 @@ class Ring(Instructions):
         name, orders, arguments = e.args
         key = (name, orders, tuple(sorted_sum(a) for a in arguments))
         return self.generator("call", key, e, tuple(self.node(a) for a in arguments))
+
+
+#: How the node of an expression is built that is no sum and no product.
+_BUILDING: dict[str, Callable[[Ring, Expr], int]] = {
+    "num": Ring._number,
+    "sym": Ring.symbol,
+    "const": Ring._constant,
+    "pow": Ring._power,
+    "fn": Ring._function,
+    "call": Ring._call,
+}

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
 from dofkit.base.errors import TextError
+from dofkit.base.records import dataclass
 from dofkit.expressions.text.characters import DOT, TWO_DOTS, check_name_characters, spelled
 from dofkit.expressions.text.limits import MAX_NAME
 from dofkit.expressions.tree import DT, FUNCTIONS, PI, TIME, E, Expr, coordinate, differential, sym, velocity

@@ -14,9 +14,9 @@ question. So the rules are the methods below, from loosest to tightest:
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, NoReturn, cast
 
+from dofkit.base.records import dataclass
 from dofkit.expressions.text.arithmetic import UndefinedError, check_numbers, inverse, product, raised
 from dofkit.expressions.text.derivatives import is_differential, over_dt
 from dofkit.expressions.text.limits import MAX_DEPTH

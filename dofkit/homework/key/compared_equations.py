@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple, TypeVar
 
 from dofkit.base.errors import SceneError, TextError
+from dofkit.base.records import dataclass
 from dofkit.classification.dependence.equivalence import Compared, Sameness, compare
 from dofkit.expressions.text import UnknownNameError
 from dofkit.homework.answers.relations import AnswerReading

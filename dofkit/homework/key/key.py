@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from typing import Literal
 
 from dofkit.base.errors import DofkitError
+from dofkit.base.records import dataclass
 from dofkit.classification.dependence.equivalence import Compared
 from dofkit.expressions.text import Names
 from dofkit.expressions.tree import coordinate

@@ -5,11 +5,12 @@ from __future__ import annotations
 import pickle
 import time
 from collections.abc import Generator, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any, NamedTuple
 
+from dofkit.base.records import dataclass
 from dofkit.base.workers import Json
 from dofkit.base.workers.limits import allow_processor
 from dofkit.homework.answers.sources import Handed

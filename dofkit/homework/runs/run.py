@@ -6,13 +6,13 @@ import json
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, closing, contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from dofkit.base.line_journal import ledger
+from dofkit.base.records import dataclass
 from dofkit.base.workers.batches import in_order
 from dofkit.base.workers.pool import cores
 from dofkit.homework.answers.roster import Roster, load_roster

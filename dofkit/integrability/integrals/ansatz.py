@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations_with_replacement
 from math import isqrt
@@ -12,6 +12,7 @@ from typing import Any
 from flint import nmod, nmod_mat
 
 from dofkit.base.deadline import check
+from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.points.field import FieldPoint, field_point
@@ -72,14 +73,43 @@ class IntegralSearch:
     def candidates(self, monomials: Sequence[Monomial]) -> Iterator[Expr]:
         """Combinations that are constant along D, the simplest first."""
         first = self.sample()
-        equations = None if first is None else self._along_curve(monomials, first) or self._at_points(monomials)
-        if first is None or equations is None:
+        if first is None:
             return
-        null, nullity = equations.nullspace()
-        for weights in _simplest_first(null, nullity, len(monomials), first.p):
+        if self.solver is not None:
+            monomials = self._distinct(monomials)
+        equations = self._along_curve(monomials, first) or self._at_points(monomials)
+        if equations is None:
+            return
+        for weights in _simplest_first(equations):
             written = self._written(monomials, weights, first.p)
             if written is not None:
                 yield written
+
+    def _distinct(self, monomials: Sequence[Monomial]) -> list[Monomial]:
+        """Of products that are one function on the finite relations the simplest; those that move nowhere are left out.
+
+        Where theta = alpha, theta x is alpha x: it makes no integral that alpha x does not make. Functions are told
+        apart at as many points as there are equations for the products that are left.
+        """
+        while True:
+            like = self._likeness()
+            found: dict[Monomial, Monomial] = {}
+            for m in monomials:
+                key = tuple(sorted([like[i] for i in m]))
+                if any(i not in self.constant for i in key):
+                    found.setdefault(key, m)
+            if self._sample(len(found) + SPARE - 1) is None or self._likeness() == like:
+                return list(found.values())
+
+    def _likeness(self) -> dict[int, int]:
+        """For every function the first that has its value at all points, before others one that is constant."""
+        first: dict[tuple[int, ...], int] = {}
+        for i in sorted(self.functions, key=lambda i: i not in self.constant):
+            first.setdefault(self._values_of(i), i)
+        return {i: first[self._values_of(i)] for i in self.functions}
+
+    def _values_of(self, function: int) -> tuple[int, ...]:
+        return tuple([int(sample.at[function]) for sample in self.points])
 
     def _at_points(self, monomials: Sequence[Monomial]) -> nmod_mat | None:
         """The slopes of the products at points, each a column; None where there are not enough points."""
@@ -272,10 +302,11 @@ def _sample_at(forms: Codistribution, point: FieldPoint | RandomCurve | None) ->
         heads = [[v.coefficient(0) for v in row] for row in matrix] if isinstance(point, RandomCurve) else matrix
         frame = field_frame(heads, len(columns), p)
         basis = kernel(matrix, frame, one * 0) if frame.free else []
-        gradients = {}
-        for v in ring.vars:
-            plain = v.kind == "symbol"
-            g = {v.index: one} if plain else gradient(ring, at, point, [(ring.var_node[v.index], one)])
+        gradients, moving = {}, {ring.var_node[c] for c in columns if c >= 0}
+        for v, node in zip(ring.vars, ring.var_node, strict=True):
+            g = {v.index: one} if v.kind == "symbol" else {}
+            if not (g or moving.isdisjoint(ring.order((node,)))):
+                g = gradient(ring, at, point, [(node, one)])
             gradients[v.index] = {place: g[c] for place, c in enumerate(columns) if c in g}
         at_vars = [at[ring.var_node[v.index]] for v in ring.vars]
     except NoValueError:
@@ -283,17 +314,23 @@ def _sample_at(forms: Codistribution, point: FieldPoint | RandomCurve | None) ->
     return FormSample(point, p, one, at_vars, gradients, basis, matrix)
 
 
-def _simplest_first(null: nmod_mat, nullity: int, number: int, p: int) -> Iterator[list[nmod]]:
-    """A basis of the null space, whose vectors are columns, by its last monomial, the simplest first.
+def _simplest_first(equations: nmod_mat) -> Iterator[list[nmod]]:
+    """A basis of the null space by its last monomial, the simplest first.
 
-    Monomials run from simple to hard, so elimination from the hard end leaves one hard monomial to each vector.
+    Monomials, which are the columns, run from simple to hard; each that depends on those before it is a vector's last.
     """
-    if not nullity:
-        return
-    hardest_first = [null[number - 1 - m, c] for c in range(nullity) for m in range(number)]
-    reduced, rank = nmod_mat(nullity, number, hardest_first, p).rref()
-    for r in reversed(range(rank)):
-        yield [reduced[r, number - 1 - m] for m in range(number)]
+    reduced, rank = equations.rref()
+    rows, kept = reduced.table()[:rank], list[int]()
+    zero, one = nmod(0, equations.modulus()), nmod(1, equations.modulus())
+    for column in range(equations.ncols()):
+        if len(kept) < rank and rows[len(kept)][column]:
+            kept.append(column)
+            continue
+        weights = [zero] * equations.ncols()
+        weights[column] = one
+        for row, pivot in zip(rows, kept, strict=False):
+            weights[pivot] = -row[column]
+        yield weights
 
 
 def _rational(value: int, p: int) -> Fraction | None:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from dofkit.base.memory import unhurried
+from dofkit.base.records import dataclass
 from dofkit.base.workers import Json
 from dofkit.base.workers.limits import allow
 from dofkit.interface.many.scene_files import SceneGiven

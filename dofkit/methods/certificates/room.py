@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import Any
 
+from dofkit.base.records import dataclass
 from dofkit.checker.label_rules import form_of
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.trees import CheckError, Tree

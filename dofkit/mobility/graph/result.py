@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
 from dofkit.base.display import Displayed
+from dofkit.base.records import dataclass
 from dofkit.base.wording import many
 from dofkit.mobility.graph.answer import GraphAnswer, Proof, Question
 from dofkit.mobility.graph.links import Graph, Joint, Link, LinkageError

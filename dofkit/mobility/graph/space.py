@@ -8,10 +8,10 @@ not 0 at a point is not 0. What depends there is proved by counting where that i
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
 
+from dofkit.base.records import dataclass
 from dofkit.mobility.graph.answer import Proof, Question
 from dofkit.mobility.graph.core import Core, core_of
 from dofkit.mobility.graph.decompose import Ends, PeeledGraph, decompose

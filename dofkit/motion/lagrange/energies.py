@@ -6,9 +6,10 @@ T = sum m v.v/2 + w.J w/2, every body's centre of mass at its origin.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from dofkit.base.errors import Fault
+from dofkit.base.records import dataclass
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import HALF, ZERO, Expr
 from dofkit.expressions.vectors import Vec, square

@@ -6,9 +6,10 @@ V = -sum m g.r + k (d - d0)^2/2 for each spring; Rayleigh's D = c ddot^2/2 for e
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal
 
+from dofkit.base.records import dataclass
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import HALF, ZERO, Expr

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
+from dofkit.base.records import dataclass
 from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.passes import Examined
 from dofkit.exact.errors import NoValueError, raising_no_value

@@ -6,9 +6,9 @@ A relation that is rewritten (a factor dropped, a square root squared) is the ol
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Literal
 
+from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.real_search import RealSearch
