@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 from collections.abc import Sequence
 from typing import Any
 
@@ -206,13 +207,19 @@ def _rank(tangent: Any, columns: Sequence[int], least: float = ROUGH) -> int:
 
 
 def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: int) -> Any:
-    """The tangent space at a point where relations are dependent all along, from ``dof`` independent short secants."""
+    """The tangent space at a point where relations are dependent all along, from ``dof`` independent short secants.
+
+    Coordinates that no relation holds are free.
+    """
     names = [s for s in chart.symbols if s != ex.TIME]
+    symbols = {**dict.fromkeys(names, 0.0), **symbols}
     found = []
     for seed in range(2 * dof + 2):
-        beside, change = dict(symbols), search.start(seed + len(AWAY), {})
+        rng = random.Random(f"dofkit secant {seed}")
+        change = {**{s: rng.uniform(-1.0, 1.0) for s in names}, **search.start(seed + len(AWAY), {})}
+        beside = dict(symbols)
         for s in names:
-            beside[s] = symbols[s] + SECANT * change.get(s, 0.0)
+            beside[s] += SECANT * change[s]
         if any(_settles(search, beside, seed, power) for power in DAMPED):
             found.append([(beside[s] - symbols[s]) / SECANT for s in names])
     if not found:

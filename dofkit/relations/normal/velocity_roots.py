@@ -62,9 +62,13 @@ def velocity_branches(e: Expr, positive: frozenset[Expr]) -> list[tuple[Expr, tu
         told = {c: constantly(c, positive) for c in root.conditions}
         if any(t is None and not _moves(c.expr) for c, t in told.items()):
             return None
-        if False not in told.values() and not any(never_holds(c.expr, c.strict, positive) for c in told):
+        if False not in told.values() and not any(_never(c, positive) for c in told):
             branches.append((combination - root.value, tuple(c for c, t in told.items() if t is None)))
     return branches
+
+
+def _never(c: DomainCondition, positive: frozenset[Expr]) -> bool:
+    return c.sense != "!=" and never_holds(c.expr, c.strict, positive)
 
 
 def _moves(e: Expr) -> bool:
@@ -141,7 +145,7 @@ def _roots(e: Expr, unknown: Expr, depth: int) -> list[Root] | None:
     """The real roots of ``e = 0`` in the unknown."""
     slope = diff(e, unknown)
     if unknown not in slope.symbols:
-        return [Root(-substitute(e, {unknown: ex.ZERO}) / slope)]
+        return [Root(-substitute(e, {unknown: ex.ZERO}) / slope, _apart(slope))]
     if depth > MAX_DEPTH:
         return None
     inner = _sole_function(e, unknown)
@@ -231,16 +235,22 @@ def _polynomial_roots(e: Expr) -> list[Root] | None:
     low = min(table)
     powers = {k - low: c for k, c in table.items()}
     zero = [Root(ex.ZERO)] if low > 0 else []
+    n = max(powers)
+    others: list[Root] | None = None
     if len(powers) == 1:
-        return zero
-    if len(powers) == 2:
-        n = max(powers)
-        return zero + _radicals(-powers[0] / powers[n], n)
-    if set(powers) == {0, 1, 2}:
+        others = []
+    elif len(powers) == 2:
+        others = _radicals(-powers[0] / powers[n], n)
+    elif set(powers) == {0, 1, 2}:
         a, b, c = powers[2], powers[1], powers[0]
         inside = b * b - 4 * a * c
-        return zero + [Root((-b + s * ex.sqrt(inside)) / (2 * a), _positive_or_zero(inside)) for s in (1, -1)]
-    return None
+        others = [Root((-b + s * ex.sqrt(inside)) / (2 * a), _positive_or_zero(inside)) for s in (1, -1)]
+    return None if others is None else [Root(r.value, (*r.conditions, *_apart(powers[n]))) for r in zero + others]
+
+
+def _apart(divisor: Expr) -> tuple[DomainCondition, ...]:
+    """Where a solution was divided by what moves: where that is 0 the relation says something else, or nothing."""
+    return (DomainCondition(divisor, "!=", True),) if _moves(divisor) else ()
 
 
 def _power_term(term: Expr) -> tuple[int, Expr] | None:
