@@ -28,6 +28,7 @@ from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
@@ -36,6 +37,8 @@ from dofkit.relations.blocks import Block, Row
 from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.normal.domain import DomainCondition, holds_at
+from dofkit.relations.normal.edges import given_by
+from dofkit.relations.normal.half_lines import scaled
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
@@ -59,7 +62,7 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
             told = in_motion_at(block, result.hidden, setting, known) if regular else None
             holds.append(told or None)
         if all(holds):
-            return _beside_edge(block, result, setting)
+            return _beside_boundary(block, _beside_edge(block, result, setting), setting)
         if None in holds and False not in holds:
             return _open(result, block.conditions)
         elsewhere = replace(setting, reference=None, pose={})
@@ -89,6 +92,33 @@ def _beside_edge(block: Block, result: Answer, setting: Setting) -> Answer:
         row = Row(-1 - number, Finite(c.expr))
         if answer(replace(finite, rows=(*finite.rows, row)), setting).instantaneous != (free or 0) - 1:
             return _nowhere(result, edges, "proved") if _empty(block, result, setting) else _open(result, edges)
+    return result
+
+
+def _beside_boundary(block: Block, result: Answer, setting: Setting) -> Answer:
+    """The answer at a regular reference where some expressions are 0 and asked to be >= 0: does the set go on inside?
+
+    It does where their differentials are independent on its tangent space, and where they are 0 all over it: c = 0 then
+    leaves all of its dimension. y = -x^2 with y >= 0 is a point.
+    """
+    known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
+    given = given_by(r.piece.expr for r in block.finite if isinstance(r.piece, Finite))
+    weak = [c for c in still_conditions(block.conditions) if c.sense == ">=" and not c.adjoining]
+    there = dict.fromkeys(replace(c, expr=scaled(substitute(c.expr, given)), sense=">") for c in weak)
+    active = [c for c in there if not c.expr.is_zero and not holds_at(c, known, setting.positive)]
+    if not active or not result.consistent:
+        return result
+    plain = replace(block, conditions=())
+    entered: list[Row] = []
+    for number, c in enumerate(active):
+        row = Row(-1 - number, Finite(c.expr))
+        inside = answer(replace(plain, rows=(*plain.rows, *entered, row)), setting).instantaneous
+        if result.instantaneous != result.velocity_dof:
+            return _open(result, active)
+        if inside == result.instantaneous - len(entered) - 1:
+            entered.append(row)
+        elif answer(replace(plain, rows=(*plain.rows, row)), setting).dof != result.dof:
+            return _open(result, active)
     return result
 
 

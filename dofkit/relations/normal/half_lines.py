@@ -133,7 +133,7 @@ def settled(lines: Sequence[SidedLines], positive: frozenset[Expr]) -> list[Side
 
 def _settled(one: SidedLines, positive: frozenset[Expr]) -> SidedLines | None:
     relations = list(one.relations)
-    conditions = [replace(c, expr=_scaled(freed(c.expr, relations))) for c in one.conditions]
+    conditions = [replace(c, expr=scaled(freed(c.expr, relations))) for c in one.conditions]
     kept: list[DomainCondition] = []
     for c in dict.fromkeys(conditions):
         told = _known(c, positive)
@@ -151,11 +151,11 @@ def _settled(one: SidedLines, positive: frozenset[Expr]) -> SidedLines | None:
 
 def lies_within(one: SidedLines, region: Sequence[DomainCondition], positive: frozenset[Expr]) -> bool:
     """Do the conditions of a region hold on lines that are settled?"""
-    asked = [replace(c, expr=_scaled(freed(c.expr, one.relations))) for c in region]
+    asked = [replace(c, expr=scaled(freed(c.expr, one.relations))) for c in region]
     return all(c in one.conditions or _known(c, positive) for c in asked)
 
 
-def _scaled(e: Expr) -> Expr:
+def scaled(e: Expr) -> Expr:
     """``e`` times a number > 0, the same for multiples of each other."""
     terms = linear_terms(e)
     first = abs(terms[min(terms, key=repr)]) if terms else Fraction(1)
