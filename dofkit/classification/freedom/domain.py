@@ -24,6 +24,7 @@ from dofkit.classification.freedom.velocity_domain import (
 from dofkit.configuration.components import is_irreducible
 from dofkit.configuration.finite_blocks import OFF_REFERENCE
 from dofkit.configuration.search import find
+from dofkit.configuration.witness import of_real_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.ring.program import values
@@ -133,7 +134,9 @@ def _while_moving(block: Block, result: Answer, setting: Setting) -> Answer:
     holds = in_motion(block, result.hidden, setting)
     if holds is None:
         return _open(result, block.conditions)
-    return result if holds else _nowhere(result, block.conditions, "proved")
+    if not holds:
+        return _nowhere(result, block.conditions, "proved")
+    return result if _is_within(result, still_conditions(block.conditions)) else replace(result, witness=None)
 
 
 def _somewhere(block: Block, result: Answer, setting: Setting) -> Answer:
@@ -147,8 +150,10 @@ def _somewhere(block: Block, result: Answer, setting: Setting) -> Answer:
         return _where_some_vanish(chart, result, relations, dead, setting)
     left = [(n, c) for n, c, z in zip(nodes, block.conditions, zero, strict=True) if not z]
     dof = result.dof if not block.forms and not block.nonlinear else None
-    if _point_within(chart, left, dof) and _witness_within(block, result):
-        return result
+    inside = _point_within(chart, left, dof)
+    if inside is not None and _witness_within(block, result):
+        strict = [c for _, c in left]
+        return result if _is_within(result, strict) else replace(result, witness=of_real_point(chart, inside))
     wanted = [c.expr for c in block.conditions if c.sense != "!="]
     if no_solution(relations, setting.positive, wanted):
         return _nowhere(result, block.conditions, "proved")
@@ -179,8 +184,8 @@ def _identically_zero(chart: Chart, nodes: Sequence[int]) -> list[bool]:
     return found
 
 
-def _point_within(chart: Chart, left: Sequence[tuple[int, DomainCondition]], dof: int | None) -> bool:
-    """Is there a certified regular point, of the largest rank that was seen, at which all conditions hold strictly?
+def _point_within(chart: Chart, left: Sequence[tuple[int, DomainCondition]], dof: int | None) -> RealPoint | None:
+    """A certified regular point, of the largest rank that was seen, at which all conditions hold strictly.
 
     Of finite relations alone the rank there has to say the ``dof``: other parts of the set may be larger or smaller.
     """
@@ -194,20 +199,23 @@ def _point_within(chart: Chart, left: Sequence[tuple[int, DomainCondition]], dof
         if point is not None and point.certified and point.consistent:
             points.append(point)
     wanted = max((p.rank for p in points), default=0) if dof is None else chart.coordinates - dof
-    return any(p.rank == wanted and _strictly(chart, p, left) for p in points)
+    return next((p for p in points if p.rank == wanted and _strictly(chart, p, left)), None)
 
 
 def _witness_within(block: Block, result: Answer) -> bool:
     """Of what is told of one part of the set only: do the conditions hold at its witness?"""
     if result.about != "component" or not (block.forms or block.nonlinear):
         return True
-    if result.witness is None:
-        return False
+    return result.witness is not None and _is_within(result, block.conditions)
+
+
+def _is_within(result: Answer, conditions: Sequence[DomainCondition]) -> bool:
+    """Do conditions hold strictly at the witness, where there is one? False where it is written with roots."""
     try:
-        known = {s: Fraction(text) for s, text in result.witness.items()}
-    except ValueError:  # of a reference, written with roots
+        known = {s: Fraction(text) for s, text in (result.witness or {}).items()}
+    except ValueError:
         return False
-    there = [(c, interval_of(c.expr, known)) for c in block.conditions]
+    there = [(c, interval_of(c.expr, known)) for c in conditions] if known else []
     return all(v is not None and not v.contains(0) and (c.sense == "!=" or bool(v > 0)) for c, v in there)
 
 
