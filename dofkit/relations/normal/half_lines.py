@@ -167,10 +167,10 @@ def _canonical(relations: Sequence[Expr]) -> tuple[Expr, ...]:
     if len(relations) == 1:
         first = diff(relations[0], rates(relations[0])[0]) if rates(relations[0]) else ex.ONE
         return (-relations[0] if first.op == "num" and first.args[0] < 0 else relations[0],)
-    solved = _solved(relations)
-    if len(solved) < len(relations):
+    found = solved(relations)
+    if len(found) < len(relations):
         return tuple(relations)
-    return tuple(v - solved[v] for v in sorted(solved, key=repr))
+    return tuple(v - found[v] for v in sorted(found, key=repr))
 
 
 def _known(c: DomainCondition, positive: frozenset[Expr]) -> bool | None:
@@ -182,12 +182,12 @@ def _known(c: DomainCondition, positive: frozenset[Expr]) -> bool | None:
 
 def freed(e: Expr, relations: Iterable[Expr]) -> Expr:
     """``e`` with the velocities put in that forms with a number as coefficient give."""
-    for v, value in _solved(relations).items():
+    for v, value in solved(relations).items():
         e = substitute(e, {v: value})
     return e
 
 
-def _solved(relations: Iterable[Expr], generic: bool = False) -> Mapping[Expr, Expr]:
+def solved(relations: Iterable[Expr], generic: bool = False) -> Mapping[Expr, Expr]:
     """Velocities as functions of others, each free of those solved for before it.
 
     By a number as coefficient, or by one that is not 0 everywhere where ``generic``.
@@ -223,4 +223,4 @@ def _is_half_line(one: SidedLines, velocities: Sequence[Expr]) -> bool:
     rest = dict.fromkeys(velocities, ex.ZERO)
     if len(edges) > 1 or any(not substitute(e, rest).is_zero for e in (*forms, *edges)):
         return False
-    return (not edges and bool(sided)) or len(_solved((*forms, *edges), generic=True)) == len(velocities)
+    return (not edges and bool(sided)) or len(solved((*forms, *edges), generic=True)) == len(velocities)
