@@ -240,4 +240,5 @@ def _nowhere(result: Answer, conditions: Sequence[DomainCondition], verdict: Lit
 
 def _open(result: Answer, conditions: Sequence[DomainCondition]) -> Answer:
     why = f"no configuration was found at which the relations hold and, as they ask, {_conditions_text(conditions)}"
-    return Answer(None, verdict="undecided", hidden=result.hidden, reasons=[*result.reasons, why])
+    most = result.dof if result.verdict == "proved" and result.about != "component" else None
+    return Answer(None, verdict="undecided", hidden=result.hidden, reasons=[*result.reasons, why], most=most)
