@@ -114,9 +114,11 @@ def _kept(block: Block, hidden: Sequence[Expr], side: DomainCondition, setting: 
 def with_sides(made: ConstraintEntry, i: int, outcome: Outcome, setting: Setting) -> ConstraintEntry:
     """An entry that says so where a constraint keeps to a side, and is not called holonomic for its lines."""
     sides = sides_of(i, outcome)
-    if not sides or outcome.consistent is not True or not (made.holonomic or made.holonomic_alone):
+    if not sides:
         return made
     asked = {"holonomic": kept_in_system, "holonomic_alone": kept_alone}
+    if outcome.consistent is False:
+        del asked["holonomic"]
     told = {name: look(i, outcome, setting) for name, look in asked.items() if getattr(made, name)}
     changed = {name: kept for name, kept in told.items() if kept.holds is not True}
     claims = {name: OPEN if k.holds is None else Claim(k.verdict, "one side", BITS) for name, k in changed.items()}
