@@ -81,6 +81,16 @@ def test_a_side_that_velocities_keep_to_is_no_finite_relation_whatever_the_other
     assert entry.holonomic_alone is False
 
 
+def test_what_lies_beyond_a_side_may_be_on_another_branch() -> None:
+    """z abs(xdot) = ydot at z = 0 is ydot = 0 for velocities xdot of both signs."""
+    entry = _report("x y z", ["z abs(xdot) = ydot", "z = 0"]).constraints[0]
+    assert entry.holonomic is not False
+
+
+def test_a_relation_of_velocities_that_says_nothing_is_read() -> None:
+    assert _report("x y", ["abs(xdot - ydot) = abs(ydot - xdot)"]).dof in (2, None)
+
+
 def test_coordinates_that_no_relation_holds_are_free_beside_dependent_ones() -> None:
     """y = -1, so that zdot = 0: x (or s), w and u are free."""
     constraints = ["x + y = s", "x - y = s + 2", "dz = (atan(y) - atan(0 - 1)) w du"]

@@ -145,6 +145,8 @@ def _roots(e: Expr, unknown: Expr, depth: int) -> list[Root] | None:
     """The real roots of ``e = 0`` in the unknown."""
     slope = diff(e, unknown)
     if unknown not in slope.symbols:
+        if is_proved_zero(slope, frozenset()):
+            return None
         return [Root(-substitute(e, {unknown: ex.ZERO}) / slope, _apart(slope))]
     if depth > MAX_DEPTH:
         return None
