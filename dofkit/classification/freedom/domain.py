@@ -109,13 +109,13 @@ def _beside_boundary(block: Block, result: Answer, setting: Setting) -> Answer:
     active = [c for c in there if not c.expr.is_zero and not holds_at(c, known, setting.positive)]
     if not active or not result.consistent:
         return result
+    if result.instantaneous is None or result.instantaneous != result.velocity_dof:
+        return _open(result, active)
     plain = replace(block, conditions=())
     entered: list[Row] = []
     for number, c in enumerate(active):
         row = Row(-1 - number, Finite(c.expr))
         inside = answer(replace(plain, rows=(*plain.rows, *entered, row)), setting).instantaneous
-        if result.instantaneous != result.velocity_dof:
-            return _open(result, active)
         if inside == result.instantaneous - len(entered) - 1:
             entered.append(row)
         elif answer(replace(plain, rows=(*plain.rows, row)), setting).dof != result.dof:
