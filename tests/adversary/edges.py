@@ -37,7 +37,7 @@ def ended(rng: random.Random, size: int) -> Case:
 
 
 def inside(rng: random.Random, size: int) -> Case:
-    """abs(u) = z for a form u in x and y, at the origin, and a line through it on which u changes: half of it, twice."""
+    """abs(u) = z for a form u in x and y, at the origin, and a line on which u changes: half of it, twice."""
     a, b = rng.randint(1, 3 + size), rng.randint(1, 3 + size)
     c, d = rng.randint(1, 3), rng.choice((-7, 7))
     scene = plain("x y z", [f"abs({a}*x + {b}*y) = z", f"y = {d * c}*x"], configuration=at(dict.fromkeys("xyz", 0)))

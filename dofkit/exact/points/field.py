@@ -210,12 +210,7 @@ class FieldPoint:
         return self.random()
 
     def _logarithm(self, value: Scalar) -> Scalar:
-        """u where v = exp(u) follows from what was taken before; else at random, and then exp(u) = v.
-
-        Raises NoPointError for v = 0, which no exponential is.
-        """
-        if value == 0:
-            raise NoPointError("a logarithm of 0")
+        """u where v = exp(u) follows from what was taken before; else at random, and then exp(u) = v."""
         known = self._exponentials.argument_of(value)
         if known is not None:
             self._exponentials.take(known, value)

@@ -18,8 +18,9 @@ from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of, constantly
+from dofkit.relations.normal.inverse_functions import inverse_of
 from dofkit.relations.normal.signs import squared
-from dofkit.relations.normal.velocity_roots import inverse_of, rates
+from dofkit.relations.normal.velocity_roots import rates
 
 #: What a function is replaced by; no scene declares such a name.
 _VALUE = ex.sym("parameter", "the function's value")
