@@ -1,6 +1,8 @@
 """How fast dofkit is against SymPy on this machine: ratios of medians, taken in turns. Run it; it is no test.
 
 python tests/bench.py [repeats]
+
+It ends with the rows of the table of speed, which `bench_speed.py` measures: a ratio or a bound each.
 """
 
 from __future__ import annotations
@@ -14,6 +16,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from itertools import combinations
+from pathlib import Path
 
 import dofkit
 
@@ -159,6 +162,12 @@ def stability() -> None:
         print(f"{name:<40} {total:7d} {shares[0]:9.2%} {shares[1]:10.2%} {shares[2]:9.2%} {spent:9.1f}")
 
 
+def table_of_speed() -> None:
+    """The rows of the table in the site, each in a process of its own; the page is left as it is."""
+    print("\nthe table of speed: measured, (goal), reached?", flush=True)
+    subprocess.run([sys.executable, str(Path(__file__).with_name("bench_speed.py")), "--dry"], check=True)
+
+
 def main() -> None:
     """Print everything."""
     imports(["-c", "import dofkit"])
@@ -174,6 +183,7 @@ def main() -> None:
     told("rolling disc, warm: whole report against wedge, simplify", report, wedge, "below 1")
     large()
     stability()
+    table_of_speed()
 
 
 if __name__ == "__main__":

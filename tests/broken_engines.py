@@ -72,8 +72,8 @@ BUGS: Mapping[str, Bug] = {
     ),
     "pebbles": Bug(
         "mobility/graph/plain_game.py",
-        "                self.dependent[i] = 1\n                self._condense",
-        "                self.dependent[i] = 0\n                self._condense",
+        "                redundant.append(i)\n                self._condense",
+        "                self._condense",
         "catalog/l6/complete-framework-4-points-in-2d.yaml",
     ),
     "circuits": Bug(

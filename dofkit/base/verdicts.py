@@ -20,6 +20,7 @@ ArgumentKey = Literal[
     "generic fibre",
     "cases",
     "isolated zeros",
+    "joints that close no loop",
     "independent relations",
     "rigid to first order",
     "degree too high",

@@ -53,6 +53,13 @@ _OWN: dict[ArgumentKey, Argument] = {
         "dofkit.configuration.components.explicit_relations",
         "the coordinates in their order",
     ),
+    "joints that close no loop": Argument(
+        "each joint takes the freedoms away that it does not leave, everywhere",
+        "GrueblerKutzbach",
+        "each is drawn and the only thing between two parts of the scene, of which one can be moved as one body",
+        "dofkit.mobility.bridges.bridges",
+        "a minor",
+    ),
     "generic fibre": Argument(
         "for almost all values of the parameters the set is a manifold",
         "Sard1942",

@@ -151,6 +151,8 @@ def _chosen(study: Study, free: Claim, chosen: Sequence[str]) -> Claim:
     for block, a in zip(study.outcome.blocks, study.outcome.answers, strict=True):
         if a.argument in ALIKE or not a.dof or (a.about == "reference" and a.instantaneous == a.velocity_dof):
             parts.append(_counted(a.claim))
+        elif a.argument == "joints that close no loop":
+            parts.append(replace(_counted(a.claim), about="component"))
         elif a.about == "reference":
             orbit = orbit_at_reference(block, a, study.setting)
             sure = orbit is not None and orbit.rank(chosen) == a.dof

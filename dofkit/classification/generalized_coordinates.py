@@ -9,7 +9,7 @@ from typing import Any
 
 from dofkit.base.deadline import expired
 from dofkit.base.libraries import np
-from dofkit.classification.explicit_coordinates import PLAIN, QUADRATIC, explicit
+from dofkit.classification.explicit_coordinates import MOST, PLAIN, QUADRATIC, explicit
 from dofkit.classification.freedom.bridged_blocks import with_still_parts
 from dofkit.classification.turned_coordinates import (
     ANYWHERE,
@@ -64,7 +64,7 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
         return []
     own = frozenset(block.coordinates)
     turning = [r for r in rotations if r.chart == "gibbs" and not own.isdisjoint(r.names)]
-    dependent = set(a.dependent if a.parts is None else _dependent_at_drawing(block, setting))
+    dependent = set(a.dependent if a.parts is None else _dependent_at_drawing(block, a, setting))
     direct = _regular_at_reference(block, a, setting) or [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
         chosen = _explicit(block, a.dof, setting)
@@ -90,14 +90,21 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
     return found if found is not None or turning else whole
 
 
-def _dependent_at_drawing(block: Block, setting: Setting) -> tuple[str, ...]:
-    """Coordinates that the rows at the drawing can be solved for, the last ones where there is a choice."""
+def _dependent_at_drawing(block: Block, a: Answer, setting: Setting) -> tuple[str, ...]:
+    """Coordinates that the rows at the drawing can be solved for, the last ones where there is a choice.
+
+    Of bodies whose joints close no loop places are solved for before angles.
+    """
     found = rows_at_drawing(TurnedGroup(block, ()), setting)
     if found is None:
         return ()
-    place = {name: k for k, name in enumerate(block.coordinates)}
+    own = frozenset(block.coordinates)
+    roles = ("x", "y", "z") if not a.parts else ()
+    places = frozenset(c.name for c in setting.roles if c.name in own and c.role in roles)
+    names = sorted(block.coordinates, key=places.__contains__)
+    place = {name: k for k, name in enumerate(names)}
     rows = [{place[name]: v for name, v in row.items()} for row in found.rows]
-    return tuple(block.coordinates[c] for c in sparse_frame(rows, len(place), found.p).dependent)
+    return tuple(names[c] for c in sparse_frame(rows, len(place), found.p).dependent)
 
 
 def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit | None:
@@ -141,7 +148,7 @@ def _explicit(block: Block, dof: int, setting: Setting) -> list[str] | None:
 
     At a reference configuration a coefficient may be 0, so that only numbers are divided by there.
     """
-    if block.forms or block.nonlinear:
+    if block.forms or block.nonlinear or len(block.coordinates) > MOST:
         return None
     relations = [p.expr for r in block.finite if isinstance(p := r.piece, Finite)]
     most = QUADRATIC if setting.reference is None else PLAIN

@@ -13,7 +13,7 @@ known to stay the same when all its members are moved together.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable, Mapping, Sequence
 from typing import NamedTuple
 
 from dofkit.base.libraries import nx
@@ -34,21 +34,49 @@ class Bridges(NamedTuple):
 
 def bridges(system: System) -> Bridges:
     """The joints that close no loop, of those of a drawing in fractions, by numbers; none without a drawing."""
-    if system.reference is None or system.dimension == 1:
+    if system.dimension == 1:
         return Bridges()
     joints = {c.constraint: c.members for c in system.connections if _is_drawn(c, system)}
     if not joints:
         return Bridges()
+    graph = _graph(system, joints)
+    found = _ends_of_bridges(graph)
+    apart = frozenset(i for i in joints if found[i] == len(graph.adj[i]))
+    graph.remove_nodes_from(apart)
+    grounded = nx.node_connected_component(graph, GROUND) if GROUND in graph else set()
+    return Bridges(apart, frozenset(i for i in graph if isinstance(i, int)) - grounded)
+
+
+def _graph(system: System, joints: Mapping[int, Sequence[Node]]) -> nx.Graph[Node]:
+    """Who is held together by what, from every constraint to all that it holds.
+
+    One between coordinates that are nobody's is left out: with all that holds these too it ends at the ground.
+    """
     owners: dict[str, Node] = {q.name: q.owner or ("coordinate", q.name) for q in system.coordinates}
     connected = {c.constraint: c for c in system.connections}
     graph: nx.Graph[Node] = nx.Graph()
     for i, constraint in enumerate(system.constraints):
-        graph.add_edges_from((i, node) for node in joints.get(i) or _held(constraint, connected.get(i), owners))
-    found = Counter(node for edge in nx.bridges(graph) for node in edge)
-    apart = frozenset(i for i in joints if found[i] == len(graph.adj[i]))
-    graph.remove_nodes_from(apart)
-    grounded = nx.node_connected_component(graph, GROUND) if GROUND in graph else set()
-    return Bridges(apart, frozenset(range(len(system.constraints))) - apart - grounded)
+        nodes = joints.get(i) or _held(constraint, connected.get(i), owners)
+        if not all(isinstance(node, tuple) or node == GROUND for node in nodes):
+            graph.add_edges_from((i, node) for node in nodes)
+    return graph
+
+
+def _ends_of_bridges(graph: nx.Graph[Node]) -> Counter[Node]:
+    """Of how many bridges each node is an end: of those of leaves, peeled off one after another, and of the others."""
+    left = dict(graph.degree)
+    leaves = [node for node, degree in left.items() if degree == 1]
+    found: Counter[Node] = Counter()
+    for leaf in leaves:
+        del left[leaf]
+        for other in graph.adj[leaf]:
+            if other in left:
+                found.update((leaf, other))
+                left[other] -= 1
+                if left[other] == 1:
+                    leaves.append(other)
+    found.update(node for edge in nx.bridges(graph.subgraph(left).copy()) for node in edge)
+    return found
 
 
 def _is_drawn(c: Connection, system: System) -> bool:

@@ -35,13 +35,15 @@ def relation(left: JointSum, right: JointSum | None, polynomial: Sequence[float]
 
     >>> relation(JointSum((("hip", 1.0),)), JointSum((("knee", 1.0),)), [0, 2, 0, 0, 0])
     {'joints': {'p': 'hip', 'q': 'knee'}, 'text': 'p = 2 q'}
+    >>> relation(JointSum((("hip", 1.0),)), JointSum((("knee", -1.0),)), [0, 0, 2, 0, 0])["text"]
+    'p = 2 (-q)^2'
     """
     letters: dict[str, str] = {}
     one = left.text(letters)
     parts = [_signed(figures(polynomial[0]))] if polynomial[0] else []
     if right is not None:
         other = right.text(letters)
-        base = other if " " not in other else f"({other})"
+        base = other if other in letters.values() else f"({other})"
         for power, factor in enumerate(polynomial[1:], 1):
             if factor:
                 parts.append(_term(factor, base if power == 1 else f"{base}^{power}"))

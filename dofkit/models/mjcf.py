@@ -127,7 +127,7 @@ class _MjcfScene:
                 self.draft.leave_out(f"the equality {name}: both of its ends belong to {ends[0][0]}")
                 return
             self.loops = True
-            if kind == "weld":
+            if told["turning"]:
                 self.draft.constraint(name, "weld", line, between=[body for body, _ in ends])
             else:
                 points = [at if body == GROUND else {"on": body, "at": at} for body, at in ends]
@@ -212,6 +212,10 @@ class _MjcfScene:
             ("contacts", "contacts between shapes: they come and go"),
             ("actuators", "actuators: they are forces, and constrain nothing"),
             ("springs", "springs of joints and tendons: they are forces, and constrain nothing"),
+            ("friction", "damping and friction of joints and tendons: they are forces, and constrain nothing"),
+            ("rotors", "armature, the inertia of rotors that turn with joints: it constrains nothing"),
+            ("lifted", "compensation of gravity: it is a force, and constrains nothing"),
+            ("medium", "the medium that bodies move in: its drag is a force, and constrains nothing"),
             ("flexible", "flexible bodies: only MuJoCo knows them"),
         ):
             if told[key]:

@@ -89,6 +89,13 @@ class SceneDraft:
         self.particles.append({"name": found, "at": vector(at)})
         return found
 
+    def coordinate(self, name: str, drawn: float) -> str:
+        """Add a coordinate of no body and no particle, where there is none of this name; the name."""
+        if name not in self.configuration:
+            self.coordinates.append(name)
+            self.configuration[name] = number(drawn)
+        return name
+
     def constraint(self, name: str, kind: str, line: int | None, **given: Any) -> str:
         """Add a constraint; the name that it got."""
         found = unique(name, self._constraints)

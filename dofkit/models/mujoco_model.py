@@ -17,6 +17,8 @@ _SHOWN = ("textures", "skins", "sensors", "keys")
 LEAST = 1e-6
 #: The drawing satisfies an equality to within this; steps that look for a drawing which does.
 CLOSED, STEPS = 1e-8, 60
+#: Where a weld says how strongly it holds the turn of a body against its place; 0 for not at all.
+_TORQUE = 10
 
 
 class Compiled(NamedTuple):
@@ -53,8 +55,12 @@ def described_model(given: Mapping[str, Any]) -> dict[str, Any]:
         "joints": [*_joints(compiled)],
         "equalities": [*_equalities(compiled)],
         "tendons": [*_tendons(compiled)],
-        "gravity": [float(v) for v in model.opt.gravity],
+        "gravity": [0.0] * 3 if _off(model, "GRAVITY") else _list(model.opt.gravity),
         "springs": bool(np.any(model.jnt_stiffness) or np.any(model.tendon_stiffness)),
+        "friction": any(map(np.any, (model.dof_damping, model.dof_frictionloss, model.tendon_damping))),
+        "rotors": bool(np.any(model.dof_armature)),
+        "lifted": bool(np.any(model.body_gravcomp)),
+        "medium": bool(model.opt.density or model.opt.viscosity),
         "actuators": int(model.nu),
         "contacts": bool(model.ngeom and np.any(model.geom_contype | model.geom_conaffinity)),
         "flexible": int(model.nflex),
@@ -137,7 +143,8 @@ def _equality_rows(found: Compiled) -> tuple[Any, Any]:
     if mujoco.mj_isSparse(found.model):
         mujoco.mju_sparse2dense(dense, data.efc_J, data.efc_J_rownnz, data.efc_J_rowadr, data.efc_J_colind)
     else:
-        dense = np.reshape(data.efc_J, (data.nefc, nv))
+        # The array may be longer: room for rows that MuJoCo found to be empty is kept at its end.
+        dense = np.reshape(np.ravel(data.efc_J)[: data.nefc * nv], (data.nefc, nv))
     return dense[own], data.efc_pos[own]
 
 
@@ -145,6 +152,13 @@ def _left(found: Compiled) -> int:
     """MuJoCo's own count at the drawing: nv less the rank of the active equality rows."""
     rows, _ = _equality_rows(found)
     return int(found.model.nv - (np.linalg.matrix_rank(rows, tol=1e-8) if rows.size else 0))
+
+
+def _off(model: Any, *flags: str) -> bool:
+    """Is one of these switched off for the whole model?"""
+    import mujoco
+
+    return any(model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{flag}") for flag in flags)
 
 
 def _list(values: Any) -> list[float]:
@@ -215,11 +229,12 @@ def _equalities(found: Compiled) -> Iterator[dict[str, Any]]:
         told: dict[str, Any] = {
             "name": _name(model, "EQUALITY", i),
             "kind": kind,
-            "active": bool(model.eq_active0[i]),
+            "active": bool(model.eq_active0[i]) and not _off(model, "EQUALITY", "CONSTRAINT"),
             "of": [int(model.eq_obj1id[i]), int(model.eq_obj2id[i])],
         }
         if kind in ("connect", "weld"):
             told["ends"] = _ends(found, i)
+            told["turning"] = kind == "weld" and bool(model.eq_data[i, _TORQUE])
         elif kind in ("joint", "tendon"):
             told["polynomial"] = _list(model.eq_data[i, :5])
         yield told

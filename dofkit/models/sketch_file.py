@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
@@ -12,15 +13,23 @@ from dofkit.models.model_document import ModelFile
 #: A file of more records is refused.
 MOST_RECORDS = 400_000
 _KINDS = ("Group", "Request", "Entity", "Constraint")
+#: The handles of what groups made have this bit.
+DERIVED = 0x80000000
+#: A line of the table of what a group made: its number, of which entity, and which copy.
+_COPY = re.compile(r"\s+(\d{1,9}) ([0-9a-fA-F]{1,8}) (\d{1,9})\s*")
 
 
 @dataclass(frozen=True)
 class Record:
-    """What stands before an ``Add...``: its values by key, without the kind, and the line where it begins."""
+    """What stands before an ``Add...``: its values by key, without the kind, and the line where it begins.
+
+    ``copies``: of a group, the number of what it made, the handle of what that was made of, and which copy it is.
+    """
 
     kind: str
     values: Mapping[str, str]
     line: int
+    copies: tuple[tuple[int, int, int], ...] = ()
 
     def handle(self, key: str = "h.v") -> int:
         """A handle, in hexadecimal; 0 for none. Raises SceneError for what is none."""
@@ -40,6 +49,10 @@ class Record:
     def place(self, key: str) -> tuple[float, float, float]:
         """Three numbers: x, y and z."""
         return self.number(f"{key}.x"), self.number(f"{key}.y"), self.number(f"{key}.z")
+
+    def turn(self, key: str) -> tuple[float, ...]:
+        """Four numbers, a quaternion: w, x, y and z."""
+        return tuple(self.number(f"{key}.{part}") for part in ("w", "vx", "vy", "vz"))
 
     def fault(self, message: str, hint: str) -> Fault:
         """A fault in the line of this record."""
@@ -63,6 +76,13 @@ class SketchFile:
     entities: dict[int, Record] = field(default_factory=dict)
     constraints: dict[int, Record] = field(default_factory=dict)
 
+    def group_of(self, handle: int) -> int:
+        """The group in which an entity was drawn, or which made it; 0 where that is not known."""
+        if handle & DERIVED:
+            return (handle & ~DERIVED) >> 16
+        request = self.requests.get(handle >> 16)
+        return 0 if request is None else request.handle("group.v")
+
 
 def read_sketch(file: ModelFile) -> SketchFile:
     """The records of a file. Raises SceneError for what is no such file."""
@@ -80,16 +100,19 @@ def read_sketch(file: ModelFile) -> SketchFile:
 
 def _records(text: str) -> Iterator[Record]:
     values: dict[str, str] = {}
+    copies: list[tuple[int, int, int]] = []
     first = 1
     for number, line in enumerate(text.splitlines(), 1):
         if line.startswith("Add"):
             kind = line[3:].strip()
             if kind in _KINDS:
-                yield Record(kind, values, first)
-            values = {}
+                yield Record(kind, values, first, tuple(copies))
+            values, copies = {}, []
             continue
         key, equals, value = line.partition("=")
         kind, dot, rest = key.partition(".")
         if equals and dot and kind in _KINDS:
             first = first if values else number
             values[rest] = value.strip()
+        elif found := _COPY.fullmatch(line):
+            copies.append((int(found[1]), int(found[2], 16), int(found[3])))

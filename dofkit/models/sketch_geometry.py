@@ -69,6 +69,12 @@ class Round(NamedTuple):
     ends: tuple[SketchPoint, SketchPoint] | None = None
 
 
+class Cubic(NamedTuple):
+    """A cubic curve: its tangents at its two ends."""
+
+    tangents: tuple[Arrow, Arrow]
+
+
 def cross(a: Arrow, b: Arrow) -> str:
     """a x b: 0 where they are parallel."""
     (au, av), (bu, bv) = a.parts, b.parts

@@ -10,32 +10,48 @@ from typing import Any, NamedTuple
 
 from dofkit.models.joint_relations import figures
 from dofkit.models.model_document import number
-from dofkit.models.sketch_geometry import Arrow, Round, SketchPoint, at_angle, cross, dot, drawn_cross
+from dofkit.models.sketch_geometry import Arrow, Cubic, Round, SketchPoint, at_angle, cross, dot, drawn_cross
 
 #: A constraint of a scene without its name.
 Written = dict[str, Any]
 
 
 class SketchMentions(NamedTuple):
-    """What a constraint of a sketch mentions: its points, its entities, its number and its two choices."""
+    """What a constraint of a sketch mentions: its points, lines and curves, its number and its two choices."""
 
     points: tuple[SketchPoint, ...]
     lines: tuple[Arrow, ...]
-    rounds: tuple[Round, ...]
+    curves: tuple[Round | Cubic, ...]
     value: float
     other: bool
     other2: bool
+
+    @property
+    def rounds(self) -> tuple[Round, ...]:
+        """Its circles and arcs."""
+        return tuple(one for one in self.curves if isinstance(one, Round))
+
+    def directions(self) -> tuple[Arrow, ...]:
+        """Where its curves meet: across arcs, along cubics."""
+        found = []
+        for one, end in zip(self.curves, (self.other, self.other2), strict=False):
+            if isinstance(one, Cubic):
+                found.append(one.tangents[end])
+            elif one.ends is not None:
+                found.append(Arrow(one.centre, one.ends[end]))
+        return tuple(found)
 
 
 class SketchKind(NamedTuple):
     """A kind: its name in SolveSpace, and what it says (None: it is not read).
 
-    ``needs``: how many points, lines and rounds, in one way or another.
+    ``needs``: how many points, lines and curves, in one way or another; ``curves``: of which types these are.
     """
 
     name: str
     says: Callable[[SketchMentions], Iterator[Written]] | None
     needs: tuple[tuple[int, int, int], ...] = ()
+    curves: tuple[type, ...] = (Round,)
 
 
 def _equation(text: str) -> Written:
@@ -162,12 +178,17 @@ def _tangent_line(m: SketchMentions) -> Iterator[Written]:
         yield _equation(f"{dot(line, Arrow(arc.centre, arc.ends[m.other]))} = 0")
 
 
-def _tangent_arcs(m: SketchMentions) -> Iterator[Written]:
-    """The radii to the ends where they meet are parallel."""
-    one, other = m.rounds
-    if one.ends is not None and other.ends is not None:
-        radii = Arrow(one.centre, one.ends[m.other]), Arrow(other.centre, other.ends[m.other2])
-        yield _equation(f"{cross(*radii)} = 0")
+def _tangent_cubic(m: SketchMentions) -> Iterator[Written]:
+    """The line is along the cubic's end."""
+    for along in m.directions():
+        yield _equation(f"{cross(along, m.lines[0])} = 0")
+
+
+def _tangent_curves(m: SketchMentions) -> Iterator[Written]:
+    """Radii of arcs to where they meet are parallel, and so are tangents of cubics; one of each are perpendicular."""
+    found = m.directions()
+    if len(found) == len(m.curves):
+        yield _equation(f"{(dot if len(m.rounds) == 1 else cross)(*found)} = 0")
 
 
 def _equal_radius(m: SketchMentions) -> Iterator[Written]:
@@ -214,8 +235,8 @@ KINDS: Mapping[int, SketchKind] = {
     121: SketchKind("parallel", _parallel, ((0, 2, 0),)),
     122: SketchKind("perpendicular", _perpendicular, ((0, 2, 0),)),
     123: SketchKind("arc-line-tangent", _tangent_line, ((0, 1, 1),)),
-    124: SketchKind("cubic-line-tangent", None),
-    125: SketchKind("curve-curve-tangent", _tangent_arcs, ((0, 0, 2),)),
+    124: SketchKind("cubic-line-tangent", _tangent_cubic, ((0, 1, 1),), (Cubic,)),
+    125: SketchKind("curve-curve-tangent", _tangent_curves, ((0, 0, 2),), (Round, Cubic)),
     130: SketchKind("eq-radius", _equal_radius, ((0, 0, 2),)),
     200: SketchKind("lock-where-dragged", _dragged, ((1, 0, 0),)),
 }  # fmt: skip

@@ -196,6 +196,9 @@ class _RobotReader:
         self._check(joints, links)
         loops = tuple(found for part in self.root.below if (found := self._loop(part, links)) is not None)
         unread = [told for tag, told in _OTHERS.items() if self.root.first(tag) is not None]
+        rubs = [part.first("dynamics") for part in self.root.all("joint")]
+        if any((one.get("damping") + one.get("friction")).strip(" 0.") for one in rubs if one is not None):
+            unread.append("damping and friction of joints: they are forces, and constrain nothing")
         known = {"link", "joint", "material", "loop_joint", "ball_constraint", *_OTHERS}
         odd = dict.fromkeys(f"<{part.tag}>" for part in self.root.below if part.tag not in known)
         if odd:

@@ -141,9 +141,10 @@ def expressions(block: Block) -> list[Expr]:
 
 
 def uses_time(block: Block) -> bool:
-    """Does t or dt occur?"""
-    dt = any(isinstance(r.piece, Pfaffian) and not r.piece.dt.is_zero for r in block.rows)
-    return dt or any(ex.TIME in e.symbols for e in expressions(block))
+    """Does t or dt occur? It does not in the equations of joints that are not written out."""
+    rows = tuple(row for row in block.rows if not isinstance(row.piece, JointEquation))
+    dt = any(isinstance(r.piece, Pfaffian) and not r.piece.dt.is_zero for r in rows)
+    return dt or any(ex.TIME in e.symbols for e in expressions(Block(block.coordinates, rows)))
 
 
 def is_inequality(piece: Piece) -> bool:

@@ -34,13 +34,12 @@ class JointGeometry(NamedTuple):
 
 
 def longest_of(first: Frame, second: Frame, drawn: JointGeometry) -> int | None:
-    """The bits of the longest number in equations of two frames of space drawn in fractions; None for others."""
+    """The bits of the longest number in equations of two frames drawn in fractions; None for others."""
     moving = [frame for frame in (first, second) if not frame.fixed]
-    if not moving or any(frame.gibbs is None for frame in moving) or drawn.number is not None:
+    if not moving or any(frame.chart not in ("plane", "gibbs") for frame in moving) or drawn.number is not None:
         return None
     given = [
-        *first.start,
-        *second.start,
+        *chain.from_iterable((*frame.start, *(frame.initial if frame.chart == "plane" else ())) for frame in moving),
         *(drawn.place or ()),
         *chain.from_iterable(axis.vector for axis in drawn.axes),
     ]
@@ -63,7 +62,7 @@ def arms(first: Frame, second: Frame, place: Vec) -> list[Frame]:
 def mentioned_together(first: Frame, second: Frame, place: Vec, turns: bool) -> frozenset[str] | None:
     """What X1 = X2 mentions, and with ``turns`` something of how one body turns against the other; see `Joint`.
 
-    A body's turns stand in all three equations of a place that is not its origin.
+    A body's turns stand in all equations of a place that is not its origin.
     """
     armed = arms(first, second, place)
     if not armed:

@@ -56,6 +56,58 @@ def test_by_parts_as_whole(name: str) -> None:
         assert one.model_dump(exclude=same) == other.model_dump(exclude=same)
 
 
+#: An arm of the plane beside what is not drawn: an equation of coordinates that have no values.
+SLIDER = {"type": "prismatic", "between": ["h", "q"], "axis": [1, 1]}
+ARM = [{"type": "revolute", "between": ["ground", "p"], "at": [1, 0]},
+       {"type": "revolute", "between": ["p", "h"], "at": [2, 5]}, SLIDER]  # fmt: skip
+UNDRAWN = {"dimension": 2, "bodies": ["p", "h", "q"], "coordinates": ["s", "u"], "constraints": [*ARM, "u = 2 s"]}
+TREE, TREE_DOF = tree_with_loops(3, 0, 8)
+#: With their freedom by hand: two hinges, a slider and s; the tree's and s; a four-bar with a tool, afloat, and s.
+BESIDE: dict[str, tuple[dict[str, Any], int]] = {
+    "in the plane": (UNDRAWN, 4),
+    "in space": ({**TREE, "coordinates": ["s", "u"], "constraints": [*TREE["constraints"], "u = 2 s"]}, TREE_DOF + 1),
+    "with a loop": (
+        {**UNDRAWN, "bodies": BODIES, "constraints": [*FLAT[:4], FLAT[5], "u = 2 s"]},
+        6,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BESIDE)
+def test_a_tree_beside_what_is_not_drawn(name: str) -> None:
+    scene, dof = BESIDE[name]
+    system = lower(dofkit.load(scene))
+    apart = examined(system, passes=GENERIC).report
+    whole = examined(system, reductions=ALL - {"bridges"}, passes=GENERIC).report
+    assert (apart.dof, apart.velocity_dof, apart.instantaneous_dof) == (dof, dof, None)
+    assert (apart.verdicts["dof"].verdict, apart.verdicts["dof"].about) == ("proved", "everywhere")
+    for field in ("consistent", "dof", "velocity_dof", "redundant", "redundant_equations", "singular", "warnings"):
+        assert getattr(apart, field) == getattr(whole, field), field
+    assert len(apart.generalized_coordinates or ()) == dof
+
+
+def test_of_a_tree_in_the_plane_beside_what_is_not_drawn_angles_are_chosen() -> None:
+    told = examined(lower(dofkit.load(UNDRAWN))).report
+    assert told.generalized_coordinates == ["theta_p", "theta_h", "x_q", "s"]
+    assert told.verdicts["generalized_coordinates"].verdict == "proved"
+    assert told.witness is not None
+    assert {told.witness[f"{q}_{b}"] for q in ("x", "y", "theta") for b in ("p", "h", "q")} == {"0"}
+
+
+def test_a_level_body_whose_angles_texts_name_is_answered_whole() -> None:
+    """theta = 0 on a hinge about z turns phi and psi alike: the numbers stay open, with or without the joint."""
+    level = {
+        "bodies": ["a"],
+        "coordinates": ["s", "u"],
+        "constraints": [
+            {"type": "revolute", "between": ["ground", "a"], "at": [1, 0, 0], "axis": [0, 0, 1]},
+            "theta_a = 0",
+            "u = 2 s",
+        ],
+    }
+    assert examined(lower(dofkit.load(level))).report.dof is None
+
+
 def test_equations_of_a_large_tree_are_not_written() -> None:
     hinges = [
         {"type": "revolute", "between": [f"b{i - 1}" if i else "ground", f"b{i}"], "at": [i, 1, 0], "axis": [0, 3, 4]}

@@ -32,25 +32,29 @@ class RandomSketch:
 
     def __post_init__(self) -> None:
         self.record("Group", h_v="00000001", type="5000", name="#references")
-        self.record("Group", h_v="00000002", type="5001", name="sketch-in-plane")
+        self.record(
+            "Group", h_v="00000002", type="5001", subtype="6000", predef_origin_v="00010001", name="sketch-in-plane"
+        )
+        self.record("Request", h_v="00000001", type="100", group_v="00000001")
+        self.record("Entity", h_v="00010001", type="2000")
         self.record("Entity", h_v=f"{PLANE:08x}", type="10000", point_0="80020002", normal_v="80020001")
         self.record("Entity", h_v="80020001", type="3010", actNormal_w="1.0")
         self.record("Entity", h_v="80020002", type="2012")
 
     def record(self, kind: str, **values: str) -> None:
-        spelled = {"point_0": "point[0].v", "point_1": "point[1].v", "point_2": "point[2].v"}
+        spelled = {"point_0": "point[0].v", "point_1": "point[1].v", "point_2": "point[2].v", "point_3": "point[3].v"}
         lines = [f"{kind}.{spelled.get(key, key.replace('_', '.'))}={value}" for key, value in values.items()]
         self.records.append("\n".join([*lines, f"Add{kind}\n"]))
 
     def text(self) -> str:
         return "\xb1\xb2\xb3SolveSpaceREVa\n\n\n" + "\n".join(self.records)
 
-    def _request(self, kind: int) -> int:
+    def request(self, kind: int) -> int:
         self.requests += 1
         self.record("Request", h_v=f"{self.requests:08x}", type=str(kind), group_v="00000002")
         return self.requests << 16
 
-    def _point(self, handle: int, x: float, y: float) -> int:
+    def point(self, handle: int, x: float, y: float) -> int:
         place = {"actPoint_x": f"{x:.20f}", "actPoint_y": f"{y:.20f}"}
         self.record("Entity", h_v=f"{handle:08x}", type="2001", workplane_v=f"{PLANE:08x}", **place)
         self.points.append((handle, len(self.drawn)))
@@ -58,23 +62,23 @@ class RandomSketch:
         return len(self.drawn) - 2
 
     def line(self, a: tuple[float, float], b: tuple[float, float]) -> None:
-        base = self._request(200)
-        ends = self._point(base + 1, *a), self._point(base + 2, *b)
+        base = self.request(200)
+        ends = self.point(base + 1, *a), self.point(base + 2, *b)
         self.record("Entity", h_v=f"{base:08x}", type="11000", point_0=f"{base + 1:08x}", point_1=f"{base + 2:08x}")
         self.lines.append((base, *ends))
 
     def circle(self, centre: tuple[float, float], radius: float) -> None:
-        base = self._request(400)
-        at = self._point(base + 1, *centre)
+        base = self.request(400)
+        at = self.point(base + 1, *centre)
         self.record("Entity", h_v=f"{base + 64:08x}", type="4000", actDistance=f"{radius:.20f}")
         self.record("Entity", h_v=f"{base:08x}", type="13000", point_0=f"{base + 1:08x}", distance_v=f"{base + 64:08x}")
         self.circles.append((base, at, len(self.drawn)))
         self.drawn.append(radius)
 
     def arc(self, centre: tuple[float, float], radius: float, angles: tuple[float, float]) -> None:
-        base = self._request(500)
+        base = self.request(500)
         ends = [(centre[0] + radius * math.cos(a), centre[1] + radius * math.sin(a)) for a in angles]
-        c, s, f = (self._point(base + 1 + k, *at) for k, at in enumerate((centre, *ends)))
+        c, s, f = (self.point(base + 1 + k, *at) for k, at in enumerate((centre, *ends)))
         names = {f"point_{k}": f"{base + 1 + k:08x}" for k in range(3)}
         self.record("Entity", h_v=f"{base:08x}", type="14000", **names)
         self.arcs.append((base, c, s, f))

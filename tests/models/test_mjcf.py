@@ -95,6 +95,12 @@ COUPLED = {
     "<equality><tendon name='k' tendon1='t'/></equality>": ("p - 0.5 q = 0", 1),
 }
 
+COUPLED |= {
+    "<tendon><fixed name='t'><joint joint='p' coef='1'/></fixed><fixed name='u'><joint joint='q' coef='-1'/></fixed>"
+    f"</tendon><equality><tendon name='k' tendon1='t' tendon2='u' polycoef='{factors}'/></equality>": (text, 1)
+    for factors, text in {"0 2 0 0 0": "p = 2 (-q)", "0 0 3 0 0": "p = 3 (-q)^2", "0 1 0 0 0": "p = (-q)"}.items()
+}
+
 
 @pytest.mark.parametrize("rest", COUPLED)
 def test_equalities_of_joints_and_tendons_are_couplings(rest: str) -> None:
@@ -135,6 +141,30 @@ def test_a_connect_that_is_open_where_it_is_written_is_closed() -> None:
     scene = load(sites)
     assert any("does not satisfy the equalities" in told for told in scene.left_out)
     assert dofkit.classify(scene).instantaneous_dof == 1
+
+
+FREE = f"<body name='a'><freejoint/>{GEOM}</body><body name='b' pos='1 0 0'><freejoint/>{GEOM}</body>"
+#: What holds two free bodies, of 12 freedoms, and how many are left.
+HELD = {
+    "<equality><weld body1='a' body2='b'/></equality>": 6,
+    "<equality><weld body1='a' body2='b' torquescale='0'/></equality>": 9,
+    "<option><flag equality='disable'/></option><equality><weld body1='a' body2='b'/></equality>": 12,
+    "<option><flag constraint='disable'/></option><equality><weld body1='a' body2='b'/></equality>": 12,
+}
+
+
+@pytest.mark.parametrize("rest", HELD)
+def test_welds_hold_as_far_as_they_are_in_force(rest: str) -> None:
+    """A weld whose torque counts nothing holds a point, and not the turn."""
+    text = model(FREE, rest)
+    assert dofkit.classify(load(text)).dof == HELD[rest] == compiled(ModelFile(text, "m")).told["left"]
+
+
+def test_rows_that_are_empty_do_not_stop_the_count() -> None:
+    """Two bodies that slide as one, held together: three rows that MuJoCo leaves out, and keeps room for."""
+    body = f"<body name='a'><joint type='slide'/>{GEOM}<body name='b'>{GEOM}</body></body>"
+    text = model(body, "<equality><connect body1='a' body2='b' anchor='1 0 0'/></equality>")
+    assert compiled(ModelFile(text, "m")).told["left"] == dofkit.classify(load(text)).dof == 1
 
 
 def test_a_tendon_from_site_to_site_is_a_string() -> None:
@@ -205,3 +235,12 @@ def test_lagrange_works_on_a_pendulum() -> None:
     report = dofkit.lagrange(load(pendulum))
     assert report.lagrangian
     assert report.equations
+
+
+def test_what_only_moves_it_is_told() -> None:
+    """A spring, friction and a rotor: without a word of them energy would be conserved."""
+    joint = "<joint name='j' type='slide' axis='0 0 1' stiffness='3' damping='1' armature='2'/>"
+    told = " ".join(load(model(f"<body name='bob' gravcomp='1'>{joint}{GEOM}</body>")).left_out)
+    assert all(one in told for one in ("springs of joints", "damping and friction", "armature", "compensation"))
+    still = load(model(f"<body>{joint}{GEOM}</body>", "<option><flag gravity='disable'/></option>"))
+    assert still.forces == ()

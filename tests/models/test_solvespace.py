@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from models.sketches import RandomSketch, distance, random_sketch
+from models.sketches import PLANE, RandomSketch, distance, random_sketch
 
 import dofkit
 from dofkit.base.errors import SceneError
@@ -69,41 +69,98 @@ def test_a_reference_dimension_only_measures() -> None:
     assert any("reference dimension" in told for told in scene.left_out)
 
 
+@pytest.mark.parametrize(("flag", "dof"), [("allDimsReference", 7), ("relaxConstraints", 8), ("allowRedundant", 6)])
+def test_a_group_may_make_its_dimensions_measure_or_be_relaxed(flag: str, dof: int) -> None:
+    """Of a square's 8 a length and a level edge leave 6: what measures leaves the edge, what is relaxed nothing."""
+    sketch = square()
+    (h, _), (i, _) = sketch.points[:2]
+    sketch.add(30, lambda q: [0j], 2.0, ptA=h, ptB=i, group=2)
+    sketch.add(81, lambda q: [0j], entityA=sketch.lines[1][0], group=2)
+    text = sketch.text().replace("Group.name=sketch-in-plane", f"Group.name=sketch-in-plane\nGroup.{flag}=1")
+    assert dofkit.classify(load(text)).dof == dof
+
+
 def test_a_constraint_that_is_not_read_is_a_warning() -> None:
     sketch = square()
     sketch.add(110, lambda q: [0j])
     report = dofkit.classify(load(sketch.text()))
-    assert any("less freedom: constraint c005: of kind same-orientation" in told for told in report.warnings)
+    assert any("less freedom: constraint c005-same-orientation" in told for told in report.warnings)
 
 
-def in_space(sketch: RandomSketch) -> None:
-    """A point of a sketch in space, whose group stands last."""
-    sketch.record("Group", h_v="00000009", type="5000", name="sketch-in-3d")
-    sketch.record("Request", h_v="00000777", type="100", group_v="00000009")
-    sketch.record("Entity", h_v="07770000", type="2000", actPoint_z="3.0")
-
-
-def test_sketches_in_space_are_told_by_name() -> None:
-    sketch = square()
-    in_space(sketch)
-    told = load(sketch.text()).left_out
-    assert any(one.startswith("1 points outside the plane") for one in told)
-    assert any(one.startswith("sketch-in-3d: sketches in space") for one in told)
-
-
-def test_a_file_with_nothing_but_a_sketch_in_space_says_so_in_its_line() -> None:
+def test_text_keeps_its_shape() -> None:
+    """Four corners have 8 coordinates; of a text the place, the size and the turn are free."""
     sketch = RandomSketch()
-    in_space(sketch)
-    with pytest.raises(SceneError, match="sketch-in-3d is drawn in space") as raised:
-        load(sketch.text())
-    assert raised.value.faults[0].line == 1 + sketch.text().split("\n").index("Group.h.v=00000009")
+    base = sketch.request(600)
+    for k, corner in enumerate([(-5.0, 5.0), (-5.0, -5.0), (23.9, -5.0), (23.9, 5.0)], 1):
+        sketch.point(base + k, *corner)
+    corners = {f"point_{k}": f"{base + 1 + k:08x}" for k in range(4)}
+    sketch.record("Entity", h_v=f"{base:08x}", type="15000", workplane_v=f"{PLANE:08x}", **corners)
+    scene = load(sketch.text())
+    assert dofkit.classify(scene).dof == 4
+    assert [c.name for c in scene.constraints][:2] == ["r004-bottom-u", "r004-bottom-v"]
+
+
+def cubic(sketch: RandomSketch, corners: list[tuple[float, float]]) -> int:
+    """A cubic of four points."""
+    base = sketch.request(300)
+    for k, corner in enumerate(corners, 1):
+        sketch.point(base + k, *corner)
+    names = {f"point_{k}": f"{base + 1 + k:08x}" for k in range(4)}
+    sketch.record("Entity", h_v=f"{base:08x}", type="12000", **names)
+    return base
+
+
+@pytest.mark.parametrize("end", [0, 1])
+def test_lines_and_arcs_are_tangent_to_cubics(end: int) -> None:
+    """8 coordinates of a cubic, 4 of a line, 6 of an arc less its radius; a tangent line, then a tangent arc."""
+    sketch = RandomSketch()
+    curve = cubic(sketch, [(0.0, 0.0), (1.0, 1.0), (2.0, 1.0), (3.0, 0.0)])
+    sketch.line((0.0, 0.0), (-1.0, -1.0) if end == 0 else (1.0, -1.0))
+    sketch.arc((0.0, 1.0), 1.0, (-math.pi / 4, math.pi / 4) if end == 0 else (math.pi / 4, math.pi / 2))
+    sketch.add(124, lambda q: [0j], entityA=curve, entityB=sketch.lines[0][0], other=end)
+    assert dofkit.classify(load(sketch.text())).dof == 8 + 4 + 5 - 1
+    sketch.add(125, lambda q: [0j], entityA=curve, entityB=sketch.arcs[0][0], other=end, other2=0)
+    report = dofkit.classify(load(sketch.text()))
+    assert (report.dof, report.redundant) == (8 + 4 + 5 - 2, [])
+
+
+def test_a_circle_has_no_end_to_be_tangent_at() -> None:
+    sketch = square()
+    sketch.circle((0.0, 0.0), 1.0)
+    sketch.add(123, lambda q: [0j], entityA=sketch.circles[0][0], entityB=sketch.lines[0][0])
+    told = dofkit.classify(load(sketch.text())).warnings
+    assert any("constraint c005-arc-line-tangent: what it mentions has no such ends" in one for one in told)
+
+
+def test_an_arc_that_is_a_whole_circle_is_told_once() -> None:
+    """Its ends in one place are as far from the centre: 6 coordinates less 2."""
+    sketch = RandomSketch()
+    sketch.arc((0.0, 0.0), 1.0, (0.0, math.tau))
+    (h, a), (i, b) = sketch.points[1:]
+    sketch.add(20, equal((a, b), (a + 1, b + 1)), ptA=h, ptB=i)
+    report = dofkit.classify(load(sketch.text()))
+    assert (report.dof, report.redundant) == (4, [])
+
+
+def test_what_is_seen_in_another_workplane_is_not_read_as_in_its_own() -> None:
+    """Two points of the plane x, y in the same place as seen along x: only y is the same."""
+    sketch = square()
+    (h, a), (i, b) = sketch.points[0], sketch.points[2]
+    sketch.record("Entity", h_v="00030000", type="10000", point_0="00010001", normal_v="00030020")
+    half = {f"actNormal_{k}": "0.5" for k in ("w", "vx", "vy", "vz")}
+    sketch.record("Entity", h_v="00030020", type="3000", **half)
+    sketch.record("Request", h_v="00000003", type="100", group_v="00000001")
+    sketch.add(20, equal((a + 1, b + 1)), ptA=h, ptB=i, workplane=0x30000)
+    scene = load(sketch.text())
+    assert scene.dimension == 3
+    assert dofkit.classify(scene).dof == 7
 
 
 START = "\xb1\xb2\xb3SolveSpaceREVa\n"
 POINT = "Entity.h.v=00010001\nEntity.type={}\nAddEntity\n"
 FAULTS = {
     "no entity": START,
-    "no point of this file is drawn in a workplane": START + POINT.format(2000),
+    "no point that is read": START + POINT.format(2001),
     "line 2, column 1: Entity.type is 'no'": START + POINT.format("no"),
 }
 
@@ -118,10 +175,10 @@ def test_faults(message: str, tmp_path: Path) -> None:
 
 
 def test_every_kind_that_is_read_has_a_random_sketch() -> None:
-    """But two, whose equations are those of distances and angles."""
+    """But those whose equations are those of distances and angles, and cubics."""
     met = {line.rpartition("=")[2] for seed in range(200) for line in random_sketch(seed).text().split("\n")
            if line.startswith("Constraint.type")}  # fmt: skip
-    assert {str(k) for k, kind in KINDS.items() if kind.says is not None} - met == {"52", "53", "54"}
+    assert {str(k) for k, kind in KINDS.items() if kind.says is not None} - met == {"52", "53", "54", "124"}
 
 
 def compared(seed: int) -> str:

@@ -266,3 +266,11 @@ def test_a_stranger_element_is_told() -> None:
     scene: Any = load(robot(link("a"), "<magic/>", "<gazebo/>"))
     assert any("<magic>" in told for told in scene.left_out)
     assert any("Gazebo" in told for told in scene.left_out)
+
+
+def test_friction_is_told() -> None:
+    rubs = [
+        joint("j", "continuous", "a", "b", f"<dynamics damping='{value}' friction='0.0'/>") for value in ("0.0", "2")
+    ]
+    told = [" ".join(load(robot(link("a"), link("b"), one)).left_out) for one in rubs]
+    assert ["damping and friction" in one for one in told] == [False, True]

@@ -250,6 +250,12 @@ def test_inequalities_and_springs_are_no_constraints() -> None:
     check(fly, {"x": "0", "y": "0", "z": "-g"})
 
 
+def test_what_the_scene_leaves_out_is_a_note() -> None:
+    """Its energy is conserved only without that."""
+    free = scene(coordinates="x", left_out=["the friction of the table"], **energies("m xdot^2/2", "0"))
+    assert "Left out of the scene: the friction of the table." in dofkit.lagrange(free).notes
+
+
 def test_a_generalized_potential() -> None:
     """V = b (y xdot - x ydot): a charge in a magnetic field, m x'' = 2 b ydot."""
     charge = scene(coordinates="x y", **energies(PLANE, "b (y xdot - x ydot)"))

@@ -40,7 +40,7 @@ def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setti
     if any(p.answer.consistent is not True or p.answer.about != "reference" for p in parts):
         return None
     found = _together(block, setting, parts, len(loose) - len(joints))
-    return replace(found, looked=_looked(block, parts)) if found.instantaneous else None
+    return replace(found, looked=_looked(block, parts)) if found.dof and found.instantaneous != 0 else None
 
 
 def _core_answer(core: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer:
@@ -82,7 +82,9 @@ def _host(core: Block, setting: Setting) -> tuple[str, ...] | None:
 
 def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
     """Is all of a block finite and drawn, and does time not enter?"""
-    if setting.reference is None or "field" not in setting.engines or block.conditions:
+    if "field" not in setting.engines or block.conditions:
+        return False
+    if setting.reference is None and not _is_open_tree(block, joints, setting):
         return False
     if block.forms or block.nonlinear:
         return False
@@ -91,6 +93,11 @@ def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
         return False
     others = tuple(row for row in block.rows if row.constraint not in setting.bridges)
     return not uses_time(Block(block.coordinates, others))
+
+
+def _is_open_tree(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
+    """Are there no other relations than those of drawn joints, and no Euler angles, whose charts may be left?"""
+    return len(joints) == len(block.rows) and setting.tilts.isdisjoint(block.coordinates)
 
 
 def _moves_as_one(joints: Sequence[Row], setting: Setting) -> bool:
@@ -104,7 +111,8 @@ def _moves_as_one(joints: Sequence[Row], setting: Setting) -> bool:
 
 def _together(block: Block, setting: Setting, parts: Sequence[AnsweredPart], free: int) -> Answer:
     """The answer of the whole from those of its parts, beside which there are so many ``free`` coordinates."""
-    reference = setting.reference or {}
+    drawn = setting.reference is not None
+    reference = setting.reference if setting.reference is not None else setting.pose
     symbols = [ex.coordinate(name) for name in block.coordinates]
     answers = [p.answer for p in parts]
     dependent = [a for a in answers if a.argument != "independent relations"] or answers
@@ -113,13 +121,13 @@ def _together(block: Block, setting: Setting, parts: Sequence[AnsweredPart], fre
         dof=_total([a.dof for a in answers], free),
         velocity_dof=_total([a.velocity_dof for a in answers], free),
         verdict=weakest(*(a.verdict for a in answers)),
-        about="reference",
-        argument="independent relations" if weak is None else weak.argument,
+        about="reference" if drawn else "everywhere",
+        argument="joints that close no loop" if weak is None else weak.argument,
         reasons=list(dict.fromkeys(reason for a in answers for reason in a.reasons)),
         degenerate=any(a.degenerate for a in answers),
-        instantaneous=_total([a.instantaneous for a in answers], free),
+        instantaneous=_total([a.instantaneous for a in answers], free) if drawn else None,
         first_order_sure=all(a.first_order_sure for a in answers),
-        exists=all(a.exists for a in answers) and all(reference[s].op == "num" for s in symbols),
+        exists=drawn and all(a.exists for a in answers) and all(reference[s].op == "num" for s in symbols),
         doubt=next((a.doubt for a in answers if a.doubt), None),
         method="; ".join(dict.fromkeys(a.method for a in answers)) or METHOD,
         witness=of_reference(symbols, reference),

@@ -12,6 +12,7 @@ from typing import Any
 
 from dofkit.base.libraries import np
 from dofkit.configuration.drawing.measured_relations import GREY, SLACK, MeasuredDrawing, Place, clear_rank
+from dofkit.exact.errors import NoValueError
 
 #: A motion is followed so far, as a fraction of the size, or farther where second-order effects of that size would
 #: not stand out from the tolerance by `FAR`; then `ON` so far, where what is flat at first shows.
@@ -168,13 +169,16 @@ def _tangent(a: Any, ahead: Any) -> Any:
 def _corrected(drawing: MeasuredDrawing, kept: Any, at: Place, step: Any) -> tuple[Place, Any, Any] | None:
     """The place a step ahead on the manifold of the combinations, with the relations and their derivatives there.
 
-    None where Newton's method does not lead there, or by too far a way.
+    None where Newton's method does not lead there, by too far a way, or to where the relations have no value.
     """
     relations = drawing.relations
     start, last = relations.moved(at, step), float("inf")
     here, size = start, float(np.linalg.norm(step))
     for _ in range(ROUNDS):
-        f, j = relations.system(here, drawing.norms)
+        try:
+            f, j = relations.system(here, drawing.norms)
+        except NoValueError:
+            return None
         if not len(kept):
             return here, f, j
         correction = np.linalg.lstsq(kept @ j, -(kept @ f), rcond=None)[0]

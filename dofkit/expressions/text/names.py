@@ -96,7 +96,7 @@ class AmbiguousError(TextError):
 _NUMBERED = re.compile(r"(.*[A-Za-z])(_?)(\d+)", re.ASCII)
 _SUFFIXED = re.compile(r"(.+?)_?(d?dot)(_.*)?", re.ASCII)
 _MARKED = re.compile(f"([^{DOT}{TWO_DOTS}]+)([{DOT}{TWO_DOTS}]+)([_0-9][^{DOT}{TWO_DOTS}]*)?")
-#: How many words are remembered at most; a word that fits nothing is remembered too.
+#: How many words are remembered at most beside the declared ones; a word that fits nothing is remembered too.
 _MEMORY = 20_000
 
 
@@ -120,7 +120,7 @@ class Lookup:
             return self._words[word]
         except KeyError:
             found = self._find(spelled(word))
-            if len(self._words) < _MEMORY:
+            if len(self._words) < _MEMORY + len(self._declared):
                 self._words[word] = found
             return found
 

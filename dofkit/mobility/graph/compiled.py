@@ -46,12 +46,14 @@ class Engine:
         return np.asarray(values if isinstance(values, np.ndarray) else list(values), dtype=np.int32)
 
 
-def engine_for(kernels: ModuleType, links: int, if_ready: bool = False) -> Engine:
+def engine_for(kernels: ModuleType, links: int, if_ready: bool = False, faster: int = 1) -> Engine:
     """What runs the functions of a module, which it lists in ``KERNELS``, callees first.
 
-    ``if_ready``: compiled ones for smaller graphs too, once a large one was met.
+    ``if_ready``: compiled ones for smaller graphs too, once a large one was met. ``faster``: so many times faster than
+    these functions, as they are written, is what else there is.
     """
-    least = min(WORTH_COMPILING, WORTH_CALLING) if if_ready and kernels.__name__ in _ready else WORTH_COMPILING
+    worth = WORTH_COMPILING * faster
+    least = min(worth, WORTH_CALLING) if if_ready and kernels.__name__ in _ready else worth
     if links < least or find_spec("numba") is None:
         return Engine(kernels, False)
     return Engine(compiled(kernels), True)

@@ -17,6 +17,8 @@ Link = tuple[Any, Any]
 SPREAD = 4
 #: Beyond this a whole number is a name like any other.
 FAR = 2**62
+#: Links of a list that are read in one go.
+NEAR = 4096
 
 
 class LinkageError(DofkitError):
@@ -26,17 +28,23 @@ class LinkageError(DofkitError):
 class Graph(NamedTuple):
     """Joints in the order in which they first occur, links as given, and the numbers of their joints in turn.
 
-    ``links``: tuples, or an array with two columns; ``ends``: a list or an array of integers.
+    ``joints``: names, or an array of integers; ``links``: tuples, or an array with two columns; ``ends``: a list or an
+    array of integers.
     """
 
-    joints: Sequence[Joint]
+    joints: Any
     links: Any
     ends: Any
 
-    def link(self, i: int) -> Link:
-        """A link as a tuple."""
-        a, b = self.links[i]
-        return (int(a), int(b)) if isinstance(self.links, np.ndarray) else (a, b)
+    def all_joints(self) -> tuple[Joint, ...]:
+        """The joints by their names."""
+        return tuple(self.joints.tolist() if isinstance(self.joints, np.ndarray) else self.joints)
+
+    def links_at(self, places: Sequence[int]) -> list[Link]:
+        """Some of the links, as tuples."""
+        if isinstance(self.links, np.ndarray):
+            return list(map(tuple, self.links[np.asarray(places, dtype=np.intp)].tolist()))
+        return [self.links[i] for i in places]
 
     def all_links(self) -> tuple[Link, ...]:
         """The links as tuples."""
@@ -51,7 +59,7 @@ def read(links: Iterable[Link] | Any, joints: Iterable[Joint] = ()) -> Graph:
     graph = found or _numbered(list(map(tuple, given.tolist())) if isinstance(given, np.ndarray) else given, named)
     loops = np.flatnonzero(np.equal(graph.ends[::2], graph.ends[1::2]))
     if len(loops):
-        joint = graph.joints[graph.ends[2 * int(loops[0])]]
+        joint = graph.all_joints()[graph.ends[2 * int(loops[0])]]
         raise LinkageError(f"link number {loops[0] + 1} joins {joint!r} to itself")
     return graph
 
@@ -88,26 +96,36 @@ def _numbered(given: Sequence[Link], named: Iterable[Joint]) -> Graph:
 
 def _numbered_array(given: Any) -> Graph | None:
     """Joints that are whole numbers of a narrow range; None where they are not."""
-    if isinstance(given, np.ndarray):
-        flat = given.ravel()
-    else:
-        names = list(chain.from_iterable(given))
-        if not set(map(type, names)) <= {int}:
-            return None
-        try:
-            flat = np.fromiter(names, np.int64, len(names))
-        except OverflowError:
-            return None
-    if not len(flat):
+    flat = given.ravel() if isinstance(given, np.ndarray) else _whole_numbers(given)
+    if flat is None or not len(flat):
         return None
     low, high = int(flat.min()), int(flat.max())
     span = high - low + 1
     if span > SPREAD * len(flat) or not -FAR < low <= high < FAR:
         return None
-    places = flat.astype(np.int64) - low
-    first = np.full(span, len(flat))
-    first[places[::-1]] = np.arange(len(flat) - 1, -1, -1)
+    places = flat.astype(np.int64, copy=False)
+    if low:
+        places = places - low
+    first = np.full(span, len(flat), dtype=np.int32)
+    first[places[::-1]] = np.arange(len(flat) - 1, -1, -1, dtype=np.int32)
     order = np.sort(first[first < len(flat)])
     number = np.empty(span, dtype=np.int32)
     number[places[order]] = np.arange(len(order), dtype=np.int32)
-    return Graph(flat[order].tolist(), given, number[places])
+    return Graph(flat[order], given, number[places])
+
+
+def _whole_numbers(given: Sequence[Link]) -> Any:
+    """The joints of all links in turn as an array, some links after others; None where one is no integer or too large.
+
+    What was just read of a part is still near when it is read again.
+    """
+    flat = np.empty(2 * len(given), np.int64)
+    for place in range(0, len(given), NEAR):
+        names = list(chain.from_iterable(given[place : place + NEAR]))
+        if not set(map(type, names)) <= {int}:
+            return None
+        try:
+            flat[2 * place : 2 * place + len(names)] = np.fromiter(names, np.int64, len(names))
+        except OverflowError:
+            return None
+    return flat

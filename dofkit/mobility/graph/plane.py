@@ -28,6 +28,8 @@ _PROOF = Proof(
 
 #: Joints times circuits from which many circuits at once are faster than one after another.
 WORTH_WORDS = 2_000_000
+#: So many times faster is the game written for Python than the one for arrays, run as it is written.
+PLAIN_GAME = 4
 
 
 def _board(engine: Engine, joints: int, links: int) -> Board:
@@ -64,25 +66,52 @@ def _leaders(engine: Engine, group: Any) -> list[int]:
     return [int(engine.kernels.leader(group, i)) for i in range(len(group))]
 
 
+class CompiledGame:
+    """The game on arrays; see `dofkit.mobility.graph.plain_game.PlainGame`."""
+
+    def __init__(self, engine: Engine, joints: int, ends: Any) -> None:
+        self._engine, links = engine, len(ends) // 2
+        self._board = _board(engine, joints, links)
+        dependent = engine.filled(links, 0)
+        net, outer = _net(engine, engine.array(ends), joints, dependent)
+        engine.kernels.play(self._board, net, outer, dependent)
+        self.redundant: list[int] = np.flatnonzero(dependent).tolist()
+
+    def groups(self) -> list[int]:
+        """For every link one that stands for its group."""
+        return _leaders(self._engine, self._board.group)
+
+    def board(self) -> Board:
+        """A copy."""
+        return Board(*(value.copy() for value in self._board))
+
+
 class PlaneGraph:
     """A graph of links in two dimensions; see `dofkit.mobility.graph.answer.GraphAnswer`."""
 
     def __init__(self, joints: int, ends: Sequence[int]) -> None:
-        links = len(ends) // 2
-        self._joints, self._links = joints, links
-        self._engine = engine_for(pebbles, links, if_ready=True)
-        self._ends = self._engine.array(ends)
-        self._dependent = self._engine.filled(links, 0)
-        self._board = _board(self._engine, joints, links)
-        if self._engine.compiled:
-            net, outer = _net(self._engine, self._ends, joints, self._dependent)
-            self._engine.kernels.play(self._board, net, outer, self._dependent)
-        elif links:
-            PlainGame(self._board, self._ends, self._dependent).play()
+        self._joints, self._links, self._given = joints, len(ends) // 2, ends
+        engine = engine_for(pebbles, self._links, if_ready=True, faster=PLAIN_GAME)
+        self._game = CompiledGame(engine, joints, ends) if engine.compiled else PlainGame(joints, ends)
+        if isinstance(self._game, PlainGame):
+            self._game.play()
+
+    @property
+    def redundant(self) -> list[int]:
+        return self._game.redundant
 
     @cached_property
-    def redundant(self) -> list[int]:
-        return np.flatnonzero(self._dependent).tolist()
+    def _dependent(self) -> list[int]:
+        """1 for every redundant link, 0 for the others."""
+        found = [0] * self._links
+        for i in self.redundant:
+            found[i] = 1
+        return found
+
+    @cached_property
+    def _ends(self) -> list[int]:
+        found: list[int] = Engine(pebbles, False).array(self._given)
+        return found
 
     def circuits(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
         work = len(links) * self._joints
@@ -92,10 +121,10 @@ class PlaneGraph:
         return self._in_words(links)
 
     def _one_by_one(self, links: Sequence[int], engine: Engine) -> Iterator[tuple[int, list[int]]]:
-        ends, kernels = self._ends, engine.kernels
+        ends, kernels = engine.array(self._given), engine.kernels
         board = _board(engine, self._joints, 0)
         dependent = engine.array(self._dependent)
-        kernels.orient(board, *_net(engine, engine.array(ends), self._joints, dependent), dependent)
+        kernels.orient(board, *_net(engine, ends, self._joints, dependent), dependent)
         found = engine.filled(2 * self._joints, 0)
         for i in links:
             number = kernels.circuit(board, int(ends[2 * i]), int(ends[2 * i + 1]), found)
@@ -120,7 +149,7 @@ class PlaneGraph:
                 yield i, [basis[k] for k in found]
 
     def groups(self) -> list[list[int]]:
-        return [g for g in places_by_label(_leaders(self._engine, self._board.group)) if len(g) > 1]
+        return [g for g in places_by_label(self._game.groups()) if len(g) > 1]
 
     def clusters(self) -> list[list[int]]:
         n = self._joints
@@ -136,8 +165,8 @@ class PlaneGraph:
     def _cluster_leaders(self) -> Sequence[int]:
         """For every link the one that stands for its rigid cluster."""
         e = engine_for(rigid_clusters, self._links)
-        board = Board(*(e.array(value.copy()) for value in self._board))
-        net, outer = _net(e, e.array(self._ends), self._joints, e.array(self._dependent))
+        board = Board(*(e.array(value) for value in self._game.board()))
+        net, outer = _net(e, e.array(self._given), self._joints, e.array(self._dependent))
         e.running(nets).sweep(net, outer)
         e.kernels.core_clusters(board, net, outer)
         e.kernels.outer_clusters(board, net, outer)

@@ -51,7 +51,7 @@ class Linkage(Displayed):
     @cached_property
     def joints(self) -> tuple[Joint, ...]:
         """As they first occur."""
-        return tuple(self._graph.joints)
+        return self._graph.all_joints()
 
     @cached_property
     def links(self) -> tuple[Link, ...]:
@@ -92,7 +92,7 @@ class Linkage(Displayed):
     @cached_property
     def redundant(self) -> list[Link]:
         """Links that those given before them make superfluous, in the order given."""
-        return [self._graph.link(i) for i in self.redundant_places]
+        return self._graph.links_at(self.redundant_places)
 
     @cached_property
     def circuit_places(self) -> Mapping[int, list[int]]:

@@ -205,6 +205,7 @@ def _built(
     if used:
         notes.append(f"Constants of integration, which the initial state sets: {', '.join(used)}.")
     notes += [n for n in study.report.warnings if "branch" in n]
+    notes += [f"Left out of the scene: {told}." for told in study.system.left_out]
     return LagrangeModel(
         study,
         tuple(kept),

@@ -30,8 +30,8 @@ from dofkit.scene.world import Direction, World
 from dofkit.system import Kinematics, Relation, VelocityRow
 
 _UP = {2: "[1, 0]", 3: "[0, 0, 1]"}
-#: Independent motions of a body of space.
-MOTIONS = 6
+#: Independent motions of a body, d(d+1)/2.
+MOTIONS = {2: 3, 3: 6}
 
 
 class Measure(NamedTuple):
@@ -80,7 +80,7 @@ class Joint(ConstraintBase):
         yield from ()
 
     def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
-        """The coordinates that its equations in space mention, where no part of these stands alone; else None."""
+        """The coordinates that its equations mention, where no part of these stands alone; else None."""
         del first, second, drawn
         return None
 
@@ -93,7 +93,7 @@ class Joint(ConstraintBase):
         mentioned = None if longest is None else self.mentioned(first, second, drawn)
         if longest is None or mentioned is None:
             return (*equations(), *laws)
-        return Unwritten(MOTIONS - len(self.facts.freedoms), mentioned, longest, equations)
+        return Unwritten(MOTIONS[world.dimension] - len(self.facts.freedoms), mentioned, longest, equations)
 
     def relations(self, world: World) -> Iterable[Relation]:
         ends = self.ends(world)

@@ -73,7 +73,7 @@ class Revolute(Driven):
             yield from aligned(first, second, drawn.axis)
 
     def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
-        return mentioned_together(first, second, drawn.at, True)
+        return mentioned_together(first, second, drawn.at, bool(drawn.axes))
 
     def law(self, first: Frame, second: Frame, drawn: JointGeometry, driven: Expr) -> Relation:
         if drawn.axes:
