@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -216,13 +217,14 @@ def _rank(tangent: Any, columns: Sequence[int], least: float = ROUGH) -> int:
 
 
 def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: int) -> Any:
-    """The tangent space at a point where relations are dependent all along, from ``dof`` independent short secants."""
+    """The tangent space where relations are dependent all along, from short secants; what none holds is free."""
     names = [s for s in chart.symbols if s != ex.TIME]
+    symbols = {**dict.fromkeys(names, 0.0), **symbols}
     found = []
     for seed in range(2 * dof + 2):
-        beside, change = dict(symbols), search.start(seed + len(AWAY), {})
+        beside, change, rng = dict(symbols), search.start(seed + len(AWAY), {}), random.Random(f"dofkit secant {seed}")
         for s in names:
-            beside[s] = symbols[s] + SECANT * change.get(s, 0.0)
+            beside[s] += SECANT * change.get(s, rng.uniform(-1.0, 1.0))
         if any(_settles(search, beside, seed, power) for power in DAMPED):
             found.append([(beside[s] - symbols[s]) / SECANT for s in names])
     if not found:

@@ -38,12 +38,16 @@ def linear_terms(e: Expr) -> dict[Expr, Fraction]:
         return {e: Fraction(1)}
     total = expand(e)
     terms: dict[Expr, Fraction] = {}
+    cancels = False
     for term in total.args if total.op == "add" else (total,):
         factor, rest = (term.args[0], ex.ONE) if term.op == "num" else number_and_rest(term)
         if factor:
             rest = sorted_product(rest)
-            terms[rest] = terms.get(rest, Fraction(0)) + factor
-    return terms
+            if rest in terms:
+                factor += terms[rest]
+                cancels = cancels or not factor
+            terms[rest] = factor
+    return {rest: factor for rest, factor in terms.items() if factor} if cancels else terms
 
 
 def number_and_rest(term: Expr) -> tuple[Fraction, Expr]:

@@ -112,11 +112,12 @@ def _vanishes_on(g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engin
     real = RealSearch(ring, [node], sorted(g.symbols - {ex.TIME}, key=repr), positive).search()
     if real is None:
         real = RealSearch(ring, [node], sorted(g.symbols, key=repr), positive).search()
-    if real is not None and real.certified and not values(ring, real.point)[rate].contains(0):
+    apart = real is not None and not values(ring, real.point)[rate].contains(0)
+    if real is not None and apart and real.certified:
         return False, "proved"
     if "field" not in engines:
         return (True, "numeric") if real is not None and real.certified else (None, "undecided")
-    return (False, "numeric") if point is not None and real is not None else (None, "undecided")
+    return (False, "numeric") if point is not None and apart else (None, "undecided")
 
 
 def _moves(g: Expr, positive: frozenset[Expr]) -> bool:

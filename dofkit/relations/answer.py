@@ -88,7 +88,7 @@ class Answer:
     what is not 0 over GF(p) known not to be 0? ``kind``: the same for blocks that are each other's up to names, whose
     coordinates then correspond place by place; None for one that was not compared. ``parts``: what was answered apart,
     all other rows being independent of each other and of these; None where the whole was looked at together, and only
-    then is there a ``matrix``.
+    then is there a ``matrix``; ``most``: where the freedom is not known, what it is proved not to exceed.
     """
 
     consistent: bool | None = True
@@ -125,6 +125,7 @@ class Answer:
     kind: int | None = None
     size: Size = field(default_factory=Size)
     parts: tuple[AnsweredPart, ...] | None = None
+    most: int | None = None
 
     @property
     def claim(self) -> Claim:

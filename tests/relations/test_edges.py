@@ -93,6 +93,48 @@ DECIDED: list[tuple[str, list[str], tuple[int, int], list[bool], list[bool], str
         [True, False],
         "z = 0 and x + 3 y constant; elsewhere all is at rest",
     ),
+    ("x z", ["xdot^4 + 1 - cos(z) = 0"], (0, 0), [True], [True], "both terms are 0: z = 0 and x constant"),
+    (
+        "x y z",
+        ["xdot^4 + (1 - cos(z)) ydot^4 = 0", "z = 0"],
+        (1, 1),
+        [True] * 2,
+        [True] * 2,
+        "x is constant, y is free where 1 - cos(z) is 0",
+    ),
+    ("x y z", ["xdot^4 = z ydot^4", "z = 0"], (1, 1), [True] * 2, [False, True], "x is constant"),
+    (
+        "x y u z w",
+        ["exp(w z ydot) = 1", "z = 0"],
+        (4, 4),
+        [True] * 2,
+        [True] * 2,
+        "w z ydot = 0: alone y is constant, and at z = 0 it says nothing",
+    ),
+    (
+        "x y z w u",
+        ["(w ydot + xdot)^2 = (z - 1) (udot + w xdot)^2", "w = 0"],
+        (4, 3),
+        [False, True],
+        [False, True],
+        "xdot = +-sqrt(z - 1) udot",
+    ),
+    (
+        "x y z w u",
+        ["xdot^2 = (1 - z) (udot - ydot)^2", "w = t", "w exp((1 + x^2) xdot + ydot) = 1 - z"],
+        (4, 2),
+        [False, True, False],
+        [False, True, False],
+        "where 1 - z is 0 there is no logarithm",
+    ),
+    (
+        "x y z w u",
+        ["abs(ydot) + abs(udot + (w + z) ydot) = 0", "(1 + x^2) wdot + ydot = 0"],
+        (2, 2),
+        [True] * 2,
+        [True, False],
+        "y, u and w are constant",
+    ),
 ]
 
 

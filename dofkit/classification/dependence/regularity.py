@@ -16,9 +16,14 @@ from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.balls import jacobian
 from dofkit.exact.ring.program import values
+from dofkit.exact.zero.identity import is_proved_zero
+from dofkit.expressions.calculus import diff, substitute
+from dofkit.expressions.differentials import in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.normal.half_lines import solved
+from dofkit.relations.normal.normal_form import relation_of, velocities_of
 from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian, Piece
 from dofkit.relations.normal.polynomial_zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
 from dofkit.relations.reduced import Reduced
@@ -41,8 +46,9 @@ class Regularity:
     def irregular(self) -> bool | None:
         """Does the answer's gradient lose rank where that of what was asked for does not? None: not decided."""
         answer = [n for r in self.given for n in r.normals]
-        if any(isinstance(p, Pfaffian) for n in answer for p in n.pieces):
-            return any(map(_is_square, self.given))
+        if any(isinstance(p, Pfaffian) for n in (*answer, *self.wanted) for p in n.pieces):
+            choices = list(cartesian(*(n.branches for n in self.wanted if n.branches)))[:MAX_BRANCHES]
+            return any(_is_flat(r, choice, self.setting.positive) for r in self.given for choice in choices)
         if _lost(answer) and not _lost(self.wanted):
             return True
         branches = list(cartesian(*(n.branches for n in (*self.others, *self.wanted) if n.branches)))
@@ -90,6 +96,14 @@ def _lost(normals: Sequence[Normal]) -> bool:
     return any(EXPONENT_NOTE in n.notes and not {POWER_NOTE, SQUARES_NOTE}.isdisjoint(n.notes) for n in normals)
 
 
-def _is_square(r: Reduced) -> bool:
-    """Was a relation between velocities a power or a sum of squares of forms?"""
-    return any(n.notes and all(isinstance(p, Pfaffian) for p in n.pieces) for n in r.normals)
+def _is_flat(r: Reduced, choice: Sequence[Sequence[Piece]], positive: frozenset[Expr]) -> bool:
+    """Was a relation rewritten whose slopes by all velocities are 0, as a square's are, or have no value, on forms?"""
+    written = [in_velocities(e.expr)[0] for e in r.constraint.relations]
+    slopes = [diff(e, v) for e in written for v in velocities_of(e)]
+    if not slopes or not any(n.notes for n in r.normals):
+        return False
+    try:
+        given = solved((relation_of(p) for branch in choice for p in branch if isinstance(p, Pfaffian)), generic=True)
+        return all(is_proved_zero(substitute(e, given), positive) for e in slopes)
+    except NoValueError:
+        return True

@@ -125,7 +125,8 @@ def _most(block: Block, a: Answer) -> int:
 
 def _bound(block: Block, a: Answer) -> int:
     """A bound of its freedom on any part: a relation takes at least one away, unless it may hold always unseen."""
-    return len(block.coordinates) - (a.doubt is None and bool(block.finite))
+    known = len(block.coordinates) - (a.doubt is None and bool(block.finite))
+    return known if a.most is None else min(known, a.most)
 
 
 def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outcome:

@@ -24,10 +24,12 @@ from dofkit.classification.freedom.velocity_domain import (
 from dofkit.configuration.components import is_irreducible
 from dofkit.configuration.finite_blocks import OFF_REFERENCE
 from dofkit.configuration.search import find
+from dofkit.configuration.witness import of_real_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
@@ -36,6 +38,8 @@ from dofkit.relations.blocks import Block, Row
 from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.normal.domain import DomainCondition, holds_at
+from dofkit.relations.normal.edges import given_by
+from dofkit.relations.normal.half_lines import scaled
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
@@ -59,7 +63,7 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
             told = in_motion_at(block, result.hidden, setting, known) if regular else None
             holds.append(told or None)
         if all(holds):
-            return _beside_edge(block, result, setting)
+            return _beside_boundary(block, _beside_edge(block, result, setting), setting)
         if None in holds and False not in holds:
             return _open(result, block.conditions)
         elsewhere = replace(setting, reference=None, pose={})
@@ -92,6 +96,33 @@ def _beside_edge(block: Block, result: Answer, setting: Setting) -> Answer:
     return result
 
 
+def _beside_boundary(block: Block, result: Answer, setting: Setting) -> Answer:
+    """The answer at a regular reference where some expressions are 0 and asked to be >= 0: does the set go on inside?
+
+    It does where their differentials are independent on its tangent space, and where they are 0 all over it: c = 0 then
+    leaves all of its dimension. y = -x^2 with y >= 0 is a point.
+    """
+    known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
+    given = given_by(r.piece.expr for r in block.finite if isinstance(r.piece, Finite))
+    weak = [c for c in still_conditions(block.conditions) if c.sense == ">=" and not c.adjoining]
+    there = dict.fromkeys(replace(c, expr=scaled(substitute(c.expr, given)), sense=">") for c in weak)
+    active = [c for c in there if not c.expr.is_zero and not holds_at(c, known, setting.positive)]
+    if not active or not result.consistent:
+        return result
+    if result.instantaneous is None or result.instantaneous != result.velocity_dof:
+        return _open(result, active)
+    plain = replace(block, conditions=())
+    entered: list[Row] = []
+    for number, c in enumerate(active):
+        row = Row(-1 - number, Finite(c.expr))
+        inside = answer(replace(plain, rows=(*plain.rows, *entered, row)), setting).instantaneous
+        if inside == result.instantaneous - len(entered) - 1:
+            entered.append(row)
+        elif answer(replace(plain, rows=(*plain.rows, row)), setting).dof != result.dof:
+            return _open(result, active)
+    return result
+
+
 def _empty(block: Block, result: Answer, setting: Setting) -> bool:
     """Do the conditions on positions hold nowhere where the finite relations do?"""
     relations = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + result.hidden
@@ -103,7 +134,9 @@ def _while_moving(block: Block, result: Answer, setting: Setting) -> Answer:
     holds = in_motion(block, result.hidden, setting)
     if holds is None:
         return _open(result, block.conditions)
-    return result if holds else _nowhere(result, block.conditions, "proved")
+    if not holds:
+        return _nowhere(result, block.conditions, "proved")
+    return result if _is_within(result, still_conditions(block.conditions)) else replace(result, witness=None)
 
 
 def _somewhere(block: Block, result: Answer, setting: Setting) -> Answer:
@@ -117,8 +150,10 @@ def _somewhere(block: Block, result: Answer, setting: Setting) -> Answer:
         return _where_some_vanish(chart, result, relations, dead, setting)
     left = [(n, c) for n, c, z in zip(nodes, block.conditions, zero, strict=True) if not z]
     dof = result.dof if not block.forms and not block.nonlinear else None
-    if _point_within(chart, left, dof) and _witness_within(block, result):
-        return result
+    inside = _point_within(chart, left, dof)
+    if inside is not None and _witness_within(block, result):
+        strict = [c for _, c in left]
+        return result if _is_within(result, strict) else replace(result, witness=of_real_point(chart, inside))
     wanted = [c.expr for c in block.conditions if c.sense != "!="]
     if no_solution(relations, setting.positive, wanted):
         return _nowhere(result, block.conditions, "proved")
@@ -149,8 +184,8 @@ def _identically_zero(chart: Chart, nodes: Sequence[int]) -> list[bool]:
     return found
 
 
-def _point_within(chart: Chart, left: Sequence[tuple[int, DomainCondition]], dof: int | None) -> bool:
-    """Is there a certified regular point, of the largest rank that was seen, at which all conditions hold strictly?
+def _point_within(chart: Chart, left: Sequence[tuple[int, DomainCondition]], dof: int | None) -> RealPoint | None:
+    """A certified regular point, of the largest rank that was seen, at which all conditions hold strictly.
 
     Of finite relations alone the rank there has to say the ``dof``: other parts of the set may be larger or smaller.
     """
@@ -164,20 +199,23 @@ def _point_within(chart: Chart, left: Sequence[tuple[int, DomainCondition]], dof
         if point is not None and point.certified and point.consistent:
             points.append(point)
     wanted = max((p.rank for p in points), default=0) if dof is None else chart.coordinates - dof
-    return any(p.rank == wanted and _strictly(chart, p, left) for p in points)
+    return next((p for p in points if p.rank == wanted and _strictly(chart, p, left)), None)
 
 
 def _witness_within(block: Block, result: Answer) -> bool:
     """Of what is told of one part of the set only: do the conditions hold at its witness?"""
     if result.about != "component" or not (block.forms or block.nonlinear):
         return True
-    if result.witness is None:
-        return False
+    return result.witness is not None and _is_within(result, block.conditions)
+
+
+def _is_within(result: Answer, conditions: Sequence[DomainCondition]) -> bool:
+    """Do conditions hold strictly at the witness, where there is one? False where it is written with roots."""
     try:
-        known = {s: Fraction(text) for s, text in result.witness.items()}
-    except ValueError:  # of a reference, written with roots
+        known = {s: Fraction(text) for s, text in (result.witness or {}).items()}
+    except ValueError:
         return False
-    there = [(c, interval_of(c.expr, known)) for c in block.conditions]
+    there = [(c, interval_of(c.expr, known)) for c in conditions] if known else []
     return all(v is not None and not v.contains(0) and (c.sense == "!=" or bool(v > 0)) for c, v in there)
 
 
@@ -202,4 +240,5 @@ def _nowhere(result: Answer, conditions: Sequence[DomainCondition], verdict: Lit
 
 def _open(result: Answer, conditions: Sequence[DomainCondition]) -> Answer:
     why = f"no configuration was found at which the relations hold and, as they ask, {_conditions_text(conditions)}"
-    return Answer(None, verdict="undecided", hidden=result.hidden, reasons=[*result.reasons, why])
+    most = result.dof if result.verdict == "proved" and result.about != "component" else None
+    return Answer(None, verdict="undecided", hidden=result.hidden, reasons=[*result.reasons, why], most=most)

@@ -17,7 +17,7 @@ from dofkit.classification.labels.by_itself import by_itself
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import in_words
-from dofkit.classification.labels.one_sided import kept_in_system, with_a_side, with_sides
+from dofkit.classification.labels.one_sided import SideKept, kept_in_system, with_a_side, with_sides
 from dofkit.classification.labels.reasons import Others
 from dofkit.classification.labels.shared_entries import SharedEntries
 from dofkit.integrability.modulo_others import label_modulo_others
@@ -65,7 +65,7 @@ def entries_of(
                 alone = by_itself(i, r, told[i], company.parts)
                 evidence = Evidence(told[i], alone, number, circuit, constants, shared.traits, beside, copied)
                 made = entry(r, evidence, setting, consistent)
-                made = with_sides(made, i, outcome, setting) if i in sided else made
+                made = with_sides(made, i, r, outcome, setting) if i in sided else made
                 made = _with_dependence(made, i, r, known)
                 shared.keep(kind, made)
             entries.append(made)
@@ -134,14 +134,14 @@ def labels_in_system(
         return [(None, "undecided")] * len(reduced)
     labels = [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
     sided = with_a_side(outcome)
-    return [_with_sides(label, i, outcome, setting) if i in sided else label for i, label in enumerate(labels)]
+    return [
+        _with_sides(label, kept_in_system(i, r, outcome, setting)) if i in sided else label
+        for i, (label, r) in enumerate(zip(labels, reduced, strict=True))
+    ]
 
 
-def _with_sides(
-    label: tuple[bool | None, Verdict], i: int, outcome: Outcome, setting: Setting
-) -> tuple[bool | None, Verdict]:
+def _with_sides(label: tuple[bool | None, Verdict], kept: SideKept) -> tuple[bool | None, Verdict]:
     """A label as one of the whole constraint, the sides among it to which it keeps velocities."""
-    kept = kept_in_system(i, outcome, setting)
     return label if kept.holds or not label[0] else (kept.holds, "undecided" if kept.holds is None else kept.verdict)
 
 

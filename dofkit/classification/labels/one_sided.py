@@ -8,6 +8,7 @@ follows from no finite relation, as no inequality does. Where the others see to 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import partial
 from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError
@@ -16,12 +17,15 @@ from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.velocity_domain import DRAWN, none_holds
 from dofkit.configuration.states import States, state_relations, value_at
 from dofkit.exact.points.frames import certified_rank
+from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.normal_form import velocities_of
+from dofkit.relations.normal.normal_form import relation_of, velocities_of
+from dofkit.relations.normal.pieces import Finite, Pfaffian, Piece
+from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict
 
@@ -61,13 +65,31 @@ class SideKept(NamedTuple):
 ALWAYS = SideKept(True)
 
 
-def kept_in_system(i: int, outcome: Outcome, setting: Setting) -> SideKept:
-    """Do the sides that a constraint keeps to hold in every motion that all rows leave? Yes where it has none."""
+def kept_in_system(i: int, r: Reduced, outcome: Outcome, setting: Setting) -> SideKept:
+    """Do the sides that a constraint keeps to hold in every motion that all rows leave? Yes where it has none.
+
+    Not known where another of its branches, with lines that hold too, lies beyond: z abs(xdot) = ydot at z = 0.
+    """
     sides = sides_of(i, outcome)
     if not sides:
         return ALWAYS
     blocks = list(zip(outcome.blocks, (a.hidden for a in outcome.answers), strict=True))
-    return _together(_kept(b, hidden, c, setting) for c in sides for b, hidden in blocks if c in b.conditions)
+    found = _together(_kept(b, hidden, c, setting) for c in sides for b, hidden in blocks if c in b.conditions)
+    beyond = found.holds is False and any(_is_beyond(b, sides, outcome, setting) for n in r.normals for b in n.branches)
+    return SideKept(None) if beyond else found
+
+
+def _is_beyond(branch: Sequence[Piece], sides: Sequence[DomainCondition], outcome: Outcome, setting: Setting) -> bool:
+    """Is a branch on the other side of one of some sides, and do its lines hold in the motions that all rows leave?"""
+    own = [p for p in branch if isinstance(p, DomainCondition)]
+    if not any(not linear_terms(c.expr + d.expr) for c in sides for d in own):
+        return False
+    lines = [relation_of(p) for p in branch if isinstance(p, (Finite, Pfaffian))]
+    rows = [row for row in outcome.rows if not isinstance(row.piece, DomainCondition)]
+    names = [*outcome.untouched, *(n for b in outcome.blocks for n in b.coordinates)]
+    states = States(names, rows, [g for a in outcome.answers for g in a.hidden], setting, lines)
+    drawn = [p for p in (states.draw(k) for k in range(DRAWN)) if p is not None]
+    return all(value_at(states.ring, p, states.extra[e]) == 0 for p in drawn for e in lines)
 
 
 def kept_alone(i: int, outcome: Outcome, setting: Setting) -> SideKept:
@@ -111,13 +133,15 @@ def _kept(block: Block, hidden: Sequence[Expr], side: DomainCondition, setting: 
     return ALWAYS if none_holds(state_relations(block.rows, hidden), [beyond], setting.positive) else SideKept(None)
 
 
-def with_sides(made: ConstraintEntry, i: int, outcome: Outcome, setting: Setting) -> ConstraintEntry:
+def with_sides(made: ConstraintEntry, i: int, r: Reduced, outcome: Outcome, setting: Setting) -> ConstraintEntry:
     """An entry that says so where a constraint keeps to a side, and is not called holonomic for its lines."""
     sides = sides_of(i, outcome)
-    if not sides or outcome.consistent is not True or not (made.holonomic or made.holonomic_alone):
+    if not sides:
         return made
-    asked = {"holonomic": kept_in_system, "holonomic_alone": kept_alone}
-    told = {name: look(i, outcome, setting) for name, look in asked.items() if getattr(made, name)}
+    asked = {"holonomic": partial(kept_in_system, i, r), "holonomic_alone": partial(kept_alone, i)}
+    if outcome.consistent is False:
+        del asked["holonomic"]
+    told = {name: look(outcome, setting) for name, look in asked.items() if getattr(made, name)}
     changed = {name: kept for name, kept in told.items() if kept.holds is not True}
     claims = {name: OPEN if k.holds is None else Claim(k.verdict, "one side", BITS) for name, k in changed.items()}
     reason = made.reason

@@ -81,7 +81,10 @@ class Character:
 
         The products of one half of the values are listed, and those of the other half looked up among them. Of an odd
         number the last is divided between both: its powers are those of small steps and of large ones.
+        Raises NoPointError for 0, which no exponential is.
         """
+        if int(value) == 0:
+            raise NoPointError("a logarithm of 0")
         known = [(u, int(v)) for u, v in self.values.items()][: len(POWERS)]
         largest = POWERS[max(len(known), 1) - 1]
         for most in sorted({min(SMALL, largest), largest}):

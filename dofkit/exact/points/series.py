@@ -131,6 +131,8 @@ class SeriesPoint:
             found = self.symbols.get(var.index)
             return self.constant(self.base.generator(var, ())) if found is None else found
         head = self.base.generator(var, [a.coefficient(0) for a in args])
+        if var.kind == "sign" and not args[0].invertible and args[0].poly.degree() > 0:
+            raise PoleError("a sign changes where the series begins")
         if var.kind in ("pi", "sign"):
             return self.constant(head)
         if all(a.poly.degree() < 1 for a in args):

@@ -18,8 +18,9 @@ from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of, constantly
+from dofkit.relations.normal.inverse_functions import inverse_of
 from dofkit.relations.normal.signs import squared
-from dofkit.relations.normal.velocity_roots import inverse_of, rates
+from dofkit.relations.normal.velocity_roots import rates
 
 #: What a function is replaced by; no scene declares such a name.
 _VALUE = ex.sym("parameter", "the function's value")
@@ -133,7 +134,7 @@ def settled(lines: Sequence[SidedLines], positive: frozenset[Expr]) -> list[Side
 
 def _settled(one: SidedLines, positive: frozenset[Expr]) -> SidedLines | None:
     relations = list(one.relations)
-    conditions = [replace(c, expr=_scaled(freed(c.expr, relations))) for c in one.conditions]
+    conditions = [replace(c, expr=scaled(freed(c.expr, relations))) for c in one.conditions]
     kept: list[DomainCondition] = []
     for c in dict.fromkeys(conditions):
         told = _known(c, positive)
@@ -151,11 +152,11 @@ def _settled(one: SidedLines, positive: frozenset[Expr]) -> SidedLines | None:
 
 def lies_within(one: SidedLines, region: Sequence[DomainCondition], positive: frozenset[Expr]) -> bool:
     """Do the conditions of a region hold on lines that are settled?"""
-    asked = [replace(c, expr=_scaled(freed(c.expr, one.relations))) for c in region]
+    asked = [replace(c, expr=scaled(freed(c.expr, one.relations))) for c in region]
     return all(c in one.conditions or _known(c, positive) for c in asked)
 
 
-def _scaled(e: Expr) -> Expr:
+def scaled(e: Expr) -> Expr:
     """``e`` times a number > 0, the same for multiples of each other."""
     terms = linear_terms(e)
     first = abs(terms[min(terms, key=repr)]) if terms else Fraction(1)
@@ -167,10 +168,10 @@ def _canonical(relations: Sequence[Expr]) -> tuple[Expr, ...]:
     if len(relations) == 1:
         first = diff(relations[0], rates(relations[0])[0]) if rates(relations[0]) else ex.ONE
         return (-relations[0] if first.op == "num" and first.args[0] < 0 else relations[0],)
-    solved = _solved(relations)
-    if len(solved) < len(relations):
+    found = solved(relations)
+    if len(found) < len(relations):
         return tuple(relations)
-    return tuple(v - solved[v] for v in sorted(solved, key=repr))
+    return tuple(v - found[v] for v in sorted(found, key=repr))
 
 
 def _known(c: DomainCondition, positive: frozenset[Expr]) -> bool | None:
@@ -182,12 +183,12 @@ def _known(c: DomainCondition, positive: frozenset[Expr]) -> bool | None:
 
 def freed(e: Expr, relations: Iterable[Expr]) -> Expr:
     """``e`` with the velocities put in that forms with a number as coefficient give."""
-    for v, value in _solved(relations).items():
+    for v, value in solved(relations).items():
         e = substitute(e, {v: value})
     return e
 
 
-def _solved(relations: Iterable[Expr], generic: bool = False) -> Mapping[Expr, Expr]:
+def solved(relations: Iterable[Expr], generic: bool = False) -> Mapping[Expr, Expr]:
     """Velocities as functions of others, each free of those solved for before it.
 
     By a number as coefficient, or by one that is not 0 everywhere where ``generic``.
@@ -223,4 +224,4 @@ def _is_half_line(one: SidedLines, velocities: Sequence[Expr]) -> bool:
     rest = dict.fromkeys(velocities, ex.ZERO)
     if len(edges) > 1 or any(not substitute(e, rest).is_zero for e in (*forms, *edges)):
         return False
-    return (not edges and bool(sided)) or len(_solved((*forms, *edges), generic=True)) == len(velocities)
+    return (not edges and bool(sided)) or len(solved((*forms, *edges), generic=True)) == len(velocities)

@@ -167,13 +167,21 @@ def split_power(e: Expr, positive: frozenset[Expr]) -> list[SidedLines] | None:
     root = ex.power(ratio, ex.num(Fraction(1, k)))
     if k % 2:
         return [SidedLines((v - root * w,), ())]
+    point = [SidedLines((v, w), ())] if first else []
+    zeros = zero_set(ratio, positive, _moving(ratio))[0] if _moving(ratio) else ()
+    edge = [SidedLines((*zero, v), ()) for zero in zeros]
     sign = _sign(ratio, positive)
     if sign == -1:
-        return [SidedLines((v, w), ())]
-    unknown = sign == 0 and any(s.args[0] in ("coordinate", "time") for s in ratio.symbols) and bool(first)
-    within = (DomainCondition(ratio, ">="),) if unknown else ()
-    lines = [SidedLines((v - root * w,), within), SidedLines((v + root * w,), within)]
-    return [*lines, SidedLines((v, w), (DomainCondition(-ratio, ">"),))] if unknown else lines
+        return [*point, *edge]
+    lines = [SidedLines((v - root * w,), ()), SidedLines((v + root * w,), ())]
+    if not edge and (sign == 1 or not _moving(ratio)):
+        return lines
+    within = DomainCondition(ratio, ">", True)
+    return [
+        *(SidedLines(one.relations, (within,)) for one in lines),
+        *(SidedLines(one.relations, (DomainCondition(-ratio, ">"),)) for one in point),
+        *edge,
+    ]
 
 
 def _matrix(e: Expr, velocities: Sequence[Expr]) -> Matrix | None:

@@ -20,6 +20,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, constantly
+from dofkit.relations.normal.inverse_functions import Root, inverse_of, positive_or_zero
 from dofkit.relations.normal.semidefinite import never_holds
 
 #: The combination of velocities, while it is solved for; no scene declares such a name.
@@ -28,14 +29,6 @@ _INSIDE = ex.sym("parameter", "what is inside")
 #: Functions that are undone one inside the other.
 MAX_DEPTH = 8
 MAX_ROOTS = 8
-
-
-@dataclass(frozen=True)
-class Root:
-    """The value of the unknown on one branch, and where that branch is."""
-
-    value: Expr
-    conditions: tuple[DomainCondition, ...] = ()
 
 
 def rates(e: Expr) -> list[Expr]:
@@ -62,9 +55,13 @@ def velocity_branches(e: Expr, positive: frozenset[Expr]) -> list[tuple[Expr, tu
         told = {c: constantly(c, positive) for c in root.conditions}
         if any(t is None and not _moves(c.expr) for c, t in told.items()):
             return None
-        if False not in told.values() and not any(never_holds(c.expr, c.strict, positive) for c in told):
+        if False not in told.values() and not any(_never(c, positive) for c in told):
             branches.append((combination - root.value, tuple(c for c, t in told.items() if t is None)))
     return branches
+
+
+def _never(c: DomainCondition, positive: frozenset[Expr]) -> bool:
+    return c.sense != "!=" and never_holds(c.expr, c.strict, positive)
 
 
 def _moves(e: Expr) -> bool:
@@ -141,7 +138,9 @@ def _roots(e: Expr, unknown: Expr, depth: int) -> list[Root] | None:
     """The real roots of ``e = 0`` in the unknown."""
     slope = diff(e, unknown)
     if unknown not in slope.symbols:
-        return [Root(-substitute(e, {unknown: ex.ZERO}) / slope)]
+        if is_proved_zero(slope, frozenset()):
+            return None
+        return [Root(-substitute(e, {unknown: ex.ZERO}) / slope, _apart(slope))]
     if depth > MAX_DEPTH:
         return None
     inner = _sole_function(e, unknown)
@@ -231,16 +230,22 @@ def _polynomial_roots(e: Expr) -> list[Root] | None:
     low = min(table)
     powers = {k - low: c for k, c in table.items()}
     zero = [Root(ex.ZERO)] if low > 0 else []
+    n = max(powers)
+    others: list[Root] | None = None
     if len(powers) == 1:
-        return zero
-    if len(powers) == 2:
-        n = max(powers)
-        return zero + _radicals(-powers[0] / powers[n], n)
-    if set(powers) == {0, 1, 2}:
+        others = []
+    elif len(powers) == 2:
+        others = _radicals(-powers[0] / powers[n], n)
+    elif set(powers) == {0, 1, 2}:
         a, b, c = powers[2], powers[1], powers[0]
         inside = b * b - 4 * a * c
-        return zero + [Root((-b + s * ex.sqrt(inside)) / (2 * a), _positive_or_zero(inside)) for s in (1, -1)]
-    return None
+        others = [Root((-b + s * ex.sqrt(inside)) / (2 * a), positive_or_zero(inside)) for s in (1, -1)]
+    return None if others is None else [Root(r.value, (*r.conditions, *_apart(powers[n]))) for r in zero + others]
+
+
+def _apart(divisor: Expr) -> tuple[DomainCondition, ...]:
+    """Where a solution was divided by what moves: where that is 0 the relation says something else, or nothing."""
+    return (DomainCondition(divisor, "!=", True),) if _moves(divisor) else ()
 
 
 def _power_term(term: Expr) -> tuple[int, Expr] | None:
@@ -261,10 +266,6 @@ def _power_term(term: Expr) -> tuple[int, Expr] | None:
     return n, ex.mul(*rest) if rest else ex.ONE
 
 
-def _positive_or_zero(e: Expr) -> tuple[DomainCondition, ...]:
-    return (DomainCondition(e, ">="),)
-
-
 def _radicals(value: Expr, n: int) -> list[Root]:
     """z with z^n = value."""
     root = ex.power(value, ex.num(Fraction(1, n)))
@@ -272,7 +273,7 @@ def _radicals(value: Expr, n: int) -> list[Root]:
         return [Root(root)]
     if value.is_zero:
         return [Root(ex.ZERO)]
-    return [Root(root, _positive_or_zero(value)), Root(-root, _positive_or_zero(value))]
+    return [Root(root, positive_or_zero(value)), Root(-root, positive_or_zero(value))]
 
 
 def _undone(node: Expr, value: Expr, unknown: Expr, depth: int) -> list[Root] | None:
@@ -305,43 +306,7 @@ def _undone_power(node: Expr, value: Expr, unknown: Expr, depth: int) -> list[Ro
         return _all_inside(logs, exponent, unknown, depth)
     power: Fraction = exponent.args[0]
     if power.denominator % 2 == 0:
-        return _all_inside([Root(ex.power(value, ex.num(1 / power)), _positive_or_zero(value))], base, unknown, depth)
+        return _all_inside([Root(ex.power(value, ex.num(1 / power)), positive_or_zero(value))], base, unknown, depth)
     roots = _radicals(value if power > 0 else 1 / value, abs(power.numerator))
     raised = [Root(ex.power(r.value, ex.num(power.denominator)), r.conditions) for r in roots]
     return _all_inside(raised, base, unknown, depth)
-
-
-def _log(value: Expr) -> Expr:
-    if value == ex.E:
-        return ex.ONE
-    inside = value.args[1] if value.op == "fn" and value.args[0] == "exp" else None
-    return ex.fn("log", value) if inside is None else inside
-
-
-def inverse_of(name: str, value: Expr) -> list[Root] | None:
-    """u with name(u) = value, for functions with finitely many such u."""
-    square = value * value
-    if name == "exp":
-        return [Root(_log(value), (DomainCondition(value, ">"),))]
-    if name == "log":
-        return [Root(ex.fn("exp", value))]
-    if name == "abs":
-        if value.is_zero:
-            return [Root(ex.ZERO)]
-        return [Root(s * value, _positive_or_zero(value)) for s in (1, -1)]
-    if name == "sinh":
-        return [Root(ex.fn("log", value + ex.sqrt(square + 1)))]
-    if name == "cosh":
-        if value == ex.ONE:
-            return [Root(ex.ZERO)]
-        return [Root(s * ex.fn("log", value + ex.sqrt(square - 1)), _positive_or_zero(value - 1)) for s in (1, -1)]
-    if name == "tanh":
-        return [Root(ex.fn("log", (1 + value) / (1 - value)) / 2, (DomainCondition(1 - square, ">"),))]
-    half = ex.PI / 2
-    if name == "atan":
-        return [Root(ex.fn("tan", value), (DomainCondition(half * half - square, ">"),))]
-    if name == "asin":
-        return [Root(ex.fn("sin", value), _positive_or_zero(half * half - square))]
-    if name == "acos":
-        return [Root(ex.fn("cos", value), (DomainCondition(value, ">="), DomainCondition(ex.PI - value, ">=")))]
-    return None
