@@ -20,11 +20,13 @@ from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots, certified_rank, kernel
 from dofkit.exact.points.real_search import RealPoint
+from dofkit.exact.ring.program import values
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
+from dofkit.integrability.velocity_fans import joined_span, velocity_fan
 from dofkit.relations.answer import Answer, HolonomyLabel
-from dofkit.relations.blocks import Block
+from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.setting import Setting
 
@@ -56,7 +58,10 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
         _undecided(result, NO_VELOCITIES)
         return
     if states.kinked:
-        _undecided(result, FLAT)
+        try:
+            _by_flat_pieces(block, setting, result)
+        except NoValueError:
+            _undecided(result, SINGULAR)
         return
     whole, moving, finite = states.ranks(sample)
     if not _moves_at_reference(block, setting, result, moving):
@@ -76,6 +81,53 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
         result.verdict = weakest(result.verdict, "numeric" if point is None else "proved" if full else "probable")
 
 
+def _by_flat_pieces(block: Block, setting: Setting, result: Answer) -> None:
+    """The velocity freedom where the velocities lie on polyhedra: at the reference, or at a generic configuration."""
+    rows, hidden, left = block.rows, result.hidden, result.velocity_dof
+    if setting.reference is not None:
+        rows, hidden, setting = _rows_at_reference(block, setting, result) or (), [], replace(setting, reference=None)
+    fan = velocity_fan(rows, hidden)
+    if fan is None or left is None:
+        _undecided(result, FLAT)
+        return
+    states = States(block.coordinates, rows, hidden, setting, fan.coefficients)
+    point = next(states.certain(SEEDS), None)
+    if point is None:
+        _undecided(result, SINGULAR)
+        return
+    found = values(states.ring, point)
+    if not joined_span(fan, {e: found[node] for e, node in states.extra.items()}, block.coordinates, left):
+        _undecided(result, FLAT)
+        return
+    result.curved, result.argument = True, "states of motion"
+    result.velocity_dof = left - fan.bent
+    independent = len(fan.linear) == len(block.coordinates) - left
+    result.verdict = weakest(result.verdict, "proved" if independent else "probable")
+
+
+def first_order_beside_bends(block: Block, setting: Setting, result: Answer) -> tuple[int | None, bool]:
+    """The velocities that the constraints allow at the reference, and whether that is proved.
+
+    Regular ones were found there, and one relation that bends holds nowhere on all that the linear ones leave.
+    """
+    regular = result.curved and len(block.nonlinear) == 1 and not result.hidden
+    if not regular or _rows_at_reference(block, setting, result) is None:
+        return None, False
+    return result.velocity_dof, result.verdict == "proved"
+
+
+def _rows_at_reference(block: Block, setting: Setting, result: Answer) -> tuple[Row, ...] | None:
+    """What the relations say of velocities at the reference; None where that is not on the set now.
+
+    Raises NoValueError.
+    """
+    known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
+    relations = state_relations(block.rows, result.hidden)
+    if any(not is_zero(substitute(g, known), setting.positive) for g in relations if not velocities_of(g)):
+        return None
+    return rows_at(relations, known)
+
+
 def _moves_at_reference(block: Block, setting: Setting, result: Answer, moving: int) -> bool:
     """Are there real velocities at the reference, regular as those are elsewhere? True where none is given or is met.
 
@@ -83,12 +135,11 @@ def _moves_at_reference(block: Block, setting: Setting, result: Answer, moving: 
     """
     if setting.reference is None:
         return True
-    known = {**setting.reference, ex.TIME: ex.ZERO}
-    relations = state_relations(block.rows, result.hidden)
     try:
-        if any(not is_zero(substitute(g, known), setting.positive) for g in relations if not velocities_of(g)):
+        rows = _rows_at_reference(block, setting, result)
+        if rows is None:
             return True
-        there = States(block.coordinates, rows_at(relations, known), (), replace(setting, reference=None))
+        there = States(block.coordinates, rows, (), replace(setting, reference=None))
     except NoValueError:
         return False
     return any(there.ranks(point)[1] == moving for point in there.certain(SEEDS))
