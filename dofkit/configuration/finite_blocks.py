@@ -7,6 +7,7 @@ from math import isfinite
 
 from dofkit.configuration.drawing.at_reference import AtReference, at_reference, ball_matrix
 from dofkit.configuration.drawing.measured import MISSED, measure
+from dofkit.configuration.drawing.measured_as_written import held_against_exact
 from dofkit.configuration.drawing.measured_blocks import drawing_of_block, is_measured, is_tree
 from dofkit.configuration.generic_points import field_jacobian
 from dofkit.configuration.search import find
@@ -52,9 +53,9 @@ def _within_tolerance(block: Block, chart: Chart, setting: Setting) -> Answer:
     if drawing is None and is_tree(block, setting):
         return _finite_answer(chart, setting)
     found = None if drawing is None else at_reference(chart, drawing, exact=False)
-    if found is None:
+    if drawing is None or found is None:
         return Answer(None, verdict="undecided", reasons=[NOT_DRAWN])
-    return _measured_answer(chart, setting, found)
+    return _measured_answer(chart, setting, drawing, found)
 
 
 def _finite_answer(chart: Chart, setting: Setting) -> Answer:
@@ -151,11 +152,11 @@ def _confined_answer(chart: Chart, setting: Setting, result: Answer) -> Answer:
     return result
 
 
-def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answer:
+def _measured_answer(chart: Chart, setting: Setting, drawing: Mapping[Expr, Expr], found: AtReference) -> Answer:
     """Measured geometry: the rank within the tolerance."""
     if "balls" not in setting.engines:
         return Answer(None, verdict="undecided", reasons=["measured geometry has no points over GF(p)"])
-    told = measure(chart, _floats(found), setting, found.rigid)
+    told = held_against_exact(measure(chart, _floats(found), setting, found.rigid), chart, drawing)
     result = Answer(True, told.dimension, told.dimension, "numeric" if told.dimension is not None else "undecided")
     result.argument, result.gap, result.about = "singular values", told.gap, "reference"
     result.method = "singular values within the tolerance at the given configuration"
