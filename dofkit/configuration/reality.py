@@ -32,7 +32,8 @@ def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None
         return None
     search = RealSearch(chart.ring, core, chart.unknowns, chart.positive, chart.symbols)
     try:
-        return search.search(seed)
+        found = search.search(seed)
+        return found if found is not None or not core else search.at_another_time(seed)
     except (OverflowError, ValueError, NoValueError):
         return None
 

@@ -180,7 +180,7 @@ class States:
                 found = search.search(seed, symbols, starts=1)
                 if found is not None and found.certified and found.consistent:
                     return found
-        return search.search(seed)
+        return search.search(seed) or search.at_another_time(seed)
 
     def _spread(self, symbols: dict[Expr, float], seed: int) -> dict[Expr, float]:
         """Where to begin: far out for later states where angles occur, as what holds near 0 need not hold a turn on."""

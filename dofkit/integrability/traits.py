@@ -109,7 +109,8 @@ def _vanishes_on(g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engin
     if "balls" not in engines:
         known = point is not None and independent_on_set(ring, [node])
         return (False, "probable") if known else (None, "undecided")
-    real = RealSearch(ring, [node], sorted(g.symbols - {ex.TIME}, key=repr), positive).search()
+    search = RealSearch(ring, [node], sorted(g.symbols - {ex.TIME}, key=repr), positive)
+    real = search.search() or search.at_another_time()
     if real is None:
         real = RealSearch(ring, [node], sorted(g.symbols, key=repr), positive).search()
     if real is not None and real.certified and not values(ring, real.point)[rate].contains(0):
