@@ -115,7 +115,8 @@ def _is_whole(
     point is a limit of those at which no other is 0, so it is enough that no foreign choice holds strictly.
     """
     slopes = {v: diff(e, v) for v in e.symbols if v.args[0] == "velocity"}
-    solved = next((v for v, slope in sorted(slopes.items(), key=repr) if slope.op == "num"), None)
+    numbers = [v for v, slope in sorted(slopes.items(), key=repr) if slope.op == "num" and not slope.is_zero]
+    solved = next(iter(numbers), None)
     if solved is None or any(s.args[0] == "velocity" for slope in slopes.values() for s in slope.symbols):
         return False
     value = -substitute(e, {solved: ex.ZERO}) / slopes[solved]

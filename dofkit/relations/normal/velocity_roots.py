@@ -80,6 +80,8 @@ def _in_one_rate(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, Expr] | None
     if not parts:
         return None
     first = _coefficients(parts[0])
+    if not first:
+        return None
     v = next((s for s, c in first.items() if c.op == "num"), next(iter(first)))
     combination = ex.add(*(c / first[v] * s for s, c in first.items()))
     mapping: dict[Expr, Expr] = {}
@@ -118,7 +120,8 @@ def _is_linear(e: Expr) -> bool:
 
 
 def _coefficients(part: Expr) -> dict[Expr, Expr]:
-    return {v: diff(part, v) for v in rates(part)}
+    """The coefficients of velocities in a linear part, less those of terms that cancel."""
+    return {v: c for v in rates(part) if not (c := diff(part, v)).is_zero}
 
 
 def _replaced(e: Expr, mapping: dict[Expr, Expr]) -> Expr:
