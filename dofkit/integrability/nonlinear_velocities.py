@@ -7,6 +7,7 @@ tells what integrates, and no relation in use is linear in disguise, because C w
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from flint import arb
@@ -28,6 +29,8 @@ from dofkit.integrability.velocity_fans import joined_span, velocity_fan
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.normal_form import velocities_of
+from dofkit.relations.normal.pieces import Nonlinear
+from dofkit.relations.normal.signs import MAX_ARGUMENTS, arguments_of, by_signs
 from dofkit.relations.setting import Setting
 
 #: Derivatives of curves are taken up to this order.
@@ -59,7 +62,7 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
         return
     if states.kinked:
         try:
-            _by_flat_pieces(block, setting, result)
+            _by_pieces(block, setting, result)
         except NoValueError:
             _undecided(result, SINGULAR)
         return
@@ -81,28 +84,40 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
         result.verdict = weakest(result.verdict, "numeric" if point is None else "proved" if full else "probable")
 
 
-def _by_flat_pieces(block: Block, setting: Setting, result: Answer) -> None:
-    """The velocity freedom where the velocities lie on polyhedra: at the reference, or at a generic configuration."""
+def _by_pieces(block: Block, setting: Setting, result: Answer) -> None:
+    """The velocity freedom where velocities stand in abs(): at the reference, or at a generic configuration.
+
+    They lie on polyhedra that are joined in motion; or one relation alone bends by itself on one of its pieces, and
+    holds nowhere on a whole region.
+    """
     rows, hidden, left = block.rows, result.hidden, result.velocity_dof
     if setting.reference is not None:
         rows, hidden, setting = _rows_at_reference(block, setting, result) or (), [], replace(setting, reference=None)
     fan = velocity_fan(rows, hidden)
-    if fan is None or left is None:
-        _undecided(result, FLAT)
-        return
-    states = States(block.coordinates, rows, hidden, setting, fan.coefficients)
+    states = States(block.coordinates, rows, hidden, setting, [] if fan is None else fan.coefficients)
     point = next(states.certain(SEEDS), None)
-    if point is None:
+    if point is None or left is None:
         _undecided(result, SINGULAR)
         return
     found = values(states.ring, point)
-    if not joined_span(fan, {e: found[node] for e, node in states.extra.items()}, block.coordinates, left):
+    at = {e: found[node] for e, node in states.extra.items()}
+    joined = fan is not None and joined_span(fan, at, block.coordinates, left)
+    if not joined and not (_is_thin_and_alone(states, rows, setting) and _bends(states, point)):
         _undecided(result, FLAT)
         return
     result.curved, result.argument = True, "states of motion"
-    result.velocity_dof = left - fan.bent
-    independent = len(fan.linear) == len(block.coordinates) - left
+    result.velocity_dof = left - len(states.curved)
+    independent = len(states.linear) == len(block.coordinates) - left
     result.verdict = weakest(result.verdict, "proved" if independent else "probable")
+
+
+def _is_thin_and_alone(states: States, rows: Sequence[Row], setting: Setting) -> bool:
+    """Is there one relation, which holds always for no choice of the signs of what stands in abs()?"""
+    folded = [row.piece.expr for row in rows if isinstance(row.piece, Nonlinear)]
+    if len(folded) != 1 or states.linear or len(arguments_of(folded[0])) > MAX_ARGUMENTS:
+        return False
+    choices = by_signs(folded[0], arguments_of(folded[0]), setting.positive)
+    return not any(is_zero(signed, setting.positive) for signed, _ in choices)
 
 
 def first_order_beside_bends(block: Block, setting: Setting, result: Answer) -> tuple[int | None, bool]:

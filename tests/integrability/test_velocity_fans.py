@@ -20,6 +20,9 @@ JOINED = [
     swept("x y z", ["abs(xdot) - abs(ydot) = zdot"], (3, 2), [False]),
     swept("x y z", ["abs(abs(xdot) - ydot) = zdot"], (3, 2), [False]),
     ("x y", ["abs(dx) + abs(dy) = dt"], (2, 1), [False]),
+    # a parabola on each side, which bends by itself
+    ("x y", ["ydot = xdot*abs(xdot)"], (2, 1), [False]),
+    swept("x y z", ["abs(xdot)*ydot = zdot^2"], (3, 2), [False]),
     # y - z stays; beside it two of the square's sides are joined
     ("x y z", ["ydot = zdot", "abs(xdot) + abs(zdot) = 1"], (2, 1), [True, False]),
     # dy = x dz does not integrate, and the square leaves it all of its two directions
@@ -59,6 +62,8 @@ def test_the_second_of_two_alike_is_redundant() -> None:
         # zdot - xdot = 1 where both are > 0: the pieces bend together, in a plane, and say something linear
         pytest.param("x y z", ["abs(xdot) = abs(ydot) + 1", "abs(zdot) = abs(ydot) + 2"], id="in one plane"),
         pytest.param("x y", ["abs(xdot) + xdot = abs(ydot) + ydot"], id="a quarter, and a half-line"),
+        pytest.param("x y", ["xdot*abs(ydot) = ydot*abs(xdot)"], id="two quarters"),
+        pytest.param("x y z", ["abs(xdot)*ydot = xdot*zdot"], id="planes, each whole or half"),
     ],
 )
 def test_what_is_left_open(names: str, constraints: list[str]) -> None:
