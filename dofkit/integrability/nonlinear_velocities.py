@@ -25,6 +25,7 @@ from dofkit.exact.ring.program import values
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
+from dofkit.expressions.tree import Expr
 from dofkit.integrability.velocity_fans import joined_span, velocity_fan
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
@@ -51,6 +52,9 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
     if not block.nonlinear or result.velocity_dof is None:
         return
     states = States(block.coordinates, block.rows, result.hidden, setting)
+    if states.kinked and "balls" in setting.engines:
+        _by_pieces_at(block, setting, result)
+        return
     point = states.draw(7)
     if "balls" not in setting.engines:
         _by_field_alone(states, point, result)
@@ -59,12 +63,6 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
     sample = point if point is not None else None if real is None or not real.certified else real.point
     if real is None or sample is None:
         _undecided(result, NO_VELOCITIES)
-        return
-    if states.kinked:
-        try:
-            _by_pieces(block, setting, result)
-        except NoValueError:
-            _undecided(result, SINGULAR)
         return
     whole, moving, finite = states.ranks(sample)
     if not _moves_at_reference(block, setting, result, moving):
@@ -84,36 +82,51 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
         result.verdict = weakest(result.verdict, "numeric" if point is None else "proved" if full else "probable")
 
 
-def _by_pieces(block: Block, setting: Setting, result: Answer) -> None:
-    """The velocity freedom where velocities stand in abs(): at the reference, or at a generic configuration.
-
-    They lie on polyhedra that are joined in motion; or one relation alone bends by itself on one of its pieces, and
-    holds nowhere on a whole region.
-    """
-    rows, hidden, left = block.rows, result.hidden, result.velocity_dof
-    if setting.reference is not None:
-        rows, hidden, setting = _rows_at_reference(block, setting, result) or (), [], replace(setting, reference=None)
-    fan = velocity_fan(rows, hidden)
-    states = States(block.coordinates, rows, hidden, setting, [] if fan is None else fan.coefficients)
-    point = next(states.certain(SEEDS), None)
-    if point is None or left is None:
+def _by_pieces_at(block: Block, setting: Setting, result: Answer) -> None:
+    """The velocity freedom where velocities stand in abs(): at the reference, or at a generic configuration."""
+    rows, hidden = block.rows, result.hidden
+    try:
+        if setting.reference is not None:
+            rows, hidden = _rows_at_reference(block, setting, result) or (), []
+        _by_pieces(replace(block, rows=rows), hidden, replace(setting, reference=None), result)
+    except NoValueError:
         _undecided(result, SINGULAR)
-        return
-    found = values(states.ring, point)
-    at = {e: found[node] for e, node in states.extra.items()}
-    joined = fan is not None and joined_span(fan, at, block.coordinates, left)
-    if not joined and not (_is_thin_and_alone(states, rows, setting) and _bends(states, point)):
+
+
+def _by_pieces(block: Block, hidden: Sequence[Expr], setting: Setting, result: Answer) -> None:
+    """The velocities lie on polyhedra that are joined in motion.
+
+    Or one relation alone bends by itself on one of its pieces, and holds nowhere on a whole region.
+    """
+    fan = velocity_fan(block.rows, hidden)
+    if fan is not None:
+        left = result.velocity_dof or 0
+        standing = States(block.coordinates, block.rows, hidden, setting, fan.coefficients, still=True)
+        for place in standing.certain(2 * SEEDS):
+            found = values(standing.ring, place)
+            at = {e: found[node] for e, node in standing.extra.items()}
+            if joined_span(fan, at, block.coordinates, left):
+                _tell_bent(standing, fan.bent, result, len(fan.linear) == len(block.coordinates) - left)
+                return
+    states = States(block.coordinates, block.rows, hidden, setting)
+    point = next(states.certain(SEEDS), None) if _is_thin_and_alone(states, block, setting) else None
+    if point is not None and _bends(states, point):
+        _tell_bent(states, 1, result, True)
+    else:
         _undecided(result, FLAT)
-        return
+
+
+def _tell_bent(states: States, bent: int, result: Answer, independent: bool) -> None:
+    """So many relations take a velocity each, and no freedom; ``independent``: are all others independent?"""
     result.curved, result.argument = True, "states of motion"
-    result.velocity_dof = left - len(states.curved)
-    independent = len(states.linear) == len(block.coordinates) - left
-    result.verdict = weakest(result.verdict, "proved" if independent else "probable")
+    result.velocity_dof = (result.velocity_dof or 0) - bent
+    calls = any(v.kind == "call" for v in states.ring.vars)
+    result.verdict = weakest(result.verdict, "proved" if independent and not calls else "probable")
 
 
-def _is_thin_and_alone(states: States, rows: Sequence[Row], setting: Setting) -> bool:
+def _is_thin_and_alone(states: States, block: Block, setting: Setting) -> bool:
     """Is there one relation, which holds always for no choice of the signs of what stands in abs()?"""
-    folded = [row.piece.expr for row in rows if isinstance(row.piece, Nonlinear)]
+    folded = [row.piece.expr for row in block.rows if isinstance(row.piece, Nonlinear)]
     if len(folded) != 1 or states.linear or len(arguments_of(folded[0])) > MAX_ARGUMENTS:
         return False
     choices = by_signs(folded[0], arguments_of(folded[0]), setting.positive)
