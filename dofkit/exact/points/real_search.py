@@ -120,25 +120,6 @@ class RealSearch:
                 break
         return singular
 
-    def at_another_time(self, seed: int = 0) -> RealPoint | None:
-        """A certified point at a moment that is looked for with it, early or late.
-
-        x^2 + y^2 = t, x y = sin(t) have none before t = 1.9.
-        """
-        if TIME in self.unknowns or self.ring.var_index(TIME) is None:
-            return None
-        timed = RealSearch(self.ring, self.nodes, [*self.unknowns, TIME], self.positive)
-        for k in range(MOMENTS):
-            symbols = timed.start(MOMENTS * seed + k, {})
-            symbols[TIME] *= (-1) ** k * LATER ** (k // 2)
-            if timed.descend(symbols, seed) is None:
-                continue
-            symbols[TIME] = round(symbols[TIME] * TICKS) / TICKS
-            found = self.search(seed, symbols, starts=1)
-            if found is not None and found.certified and found.consistent:
-                return found
-        return None
-
     def descend(self, symbols: dict[Expr, float], seed: int, steps: int = ITERATIONS) -> np.ndarray | None:
         """Gauss-Newton in floating point; ``symbols`` is moved; returns the Jacobian at the end.
 
@@ -280,6 +261,26 @@ class RealSearch:
         at = values(self.ring, point, self.upto)
         j = jacobian(self.ring, at, point, nodes, indices, arb(0))
         return arb_mat([[at[n]] for n in nodes]), arb_mat(j)
+
+
+def at_another_time(search: RealSearch, seed: int = 0) -> RealPoint | None:
+    """A certified point at a moment that is looked for with it, early or late.
+
+    x^2 + y^2 = t, x y = sin(t) have none before t = 1.9.
+    """
+    if TIME in search.unknowns or search.ring.var_index(TIME) is None:
+        return None
+    timed = RealSearch(search.ring, search.nodes, [*search.unknowns, TIME], search.positive)
+    for k in range(MOMENTS):
+        symbols = timed.start(MOMENTS * seed + k, {})
+        symbols[TIME] *= (-1) ** k * LATER ** (k // 2)
+        if timed.descend(symbols, seed) is None:
+            continue
+        symbols[TIME] = round(symbols[TIME] * TICKS) / TICKS
+        found = search.search(seed, symbols, starts=1)
+        if found is not None and found.certified and found.consistent:
+            return found
+    return None
 
 
 def _start_value(symbol: Expr, rng: random.Random, seed: int, positive: bool) -> float:
