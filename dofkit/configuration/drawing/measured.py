@@ -54,6 +54,7 @@ class Decided(NamedTuple):
     confined: bool = False
     still: bool = False
     seen: int = 0
+    forms: StressForms | None = None
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,8 @@ class Measured:
 
     ``dependencies``: a matrix over GF(2) with the pattern of dependent rows that the Jacobian has within the
     tolerance: independent rows are unit vectors, the others sums of those they depend on. ``columns`` are
-    dependent coordinates. ``still``: the relations fix the time. ``seen``: of what was followed where it is open.
+    dependent coordinates. ``still``: the relations fix the time. ``seen``: of what was followed where it is open;
+    ``forms``: along which more may be.
     """
 
     instantaneous: int | None
@@ -73,6 +75,7 @@ class Measured:
     reason: str
     still: bool = False
     seen: int = 0
+    forms: StressForms | None = None
 
 
 def measure(chart: Chart, at: Mapping[Expr, float], setting: Setting, rigid: int) -> Measured:
@@ -100,7 +103,9 @@ def measure(chart: Chart, at: Mapping[Expr, float], setting: Setting, rigid: int
     found = _finite(drawing, rigid, lever > LEVER or relations.blurs(at) > tolerance)
     if chart.time is not None:
         found = _at_fixed_time(drawing, found)
-    return Measured(n - rank, found.dimension, pattern, columns, gap, found.reason, found.still, found.seen)
+    return Measured(
+        n - rank, found.dimension, pattern, columns, gap, found.reason, found.still, found.seen, found.forms
+    )
 
 
 def _at_fixed_time(drawing: MeasuredDrawing, found: Decided) -> Decided:
@@ -143,7 +148,7 @@ def _finite(drawing: MeasuredDrawing, rigid: int, far: bool) -> Decided:
     forms = StressForms(drawing)
     if forms.vanish:
         found = _by_paths(drawing, first, rigid)
-        return found._replace(seen=max(found.seen, rigid + branch_dimension(forms))) if found.reason == OPEN else found
+        return found._replace(forms=forms)
     return _by_second_order(forms, first, rigid)
 
 

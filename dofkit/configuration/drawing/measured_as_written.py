@@ -13,6 +13,7 @@ from dataclasses import replace
 
 from dofkit.configuration.drawing.at_reference import AtReference, at_reference
 from dofkit.configuration.drawing.measured import FOLLOWED, OPEN, Measured
+from dofkit.configuration.drawing.measured_branches import branch_dimension
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
 
@@ -35,6 +36,8 @@ def _held_against(told: Measured, exact: AtReference) -> Measured:
     found, first = exact.local.dimension, exact.instantaneous
     if found is None or found == told.dimension:
         return told
+    if told.dimension is None and told.forms is not None:
+        told = replace(told, seen=max(told.seen, exact.rigid + branch_dimension(told.forms)), forms=None)
     if told.dimension is not None or found < min(told.seen, first - 1):
         return replace(told, dimension=None, reason=STOPPED)
     if found > exact.rigid:
