@@ -195,10 +195,13 @@ def is_graph(chart: Chart) -> bool:
 
 
 def _in_regions(chart: Chart) -> bool:
-    """Do signs of what moves occur? On each side of their zeros other functions stand there."""
+    """Do signs of what moves occur? On each side of their zeros other functions stand there.
+
+    Signs of velocities part these, at every configuration.
+    """
     moving = frozenset(s for s in chart.symbols if s != ex.TIME)
-    ring = chart.ring
-    return any(v.kind == "sign" and not moving.isdisjoint(ring.var_expr[v.index].symbols) for v in ring.vars)
+    signs = [chart.ring.var_expr[v.index].symbols for v in chart.ring.vars if v.kind == "sign"]
+    return any(not moving.isdisjoint(u) and not any(s.args[0] == "velocity" for s in u) for u in signs)
 
 
 def is_irreducible(chart: Chart) -> bool:

@@ -31,7 +31,9 @@ from dofkit.relations.setting import Setting
 
 if TYPE_CHECKING:
     from dofkit.configuration.drawing import measured as measured_drawing
+    from dofkit.configuration.drawing import measured_as_written
 else:
+    measured_as_written = LateLibrary("dofkit.configuration.drawing.measured_as_written")
     measured_drawing = LateLibrary("dofkit.configuration.drawing.measured")
 
 OFF_REFERENCE = (
@@ -58,9 +60,9 @@ def _within_tolerance(block: Block, chart: Chart, setting: Setting) -> Answer:
     if drawing is None and is_tree(block, setting):
         return _finite_answer(chart, setting)
     found = None if drawing is None else at_reference(chart, drawing, exact=False)
-    if found is None:
+    if drawing is None or found is None:
         return Answer(None, verdict="undecided", reasons=[NOT_DRAWN])
-    return _measured_answer(chart, setting, found)
+    return _measured_answer(chart, setting, drawing, found)
 
 
 def _finite_answer(chart: Chart, setting: Setting) -> Answer:
@@ -157,11 +159,12 @@ def _confined_answer(chart: Chart, setting: Setting, result: Answer) -> Answer:
     return result
 
 
-def _measured_answer(chart: Chart, setting: Setting, found: AtReference) -> Answer:
+def _measured_answer(chart: Chart, setting: Setting, drawing: Mapping[Expr, Expr], found: AtReference) -> Answer:
     """Measured geometry: the rank within the tolerance."""
     if "balls" not in setting.engines:
         return Answer(None, verdict="undecided", reasons=["measured geometry has no points over GF(p)"])
     told = measured_drawing.measure(chart, _floats(found), setting, found.rigid)
+    told = measured_as_written.held_against_exact(told, chart, drawing)
     result = Answer(True, told.dimension, told.dimension, "numeric" if told.dimension is not None else "undecided")
     result.argument, result.gap, result.about = "singular values", told.gap, "reference"
     result.method = "singular values within the tolerance at the given configuration"

@@ -14,7 +14,7 @@ from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import jacobian
-from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
 from dofkit.exact.ring.program import values
 from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
@@ -38,7 +38,8 @@ def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None
         return None
     search = RealSearch(chart.ring, core, chart.unknowns, chart.positive, chart.symbols)
     try:
-        return search.search(seed)
+        found = search.search(seed)
+        return found if found is not None or not core else at_another_time(search, seed)
     except (OverflowError, ValueError, NoValueError):
         return None
 

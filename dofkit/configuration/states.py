@@ -17,7 +17,7 @@ from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.field import FieldPoint, field_point
-from dofkit.exact.points.real_search import RealPoint, RealSearch
+from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
 from dofkit.exact.ring.instructions import Scalar
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
@@ -180,7 +180,7 @@ class States:
                 found = search.search(seed, symbols, starts=1)
                 if found is not None and found.certified and found.consistent:
                     return found
-        return search.search(seed)
+        return search.search(seed) or at_another_time(search, seed)
 
     def _spread(self, symbols: dict[Expr, float], seed: int) -> dict[Expr, float]:
         """Where to begin: far out for later states where angles occur, as what holds near 0 need not hold a turn on."""

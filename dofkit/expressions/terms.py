@@ -33,7 +33,7 @@ def expand(e: Expr) -> Expr:
 
 
 def linear_terms(e: Expr) -> dict[Expr, Fraction]:
-    """``e`` as a combination of its terms with rational coefficients; the number's term is `ONE`."""
+    """``e`` as a combination of its terms with rational coefficients, not 0; the number's term is `ONE`."""
     if e.op == "sym":
         return {e: Fraction(1)}
     total = expand(e)
@@ -48,6 +48,23 @@ def linear_terms(e: Expr) -> dict[Expr, Fraction]:
                 cancels = cancels or not factor
             terms[rest] = factor
     return {rest: factor for rest, factor in terms.items() if factor} if cancels else terms
+
+
+def without_cancelled(e: Expr) -> Expr:
+    """``e`` without the terms of sums that cancel as they are written, functions and quotients apart."""
+    parts = ex.children(e)
+    if not parts:
+        return e
+    node = ex.rebuild(e, tuple(map(without_cancelled, parts)))
+    if node.op != "add":
+        return node
+    total: dict[Expr, Fraction] = {}
+    keys = []
+    for term in node.args:
+        factor, rest = (Fraction(1), ex.ONE) if term.op == "num" else number_and_rest(term)
+        keys.append(sorted_product(rest))
+        total[keys[-1]] = total.get(keys[-1], Fraction(0)) + factor
+    return ex.add(*(t for t, key in zip(node.args, keys, strict=True) if total[key] or key.functions))
 
 
 def number_and_rest(term: Expr) -> tuple[Fraction, Expr]:

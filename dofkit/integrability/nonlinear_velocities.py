@@ -7,6 +7,7 @@ tells what integrates, and no relation in use is linear in disguise, because C w
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from flint import arb
@@ -20,12 +21,17 @@ from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots, certified_rank, kernel
 from dofkit.exact.points.real_search import RealPoint
+from dofkit.exact.ring.program import values
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.velocity_fans import joined_span, velocity_fan
 from dofkit.relations.answer import Answer, HolonomyLabel
-from dofkit.relations.blocks import Block
+from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.normal_form import velocities_of
+from dofkit.relations.normal.pieces import Nonlinear
+from dofkit.relations.normal.signs import MAX_ARGUMENTS, arguments_of, by_signs
 from dofkit.relations.setting import Setting
 
 #: Derivatives of curves are taken up to this order.
@@ -46,6 +52,9 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
     if not block.nonlinear or result.velocity_dof is None:
         return
     states = States(block.coordinates, block.rows, result.hidden, setting)
+    if states.kinked and "balls" in setting.engines:
+        _by_pieces_at(block, setting, result)
+        return
     point = states.draw(7)
     if "balls" not in setting.engines:
         _by_field_alone(states, point, result)
@@ -54,9 +63,6 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
     sample = point if point is not None else None if real is None or not real.certified else real.point
     if real is None or sample is None:
         _undecided(result, NO_VELOCITIES)
-        return
-    if states.kinked:
-        _undecided(result, FLAT)
         return
     whole, moving, finite = states.ranks(sample)
     if not _moves_at_reference(block, setting, result, moving):
@@ -76,6 +82,80 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
         result.verdict = weakest(result.verdict, "numeric" if point is None else "proved" if full else "probable")
 
 
+def _by_pieces_at(block: Block, setting: Setting, result: Answer) -> None:
+    """The velocity freedom where velocities stand in abs(): at the reference, or at a generic configuration."""
+    rows, hidden = block.rows, result.hidden
+    try:
+        if setting.reference is not None:
+            rows, hidden = _rows_at_reference(block, setting, result) or (), []
+        _by_pieces(replace(block, rows=rows), hidden, replace(setting, reference=None), result)
+    except NoValueError:
+        _undecided(result, SINGULAR)
+
+
+def _by_pieces(block: Block, hidden: Sequence[Expr], setting: Setting, result: Answer) -> None:
+    """The velocities lie on polyhedra that are joined in motion.
+
+    Or one relation alone bends by itself on one of its pieces, and holds nowhere on a whole region.
+    """
+    fan = velocity_fan(block.rows, hidden)
+    if fan is not None:
+        left = result.velocity_dof or 0
+        standing = States(block.coordinates, block.rows, hidden, setting, fan.coefficients, still=True)
+        for place in standing.certain(2 * SEEDS):
+            found = values(standing.ring, place)
+            at = {e: found[node] for e, node in standing.extra.items()}
+            if joined_span(fan, at, block.coordinates, left):
+                _tell_bent(standing, fan.bent, result, len(fan.linear) == len(block.coordinates) - left)
+                return
+    states = States(block.coordinates, block.rows, hidden, setting)
+    point = next(states.certain(SEEDS), None) if _is_thin_and_alone(states, block, setting) else None
+    if point is not None and _bends(states, point):
+        _tell_bent(states, 1, result, True)
+    else:
+        _undecided(result, FLAT)
+
+
+def _tell_bent(states: States, bent: int, result: Answer, independent: bool) -> None:
+    """So many relations take a velocity each, and no freedom; ``independent``: are all others independent?"""
+    result.curved, result.argument = True, "states of motion"
+    result.velocity_dof = (result.velocity_dof or 0) - bent
+    calls = any(v.kind == "call" for v in states.ring.vars)
+    result.verdict = weakest(result.verdict, "proved" if independent and not calls else "probable")
+
+
+def _is_thin_and_alone(states: States, block: Block, setting: Setting) -> bool:
+    """Is there one relation, which holds always for no choice of the signs of what stands in abs()?"""
+    folded = [row.piece.expr for row in block.rows if isinstance(row.piece, Nonlinear)]
+    if len(folded) != 1 or states.linear or len(arguments_of(folded[0])) > MAX_ARGUMENTS:
+        return False
+    choices = by_signs(folded[0], arguments_of(folded[0]), setting.positive)
+    return not any(is_zero(signed, setting.positive) for signed, _ in choices)
+
+
+def first_order_beside_bends(block: Block, setting: Setting, result: Answer) -> tuple[int | None, bool]:
+    """The velocities that the constraints allow at the reference, and whether that is proved.
+
+    Regular ones were found there, and one relation that bends holds nowhere on all that the linear ones leave.
+    """
+    regular = result.curved and len(block.nonlinear) == 1 and not result.hidden
+    if not regular or _rows_at_reference(block, setting, result) is None:
+        return None, False
+    return result.velocity_dof, result.verdict == "proved"
+
+
+def _rows_at_reference(block: Block, setting: Setting, result: Answer) -> tuple[Row, ...] | None:
+    """What the relations say of velocities at the reference; None where that is not on the set now.
+
+    Raises NoValueError.
+    """
+    known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
+    relations = state_relations(block.rows, result.hidden)
+    if any(not is_zero(substitute(g, known), setting.positive) for g in relations if not velocities_of(g)):
+        return None
+    return rows_at(relations, known)
+
+
 def _moves_at_reference(block: Block, setting: Setting, result: Answer, moving: int) -> bool:
     """Are there real velocities at the reference, regular as those are elsewhere? True where none is given or is met.
 
@@ -83,12 +163,11 @@ def _moves_at_reference(block: Block, setting: Setting, result: Answer, moving: 
     """
     if setting.reference is None:
         return True
-    known = {**setting.reference, ex.TIME: ex.ZERO}
-    relations = state_relations(block.rows, result.hidden)
     try:
-        if any(not is_zero(substitute(g, known), setting.positive) for g in relations if not velocities_of(g)):
+        rows = _rows_at_reference(block, setting, result)
+        if rows is None:
             return True
-        there = States(block.coordinates, rows_at(relations, known), (), replace(setting, reference=None))
+        there = States(block.coordinates, rows, (), replace(setting, reference=None))
     except NoValueError:
         return False
     return any(there.ranks(point)[1] == moving for point in there.certain(SEEDS))

@@ -64,8 +64,6 @@ def first_order_freedom(block: Block, setting: Setting, reference: Mapping[Expr,
 
     None where it is not on the variety. A rank over GF(p) is not too large; of as many rows it is not too small.
     """
-    if block.nonlinear:
-        return None, False
     forms = codistribution(block, setting, ())
     if "field" not in setting.engines:
         return _first_order_by_balls(forms, reference), False

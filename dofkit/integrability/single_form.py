@@ -37,7 +37,7 @@ def integrability(form: Pfaffian, positive: frozenset[Expr], alone: bool | None)
     if alone is False:
         return Integrability(False)
     reason = proof(form, positive)
-    plain = not odd_constants(_ring(form, positive))
+    plain = bool(form.coefficients) and not odd_constants(_ring(form, positive))
     found = search.integrate(form, positive) if plain and (reason or alone) else None
     if found is not None:
         return Integrability(True, "an integral was found and checked", found.factor, found.integral)

@@ -11,7 +11,7 @@ from dofkit.base.records import dataclass
 from dofkit.base.verdicts import VERDICTS, Verdict, weakest
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.points.real_search import RealSearch, at_another_time
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
@@ -109,7 +109,8 @@ def _vanishes_on(g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engin
     if "balls" not in engines:
         known = point is not None and independent_on_set(ring, [node])
         return (False, "probable") if known else (None, "undecided")
-    real = RealSearch(ring, [node], sorted(g.symbols - {ex.TIME}, key=repr), positive).search()
+    search = RealSearch(ring, [node], sorted(g.symbols - {ex.TIME}, key=repr), positive)
+    real = search.search() or at_another_time(search)
     if real is None:
         real = RealSearch(ring, [node], sorted(g.symbols, key=repr), positive).search()
     apart = real is not None and not values(ring, real.point)[rate].contains(0)

@@ -263,6 +263,56 @@ def test_singular_positions_are_decided_as_exact_ones_are(name: str, dof: int) -
     assert (report.dof, report.verdicts["dof"].verdict) == (dof, "numeric")
 
 
+def within(name: str, tolerance: float) -> Report:
+    """A scene whose numbers are exact, with a tolerance."""
+    folders = ("mechanisms", "examples")
+    path = next(p for folder in folders for p in (ROOT / "tests/scenes" / folder).glob(f"{name}.yaml"))
+    return dofkit.classify(dofkit.load(path).model_copy(update={"tolerance": tolerance}))
+
+
+@pytest.mark.parametrize(
+    ("name", "dof"),
+    [
+        ("dixon-first-k44", 4),
+        swept("double-watt", 1),
+        swept("double-watt-alike", 1),
+        swept("plate-on-four-threads", 2),
+        swept("platform-on-parallel-legs", 2),
+        swept("three-cranks-in-line", 1),
+        swept("sarrus-stretched", 1),
+        swept("sarrus-folded", 2),
+        swept("waterbomb-vertex-flat", 3),
+        swept("wren-platform", 1),
+    ],
+)
+def test_what_moves_as_written_does_so_within_a_coarse_tolerance(name: str, dof: int) -> None:
+    """The second order is hidden by 1e-3; the drawing as written is singular exactly, and its motion known."""
+    report = within(name, 1e-3)
+    assert (report.dof, report.verdicts["dof"].verdict) == (dof, "numeric")
+
+
+@pytest.mark.parametrize(
+    ("name", "tolerance", "why"),
+    [
+        ("chebyshev-straight-line-guided", 1e-3, "read as written it is stopped"),
+        ("watt-straight-line-guided", 1e-3, "allows no finite motion"),
+    ],
+)
+def test_what_leaves_its_line_by_less_than_the_tolerance_is_left_open(name: str, tolerance: float, why: str) -> None:
+    """No linkage of this kind draws a line, and within the tolerance both go on for a quarter of their size."""
+    report = within(name, tolerance)
+    assert (report.dof, report.consistent) == (None, True)
+    assert any(why in line for line in report.warnings)
+
+
+@pytest.mark.parametrize("size", [1.0005, 1.0])
+def test_parallel_bars_whose_lengths_differ_by_the_tolerance(size: float) -> None:
+    """Equal ones let the body move; unequal ones do not: which is so is hidden where they differ by so little."""
+    places = {"A": (0, 0), "B": (1, 0), "C": (2, 0), "D": (0, 1), "E": (1, size), "F": (2, 1)}
+    report = measured(places, ["DE", "EF", "FD", "AD", "BE", "CF"], 1e-3, held="ABC")
+    assert report.dof == (1 if size == 1.0 else None)
+
+
 @pytest.mark.sweep
 def test_mechanisms_with_a_tolerance_are_answered_as_without_or_open() -> None:
     """One in five: a coarser reading of numbers that are exact changes no answer."""

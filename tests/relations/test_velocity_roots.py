@@ -34,3 +34,26 @@ def test_a_root_that_is_real_nowhere_is_left_out() -> None:
     report = dofkit.classify({"coordinates": ["x", "y"], "constraints": ["tanh(xdot) = y"]})
     assert not any("branches" in warning for warning in report.warnings)
     assert report.scleronomic is False
+
+
+#: Relations in x, y, z whose terms cancel, what they say, dof and velocity_dof.
+CANCELLED = [
+    ("exp(xdot*z - z*xdot + ydot) = x", "ydot = log(x): a form that does not integrate", (3, 2)),
+    ("abs((xdot + ydot)*z - xdot*z - ydot*z + zdot) = x", "zdot = x or -x, where x >= 0", (3, 2)),
+    ("exp(xdot*z - z*xdot) = x", "x = 1", (2, 2)),
+    ("(xdot + ydot)*z - xdot*z - ydot*z = x", "x = 0", (2, 2)),
+    ("xdot*ydot - ydot*xdot = 0", "0 = 0", (3, 3)),
+    ("xdot*ydot - ydot*xdot + zdot^2 = 1", "zdot = 1 or -1", (2, 2)),
+]
+
+
+@pytest.mark.parametrize(("text", "why", "numbers"), CANCELLED, ids=[row[0] for row in CANCELLED])
+def test_velocities_that_cancel_are_not_divided_by(text: str, why: str, numbers: tuple[int, int]) -> None:
+    report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": [text]})
+    assert (report.consistent, report.dof, report.velocity_dof) == (True, *numbers), why
+
+
+def test_a_relation_that_is_multiplied_by_dt_integrates_to_no_constant_time() -> None:
+    """x dt = 0 says x = 0 in a motion, and not t = C."""
+    (entry,) = dofkit.classify({"coordinates": ["x", "y"], "constraints": ["x*dt = 0"]}).constraints
+    assert entry.integral is None or "t =" not in entry.integral

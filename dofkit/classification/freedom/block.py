@@ -28,7 +28,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.integrability.labels_by_balls import ball_labels
 from dofkit.integrability.labels_by_field import field_labels
 from dofkit.integrability.lie_algebra_at_points import SampledSpan, on_the_same_part, span_at
-from dofkit.integrability.nonlinear_velocities import set_velocity_freedom
+from dofkit.integrability.nonlinear_velocities import first_order_beside_bends, set_velocity_freedom
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution, first_order_freedom
 from dofkit.integrability.prolongation import confinements, prolong
 from dofkit.integrability.regular_reference import on_reference, regular_reference
@@ -119,7 +119,11 @@ def _mixed_answer(block: Block, setting: Setting) -> Answer:
         return measured_forms.measured_answer(block, setting)
     result = _prolonged(block, setting, Answer())
     if setting.reference is not None:
-        result.instantaneous, result.first_order_sure = first_order_freedom(block, setting, setting.reference)
+        if block.nonlinear:
+            told = first_order_beside_bends(block, setting, result)
+        else:
+            told = first_order_freedom(block, setting, setting.reference)
+        result.instantaneous, result.first_order_sure = told
         result.verdict = weakest(result.verdict, "numeric" if is_measured(block, setting) else "proved")
     return result
 

@@ -47,13 +47,15 @@ OPEN = "some of the motions to first order are no finite motions; which was not 
 class Decided(NamedTuple):
     """A dimension, None where it is open, and why; ``confined``: time, if it is a column, may be constant.
 
-    ``still``: time does stand still.
+    ``still``: time does stand still. ``seen``, where it is open: of what was followed within the tolerance.
     """
 
     dimension: int | None
     reason: str
     confined: bool = False
     still: bool = False
+    seen: int = 0
+    forms: StressForms | None = None
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,8 @@ class Measured:
 
     ``dependencies``: a matrix over GF(2) with the pattern of dependent rows that the Jacobian has within the
     tolerance: independent rows are unit vectors, the others sums of those they depend on. ``columns`` are
-    dependent coordinates. ``still``: the relations fix the time.
+    dependent coordinates. ``still``: the relations fix the time. ``seen``: of what was followed where it is open;
+    ``forms``: along which more may be.
     """
 
     instantaneous: int | None
@@ -72,6 +75,8 @@ class Measured:
     gap: float
     reason: str
     still: bool = False
+    seen: int = 0
+    forms: StressForms | None = None
 
 
 def measure(chart: Chart, at: Mapping[Expr, float], setting: Setting, rigid: int) -> Measured:
@@ -99,7 +104,9 @@ def measure(chart: Chart, at: Mapping[Expr, float], setting: Setting, rigid: int
     found = _finite(drawing, rigid, lever > LEVER or relations.blurs(at) > tolerance)
     if chart.time is not None:
         found = _at_fixed_time(drawing, found)
-    return Measured(n - rank, found.dimension, pattern, columns, gap, found.reason, found.still)
+    return Measured(
+        n - rank, found.dimension, pattern, columns, gap, found.reason, found.still, found.seen, found.forms
+    )
 
 
 def _at_fixed_time(drawing: MeasuredDrawing, found: Decided) -> Decided:
@@ -141,7 +148,8 @@ def _finite(drawing: MeasuredDrawing, rigid: int, far: bool) -> Decided:
         return Decided(None, "the motions of the whole are not told from others within the tolerance")
     forms = StressForms(drawing)
     if forms.vanish:
-        return _by_paths(drawing, first, rigid)
+        found = _by_paths(drawing, first, rigid)
+        return found._replace(forms=forms)
     return _by_second_order(forms, first, rigid)
 
 
@@ -161,10 +169,11 @@ def _by_second_order(forms: StressForms, first: int, rigid: int) -> Decided:
     if forms.cone == 0:
         why = "no first-order motion satisfies the second order within the tolerance: no finite motion"
         return Decided(rigid, why, confined=True)
-    if branch_dimension(forms) == forms.cone:
+    branch = branch_dimension(forms)
+    if branch == forms.cone:
         why = "a motion was followed away from here within the tolerance, and the second order allows no more"
         return Decided(rigid + forms.cone, why, confined=True)
-    return Decided(None, OPEN)
+    return Decided(None, OPEN, seen=rigid + branch)
 
 
 def _by_paths(drawing: MeasuredDrawing, first: int, rigid: int) -> Decided:
@@ -184,7 +193,7 @@ def _by_paths(drawing: MeasuredDrawing, first: int, rigid: int) -> Decided:
     if first - rigid == 1 and (all(path.breaks for path in paths) or _breaks_farther(drawing, reach)):
         why = "the one motion left to first order breaks the relations beyond the tolerance"
         return Decided(rigid, why, confined=True)
-    return Decided(None, OPEN)
+    return Decided(None, OPEN, seen=rigid + any(path.near(reach) for path in paths))
 
 
 def _breaks_farther(drawing: MeasuredDrawing, reach: float) -> bool:

@@ -56,11 +56,14 @@ class MeasuredPath:
         """How far it goes."""
         return self.stages[-1].distance
 
+    def near(self, reach: float) -> bool:
+        """Do the relations hold within the tolerance up to ``reach``?"""
+        residuals = [s.residual for s in self.stages if s.distance <= reach * (1 + CLOSE)]
+        return max(residuals) <= SLACK * self.drawing.tolerance
+
     def holds(self, reach: float) -> bool:
-        """Do the relations hold within the tolerance up to ``reach``, and beyond it as far as such errors grow?"""
-        tolerance = self.drawing.tolerance
-        near = [s.residual for s in self.stages if s.distance <= reach * (1 + CLOSE)]
-        return max(near) <= SLACK * tolerance and all(s.residual <= GREY * tolerance for s in self.stages)
+        """Do they also beyond it, as far as such errors grow?"""
+        return self.near(reach) and all(s.residual <= GREY * self.drawing.tolerance for s in self.stages)
 
     @property
     def touches(self) -> bool:

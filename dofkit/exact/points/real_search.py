@@ -21,9 +21,11 @@ from dofkit.exact.matrices.singular_values import independent_part
 from dofkit.exact.points.balls import BallPoint, FloatPoint, jacobian, precision
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.expressions.tree import Expr
+from dofkit.expressions.tree import TIME, Expr
 
 STARTS, ITERATIONS, NEWTON_STEPS = 12, 80, 24
+#: Moments that are looked for, how much later one of two is begun, and the parts of a unit that they are told in.
+MOMENTS, LATER, TICKS = 8, 4.0, 512
 #: So often a step that leaves the domain of the functions is halved.
 HALVINGS = 8
 #: After this many singular points no regular one is looked for.
@@ -259,6 +261,26 @@ class RealSearch:
         at = values(self.ring, point, self.upto)
         j = jacobian(self.ring, at, point, nodes, indices, arb(0))
         return arb_mat([[at[n]] for n in nodes]), arb_mat(j)
+
+
+def at_another_time(search: RealSearch, seed: int = 0) -> RealPoint | None:
+    """A certified point at a moment that is looked for with it, early or late.
+
+    x^2 + y^2 = t, x y = sin(t) have none before t = 1.9.
+    """
+    if TIME in search.unknowns or search.ring.var_index(TIME) is None:
+        return None
+    timed = RealSearch(search.ring, search.nodes, [*search.unknowns, TIME], search.positive)
+    for k in range(MOMENTS):
+        symbols = timed.start(MOMENTS * seed + k, {})
+        symbols[TIME] *= (-1) ** k * LATER ** (k // 2)
+        if timed.descend(symbols, seed) is None:
+            continue
+        symbols[TIME] = round(symbols[TIME] * TICKS) / TICKS
+        found = search.search(seed, symbols, starts=1)
+        if found is not None and found.certified and found.consistent:
+            return found
+    return None
 
 
 def _start_value(symbol: Expr, rng: random.Random, seed: int, positive: bool) -> float:

@@ -17,6 +17,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.combinations import Combined, combined
 from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, cleared, in_velocities
+from dofkit.expressions.terms import without_cancelled
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.edges import at_edge, edges_of, lines_of
@@ -97,8 +98,13 @@ def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
             return Normal(((Pfaffian({}, velocity_form),),))
         return _finite(velocity_form, positive, written)
     form = linear_form(cleared(velocity_form))
+    if form is not None and not (form.coefficients or divided):
+        return _finite(form.dt, positive, written)
     if form is not None and (form.coefficients or not form.dt.is_zero):
         return Normal(((form,),))
+    plain = without_cancelled(velocity_form)
+    if plain != velocity_form:
+        return _normalised(plain, positive, written)
     return _defined(velocity_form, _nonlinear(velocity_form, positive), positive)
 
 
@@ -282,7 +288,7 @@ def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Pie
         return [(Finite(e),)], ""
     form = linear_form(e)
     if form is not None:
-        return [(form,)], ""
+        return [(form if form.coefficients else Finite(form.dt),)], ""
     lines, note = lines_of(e, positive)
     if lines is None:
         other = rewritten(e, positive)

@@ -74,9 +74,9 @@ def by_signs(
     """``e`` for every choice of the signs of some arguments that can be, and the conditions that say the signs."""
     for signs in cartesian((1, -1), repeat=len(arguments)):
         mapping = dict(zip(arguments, signs, strict=True))
-        plain = {u: _signed(u, mapping) * s for u, s in mapping.items()}
+        plain = {u: with_signs(u, mapping) * s for u, s in mapping.items()}
         if not any(never_holds(u, True, positive) for u in plain.values()):
-            yield _signed(e, mapping), tuple(DomainCondition(u, ">=") for u in plain.values())
+            yield with_signs(e, mapping), tuple(DomainCondition(u, ">=") for u in plain.values())
 
 
 def whole_zero_sets(
@@ -115,7 +115,8 @@ def _is_whole(
     point is a limit of those at which no other is 0, so it is enough that no foreign choice holds strictly.
     """
     slopes = {v: diff(e, v) for v in e.symbols if v.args[0] == "velocity"}
-    solved = next((v for v, slope in sorted(slopes.items(), key=repr) if slope.op == "num"), None)
+    numbers = [v for v, slope in sorted(slopes.items(), key=repr) if slope.op == "num" and not slope.is_zero]
+    solved = next(iter(numbers), None)
     if solved is None or any(s.args[0] == "velocity" for slope in slopes.values() for s in slope.symbols):
         return False
     value = -substitute(e, {solved: ex.ZERO}) / slopes[solved]
@@ -173,12 +174,12 @@ def _root_of_square(node: Expr) -> bool:
     return bool(inner.op == "pow" and inner.args[1].op == "num" and inner.args[1].args[0] == 2)
 
 
-def _signed(e: Expr, signs: Mapping[Expr, int]) -> Expr:
+def with_signs(e: Expr, signs: Mapping[Expr, int]) -> Expr:
     """``e`` with every absolute value replaced by its argument times the given sign."""
     if e.op == "fn" and e.args[0] == "abs" and e.args[1] in signs:
-        return _signed(e.args[1], signs) * signs[e.args[1]]
+        return with_signs(e.args[1], signs) * signs[e.args[1]]
     if _root_of_square(e) and e.args[0].args[0] in signs:
         inner = e.args[0].args[0]
-        return ex.power(_signed(inner, signs) * signs[inner], ex.num(2 * e.args[1].args[0]))
+        return ex.power(with_signs(inner, signs) * signs[inner], ex.num(2 * e.args[1].args[0]))
     parts = ex.children(e)
-    return ex.rebuild(e, tuple(_signed(part, signs) for part in parts)) if parts else e
+    return ex.rebuild(e, tuple(with_signs(part, signs) for part in parts)) if parts else e

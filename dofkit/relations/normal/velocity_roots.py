@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
@@ -77,6 +76,8 @@ def _in_one_rate(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, Expr] | None
     if not parts:
         return None
     first = _coefficients(parts[0])
+    if not first:
+        return None
     v = next((s for s, c in first.items() if c.op == "num"), next(iter(first)))
     combination = ex.add(*(c / first[v] * s for s, c in first.items()))
     mapping: dict[Expr, Expr] = {}
@@ -115,7 +116,8 @@ def _is_linear(e: Expr) -> bool:
 
 
 def _coefficients(part: Expr) -> dict[Expr, Expr]:
-    return {v: diff(part, v) for v in rates(part)}
+    """The coefficients of velocities in a linear part, less those of terms that cancel."""
+    return {v: c for v in rates(part) if not (c := diff(part, v)).is_zero}
 
 
 def _replaced(e: Expr, mapping: dict[Expr, Expr]) -> Expr:
