@@ -1,0 +1,242 @@
+"""Coordinates that are independent on the tangent space of a configuration space at a point near the drawing."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from dofkit.base.libraries import LateLibrary, np
+from dofkit.classification.turned_coordinates import ANYWHERE
+from dofkit.configuration.drawing.at_reference import ball_point
+from dofkit.configuration.generic_points import pose_point
+from dofkit.configuration.rigid_motions import displacements_real
+from dofkit.exact.points.balls import FloatPoint, jacobian
+from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.ring.program import values
+from dofkit.expressions import tree as ex
+from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.tree import Expr
+from dofkit.relations.blocks import Block
+from dofkit.relations.chart import Chart
+from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.setting import Setting
+from dofkit.system import Rotation
+
+if TYPE_CHECKING:
+    from dofkit.configuration.local import neighbourhood
+else:
+    neighbourhood = LateLibrary("dofkit.configuration.local.neighbourhood")
+
+#: How far a singular or special configuration is left to look at the set nearby, and what counts as 0 there.
+AWAY, ZERO = (0.05, 0.05, 0.05, 0.05, 0.3, 0.6, 0.6, 1.0), 1e-7
+#: The same where there are just as many relations as the freedom asks for: far from the origin they look nearly alike.
+FAINT = 1e-10
+#: The length of secants, and the least share of it that counts: the set is curved, and found to half its digits.
+SECANT, SPREAD, SETTLING = 1e-4, 3e-2, 60
+#: So many steps without half the error are the end: rounding, far from the origin, allows no less.
+STALLED = 8
+#: Powers of the error by which steps are damped: weakly first, then more.
+DAMPED = (2, 1)
+#: The same at a singular point, which a descent reaches to half its digits.
+ROUGH = 1e-5
+
+
+def nearby(
+    block: Block, dof: int, setting: Setting, turning: Sequence[Rotation], hidden: Sequence[Expr] = ()
+) -> list[str] | None:
+    """From the tangent space at a regular point near the reference, or anywhere where there is none."""
+    chart = make_chart(block, setting, hidden)
+    start = _start(chart, setting)
+    drawn = _drawn_tangent(chart, start, setting, dof)
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
+    for seed, away in enumerate(AWAY):
+        symbols = search.start(seed, {})
+        for s, v in start.items():
+            symbols[s] = v + away * (symbols[s] / 2 if s.args[0] == "coordinate" else 0)
+        if search.descend(symbols, seed) is None:
+            continue
+        tangent = _tangent(chart, symbols, turning, setting, dof)
+        if tangent.shape[0] == dof:
+            chosen = None if drawn is None else _regular_columns(chart, tangent, drawn, turning)
+            chosen = _columns(chart, tangent) if chosen is None else chosen
+            return chosen if len(chosen) == dof else None
+        regular = len(chart.nodes) == len(block.coordinates) - dof
+        secants = None if regular or tangent.shape[0] < dof else _secants(chart, search, symbols, dof)
+        if secants is not None:
+            chosen = _columns(chart, _in_angles(chart, symbols, secants, turning), SPREAD)
+            return chosen if len(chosen) == dof else None
+    return None
+
+
+def _drawn_tangent(chart: Chart, start: dict[Expr, float], setting: Setting, dof: int) -> Any:
+    """The tangent space at the reference over the chart's own coordinates; None where the set is not regular there."""
+    if not start:
+        return None
+    tangent = _tangent(chart, start, (), setting, dof)
+    return tangent if tangent.shape[0] == dof else None
+
+
+def _regular_columns(chart: Chart, near: Any, drawn: Any, turning: Sequence[Rotation]) -> list[str] | None:
+    """The first coordinates on which the tangent space projects regularly nearby and at the reference.
+
+    The angles of a body that turns are no coordinates where it is drawn; a body some of whose angles are chosen stands
+    there with all of its Gibbs vector. None where there is no such choice.
+    """
+    names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
+    whose = {name: k for k, r in enumerate(turning) for name in r.names}
+    chosen: list[int] = []
+    for c in range(len(names)):
+        lengths = [i for i in (*chosen, c) if names[i] not in whose]
+        if _rank(near, [*chosen, c]) > len(chosen) and _rank(drawn, lengths) == len(lengths):
+            chosen.append(c)
+    turned = {whose[names[i]] for i in chosen if names[i] in whose}
+    standing = [i for i, n in enumerate(names) if whose.get(n) in turned or (i in chosen and n not in whose)]
+    complete = len(chosen) == len(near) and _rank(drawn, standing) == len(drawn)
+    return [names[i] for i in chosen] if complete else None
+
+
+def _rank(tangent: Any, columns: Sequence[int], least: float = ROUGH) -> int:
+    return int(np.linalg.matrix_rank(tangent[:, columns], tol=least)) if columns else 0
+
+
+def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: int) -> Any:
+    """The tangent space at a point where relations are dependent all along, from ``dof`` independent short secants.
+
+    Coordinates that no relation holds are free.
+    """
+    names = [s for s in chart.symbols if s != ex.TIME]
+    symbols = {**dict.fromkeys(names, 0.0), **symbols}
+    found = []
+    for seed in range(2 * dof + 2):
+        rng = random.Random(f"dofkit secant {seed}")
+        change = {**{s: rng.uniform(-1.0, 1.0) for s in names}, **search.start(seed + len(AWAY), {})}
+        beside = dict(symbols)
+        for s in names:
+            beside[s] += SECANT * change[s]
+        if any(_settles(search, beside, seed, power) for power in DAMPED):
+            found.append([(beside[s] - symbols[s]) / SECANT for s in names])
+    if not found:
+        return None
+    _, singular, right = np.linalg.svd(np.array(found))
+    spread = int(np.sum(singular > SPREAD))
+    return right[:dof] if spread == dof else None
+
+
+def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int, power: int) -> bool:
+    """Moves ``symbols`` to the set nearby, by damped steps: where the gradients are dependent others go far away."""
+    errors: list[float] = []
+    for _ in range(SETTLING):
+        f, j = search.float_system(symbols, seed)
+        scale = np.abs(j).max(axis=1, initial=0) + 1e-300
+        f, j = f / scale, j / scale[:, None]
+        errors.append(float(np.max(np.abs(f))))
+        if errors[-1] < 1e-15:
+            return True
+        if len(errors) > STALLED and min(errors[-STALLED:]) > min(errors[:-STALLED]) / 2:
+            break
+        for u, s in zip(search.unknowns, neighbourhood.damped(j, f, power), strict=True):
+            symbols[u] += float(s)
+    return errors[-1] < 1e-13
+
+
+def _start(chart: Chart, setting: Setting) -> dict[Expr, float]:
+    if setting.reference is None:
+        return {}
+    known = {**setting.reference, ex.TIME: ex.ZERO}
+    point = pose_point(chart, known, 3)
+    ball = None if point is None else ball_point(chart, known, point.rng)
+    return {} if ball is None else {s: float(v.mid()) for s, v in ball.symbols.items()}
+
+
+def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotation], setting: Setting, dof: int) -> Any:
+    """A basis of the tangent space at fixed time over the block's coordinates, as rows.
+
+    Lengths, angles and other coordinates are each measured in the unit in which they change the relations as much.
+    """
+    point = FloatPoint(symbols, 0)
+    at = values(chart.ring, point)
+    columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
+    j = np.array(jacobian(chart.ring, at, point, chart.nodes, columns, 0.0), dtype=float).reshape(-1, len(columns))
+    norms = np.linalg.norm(j, axis=1, keepdims=True)
+    j = j / np.where(norms > ZERO, norms, 1.0)
+    for group in _groups(chart, setting):
+        j[:, group] /= np.max(np.abs(j[:, group]), initial=0) or 1.0
+    _, singular, right = np.linalg.svd(j)
+    rank = int(np.sum(singular > ZERO))
+    if len(j) == len(columns) - dof < len(columns) and singular[-1] > FAINT:
+        rank = len(j)
+    return _in_angles(chart, symbols, right[rank:], turning)
+
+
+def _groups(chart: Chart, setting: Setting) -> list[list[int]]:
+    """The columns of lengths, of angles, and of other coordinates."""
+    roles = {c.name: c.role for c in setting.roles}
+    kinds: dict[str, list[int]] = {}
+    for i, s in enumerate(s for s in chart.symbols if s != ex.TIME):
+        role = roles.get(str(s.args[1]), "free")
+        kinds.setdefault("length" if role in ("x", "y", "z") else "free" if role == "free" else "angle", []).append(i)
+    return list(kinds.values())
+
+
+def _in_angles(chart: Chart, symbols: dict[Expr, float], basis: Any, turning: Sequence[Rotation]) -> Any:
+    at = values(chart.ring, FloatPoint(symbols, 0))
+    names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
+    for rotation in turning:
+        basis = _euler_rates(basis, [names.index(n) for n in rotation.names if n in names], at, chart, rotation)
+    return basis
+
+
+def _euler_rates(basis: Any, places: Sequence[int], at: Any, chart: Chart, rotation: Rotation) -> Any:
+    """The columns of a Gibbs vector g turned into those of the Euler angles (phi, theta, psi), up to a factor each.
+
+    omega = 2 (gdot + g x gdot) / (1 + g.g) = phidot e_z + thetadot n + psidot R e_z, with n along e_z x R e_z.
+    Where the body keeps its z axis upright, psi stands for the turn about it, theta and phi for tilts.
+    """
+    if len(places) != 3:
+        return basis
+    g = np.array([_value(at, chart, n) for n in rotation.names])
+    cross = np.array([[0, -g[2], g[1]], [g[2], 0, -g[0]], [-g[1], g[0], 0]])
+    turned = np.eye(3) + 2 * (cross + cross @ cross) / (1 + g @ g)
+    phi, theta = (approximate(e) or 0.0 for e in rotation.initial[:2])
+    axis = turned @ [math.sin(theta) * math.sin(phi), -math.sin(theta) * math.cos(phi), math.cos(theta)]
+    axes = np.array([[0, 0, 1.0], np.cross([0, 0, 1.0], axis), axis]).T
+    if abs(np.linalg.det(axes)) < ZERO:
+        axes = np.array([[0, 1.0, 0], [1.0, 0, 0], [0, 0, 1.0]])
+    rates = np.linalg.solve(axes, 2 * (np.eye(3) + cross) / (1 + g @ g))
+    changed = basis.copy()
+    changed[:, list(places)] = basis[:, list(places)] @ rates.T
+    return changed
+
+
+def _value(at: Any, chart: Chart, name: str) -> float:
+    index = chart.ring.var_index(ex.coordinate(name))
+    return ANYWHERE if index is None else float(at[chart.ring.var_node[index]])
+
+
+def rigid(block: Block, dof: int, setting: Setting) -> list[str] | None:
+    """Where only motions of the whole are left: from the displacement fields at the reference."""
+    chart = make_chart(block, setting)
+    start = _start(chart, setting)
+    if not start:
+        search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
+        start = search.start(1, {})
+        if search.descend(start, 1) is None:
+            return None
+    fields = displacements_real(chart, lambda i: start.get(chart.ring.vars[i].key, 0.0))
+    rank = int(np.linalg.matrix_rank(fields, tol=ROUGH)) if fields.size else 0
+    return _columns(chart, fields) if rank == dof else None
+
+
+def _columns(chart: Chart, tangent: Any, least: float = ROUGH) -> list[str]:
+    """The first coordinates, in order, on which the tangent space projects regularly, by singular values of at least
+    that.
+    """
+    names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
+    chosen: list[int] = []
+    rank = int(np.linalg.matrix_rank(tangent, tol=least))
+    for c in range(len(names)):
+        if len(chosen) < rank and _rank(tangent, [*chosen, c], least) > len(chosen):
+            chosen.append(c)
+    return [names[c] for c in chosen]
