@@ -15,7 +15,7 @@ from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.exact.engines import BOTH
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.points.frames import sparse_frame
+from dofkit.exact.matrices.sparse import last_columns
 from dofkit.expressions import tree as ex
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block
@@ -80,7 +80,7 @@ def _dependent_at_drawing(block: Block, a: Answer, setting: Setting) -> tuple[st
     names = sorted(block.coordinates, key=places.__contains__)
     place = {name: k for k, name in enumerate(names)}
     rows = [{place[name]: v for name, v in row.items()} for row in found.rows]
-    return tuple(names[c] for c in sparse_frame(rows, len(place), found.p).dependent)
+    return tuple(names[c] for c in last_columns(rows, len(place), found.p))
 
 
 def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit | None:
