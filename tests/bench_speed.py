@@ -42,7 +42,7 @@ PATIENCE, RIVAL_PATIENCE = 60.0, 30.0
 #: So many functions enter every form; a longer text than theirs is not read.
 ALL_USED = 4
 #: Scenes that are classified by workers, and those that the goal is about.
-SCENES, MANY = 2000, 100_000
+SCENES, MANY = 6000, 100_000
 
 
 class Row(NamedTuple):
@@ -304,7 +304,7 @@ ROWS = {
                          partial(growth, partial(bench_linkage.kagome, braced=True))),
     "cold": Row("`dofkit classify disc-rolling-on-plane`, cold", Goal("share", 1.0),
                 partial(cold, "classify", "disc-rolling-on-plane"), SYMPY),
-    "many": Row("10^5 lecture scenes by a worker for each core (2 000, scaled)", seconds(240), many_scenes),
+    "many": Row("10^5 lecture scenes by a worker for each core (6 000, scaled)", seconds(240), many_scenes),
 }  # fmt: skip
 
 

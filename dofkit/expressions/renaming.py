@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from dofkit.expressions.tree import Expr, children, nodes
+from dofkit.expressions.tree import Expr, children, nodes, sym
 
 #: The kinds of symbols that are called by a coordinate.
 MOVING = frozenset({"coordinate", "velocity", "acceleration", "differential"})
@@ -161,7 +161,7 @@ class Renaming:
         if found is None:
             kind, name = symbol.args
             other = self.names.get(name)
-            found = self._symbols[symbol] = symbol if other is None else Expr("sym", (kind, other))
+            found = self._symbols[symbol] = symbol if other is None else sym(kind, other)
         return found
 
 
@@ -209,7 +209,7 @@ class Template:
 
     def of(self, names: Sequence[str]) -> Expr:
         """The expression in other names, all different, in the order of its own; its shape is known."""
-        return self.with_symbols([Expr("sym", (kind, names[k])) for kind, k in self._called])
+        return self.with_symbols([sym(kind, names[k]) for kind, k in self._called])
 
     def with_symbols(self, symbols: Sequence[Expr]) -> Expr:
         """The expression with other symbols, each of the kind of its own and in their order; see `of`."""

@@ -166,9 +166,20 @@ def as_expr(value: ExprLike) -> Expr:
     raise TypeError(f"an exact number or an Expr is needed, not {type(value).__name__}")
 
 
+#: Symbols that were made, as long as they are few.
+_KNOWN: dict[tuple[Kind, str], Expr] = {}
+_FEW = 300_000
+
+
 def sym(kind: Kind, name: str) -> Expr:
-    """The symbol ``name`` of the given kind."""
-    return Expr("sym", (kind, name))
+    """The symbol ``name`` of the given kind: mostly one object, however often it occurs."""
+    key = kind, name
+    found = _KNOWN.get(key)
+    if found is None:
+        if len(_KNOWN) >= _FEW:
+            _KNOWN.clear()
+        found = _KNOWN[key] = Expr("sym", key)
+    return found
 
 
 def coordinate(name: str) -> Expr:
