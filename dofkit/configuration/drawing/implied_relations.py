@@ -162,5 +162,8 @@ def _within_tolerance(chart: Chart, setting: Setting, known: Mapping[Expr, Expr]
         return None
     at = {s: float(v.mid()) for s, v in ball.symbols.items()}
     rigid = rigid_motions(chart, point)
-    told = measure(chart, at, setting, rigid)
+    try:
+        told = measure(chart, at, setting, rigid)
+    except NoValueError:
+        return None
     return None if told.dimension is None else told.dimension == chart.coordinates - rank

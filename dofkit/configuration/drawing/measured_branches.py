@@ -9,6 +9,7 @@ from dofkit.configuration.drawing.measured_flexes import StressForms
 from dofkit.configuration.drawing.measured_paths import HALF, ON, follow, stride_of
 from dofkit.configuration.drawing.measured_relations import SLACK, MeasuredDrawing, Place, clear_rank
 from dofkit.configuration.local.neighbourhood import damped
+from dofkit.exact.errors import NoValueError
 
 #: Attempts to find a common zero of the forms; directions in which a branch is followed.
 ATTEMPTS, WAYS = 6, 3
@@ -93,7 +94,15 @@ def _from(drawing: MeasuredDrawing, at: Place, rank: int, away: Any) -> int:
 
 
 def _beside(drawing: MeasuredDrawing, step: Any) -> Place | None:
-    """The point of the set nearest to a step away, by damped steps; None where relations stay beyond the tolerance."""
+    """The point of the set nearest to a step away; None where none is near, or relations have no value on the way."""
+    try:
+        return _nearest(drawing, step)
+    except NoValueError:
+        return None
+
+
+def _nearest(drawing: MeasuredDrawing, step: Any) -> Place | None:
+    """By damped steps; None where relations stay beyond the tolerance."""
     relations = drawing.relations
     at: Place = relations.moved(drawing.at, step)
     size = float(np.linalg.norm(step))
