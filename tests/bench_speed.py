@@ -122,6 +122,11 @@ def discs(number: int, rounds: int) -> Measured:
     return of_scene(bench.discs(number), 4 * number, rounds)
 
 
+def links(made: Callable[[int], bench_linkage.Links], number: int, dof: int) -> Measured:
+    """As many links of the plane as one scene."""
+    return of_scene(bench_linkage.linked(made(number)), dof, 1)
+
+
 def wide(constraints: int) -> Measured:
     """A chain of hinges, discs that roll, and equations, a third each, all in one scene."""
     n = constraints // 3
@@ -295,7 +300,11 @@ ROWS = {
     "trailers-6": Row("a car with 6 trailers", times(40),
                       partial(forms, bench_forms.car(6), 10, 5, (bench_forms.sympy_car, 6)), WEDGE),
     "trailers-20": Row("a car with 20 trailers", seconds(0.4), partial(forms, bench_forms.car(20), 24, 3)),
-    "wide": Row("10^5 constraints in one scene", seconds(10), partial(wide, 100_000)),
+    "truss": Row("10^5 constraints in one scene: a truss of links", seconds(10),
+                 partial(links, bench_linkage.truss, 100_000, 4)),
+    "apart": Row("the same: triangles of links", seconds(10),
+                 partial(links, bench_linkage.apart_triangles, 99_999, 99_999)),
+    "wide": Row("the same: hinges, rolling discs and equations, a third each", seconds(10), partial(wide, 100_000)),
     "links": Row("1 000 joints in the plane, pure Python", times(100), against_pyrigi, "PyRigi"),
     "growth-k": Row("K(4, n), 10^3 to 10^5 joints: time for a joint", Goal("fold", 1.3), partial(growth, complete)),
     "growth-triangles": Row("triangulated squares, the same", Goal("fold", 1.3),
