@@ -25,6 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any, Literal, get_args
 
 from dofkit.expressions.roots import exact_power
@@ -33,6 +34,8 @@ from dofkit.expressions.turns import TURNING, value_at, value_at_turn
 Kind = Literal["coordinate", "velocity", "acceleration", "differential", "parameter", "time", "dt"]
 KINDS: tuple[str, ...] = get_args(Kind)
 
+#: Symbols that are remembered.
+MOST_SYMBOLS = 400_000
 #: The closed list of elementary functions, with their numbers of arguments.
 FUNCTIONS: dict[str, int] = {
     "sin": 1, "cos": 1, "tan": 1, "cot": 1, "sec": 1, "csc": 1,
@@ -166,20 +169,10 @@ def as_expr(value: ExprLike) -> Expr:
     raise TypeError(f"an exact number or an Expr is needed, not {type(value).__name__}")
 
 
-#: Symbols that were made, as long as they are few.
-_KNOWN: dict[tuple[Kind, str], Expr] = {}
-_FEW = 300_000
-
-
+@lru_cache(MOST_SYMBOLS)
 def sym(kind: Kind, name: str) -> Expr:
     """The symbol ``name`` of the given kind: mostly one object, however often it occurs."""
-    key = kind, name
-    found = _KNOWN.get(key)
-    if found is None:
-        if len(_KNOWN) >= _FEW:
-            _KNOWN.clear()
-        found = _KNOWN[key] = Expr("sym", key)
-    return found
+    return Expr("sym", (kind, name))
 
 
 def coordinate(name: str) -> Expr:
