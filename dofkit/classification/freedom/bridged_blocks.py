@@ -40,7 +40,8 @@ def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setti
     if any(p.answer.consistent is not True or p.answer.about != "reference" for p in parts):
         return None
     found = _together(block, setting, parts, len(loose) - len(joints))
-    return replace(found, looked=_looked(block, parts)) if found.dof and found.instantaneous != 0 else None
+    moves = found.dof if setting.reference is None else found.instantaneous
+    return replace(found, looked=_looked(block, parts)) if moves else None
 
 
 def _core_answer(core: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer:
