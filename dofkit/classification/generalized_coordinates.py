@@ -15,7 +15,7 @@ from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.exact.engines import BOTH
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.sparse import last_columns
+from dofkit.exact.matrices.sparse import last_columns, rank_of_rows
 from dofkit.expressions import tree as ex
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block
@@ -45,7 +45,7 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
     direct = _regular_at_reference(block, a, setting) or [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
         chosen = _explicit(block, a.dof, setting)
-        return direct if chosen is None or regular_at_witness(block.coordinates, a, chosen) is False else chosen
+        return direct if chosen is None or not _is_regular(block, a, chosen, setting) else chosen
     if setting.engines != BOTH:
         return direct if len(direct) == a.dof and not turning else None
     whole = direct if len(direct) == a.dof and not partly_turned(direct, turning) else None
@@ -98,6 +98,23 @@ def regular_at_witness(names: Sequence[str], a: Answer, chosen: Sequence[str]) -
         return None
     columns = [k for k, name in enumerate(a.real.names) if name in names and name not in chosen]
     return ball_part([[row[k] for k in columns] for row in a.real.matrix]).rank == len(names) - a.dof
+
+
+def _is_regular(block: Block, a: Answer, chosen: Sequence[str], setting: Setting) -> bool:
+    """Have the relations, by the coordinates that are not chosen, their full rank at the point that was looked at?
+
+    A coefficient that was divided by may be 0 all over the set; at a reference these are numbers. Of what was answered
+    by parts no rows are known.
+    """
+    if a.parts is not None:
+        return setting.reference is not None
+    if regular_at_witness(block.coordinates, a, chosen) is False:
+        return False
+    if not a.matrix or a.modulus <= 2:
+        return True
+    left = {k for k, name in enumerate(block.coordinates) if name not in chosen}
+    rows = [{c: v for c, v in row.items() if c in left} for row in a.matrix]
+    return rank_of_rows(rows, a.modulus) == len(left)
 
 
 def _regular_at_reference(block: Block, a: Answer, setting: Setting) -> list[str] | None:

@@ -94,6 +94,21 @@ def test_of_a_tree_in_the_plane_beside_what_is_not_drawn_angles_are_chosen() -> 
     assert {told.witness[f"{q}_{b}"] for q in ("x", "y", "theta") for b in ("p", "h", "q")} == {"0"}
 
 
+@pytest.mark.parametrize("axis", [[0, 1], [1, 0], [1, 1]])
+def test_sliders_of_which_one_coordinate_stands_still_against_the_other(axis: list[int]) -> None:
+    """b slides on a, which slides along x: along y it is x_b = x_a + 1, along x it is y_b = 2."""
+    sliders = [
+        {"type": "prismatic", "between": ["ground", "a"], "axis": [1, 0]},
+        {"type": "prismatic", "between": ["a", "b"], "axis": axis},
+    ]
+    scene = {"dimension": 2, "bodies": ["a", "b"], "coordinates": ["s", "u"], "configuration": {"x_b": 1, "y_b": 2}}
+    told = examined(lower(dofkit.load({**scene, "constraints": [*sliders, "u = 2 s"]}))).report
+    chosen = frozenset(told.generalized_coordinates or ())
+    pairs = {(0, 1): [{"x_a", "y_b"}, {"x_b", "y_b"}], (1, 0): [{"x_a", "x_b"}]}
+    wanted = pairs.get(tuple(axis), [{"x_a", "x_b"}, {"x_a", "y_b"}, {"x_b", "y_b"}])
+    assert any(chosen == {*pair, "s"} for pair in wanted)
+
+
 def test_a_level_body_whose_angles_texts_name_is_answered_whole() -> None:
     """theta = 0 on a hinge about z turns phi and psi alike: the numbers stay open, with or without the joint."""
     level = {
