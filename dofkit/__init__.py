@@ -4,17 +4,17 @@
 >>> dofkit.classify({"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]}).dof
 1
 
-In the order in which one meets them:
+Each name has an example: ``help(dofkit.NAME)``.
 
-- `load`, `loads`: a scene from a file, a catalog name, a mapping or a text; `catalog_names`, `catalog_text`: the
-  scenes that come with dofkit; `Scene`: what is read.
-- `classify`: everything that is asked of a scene, as a `Report`; `ask`: one question; `derived_flag`: ranks of forms.
-- `verify`: a second program rechecks the evidence of a report (`classify(scene, certificate=True)`).
-- `lagrange`: equations of motion; `configurations`: points along a motion.
-- `draw`, `animate`, `graph`, `phase`: pictures of a scene (`pip install 'dofkit[pictures]'`).
-- `linkage`, `redundant_links`: graphs of links in general position, without a scene, as a `Linkage`.
+- `load`, `loads` read a `Scene`; `catalog_names`, `catalog_text`: the scenes that come with dofkit.
+- `classify` reports everything about a scene in a `Report`; `ask` answers one question; `derived_flag`: ranks of forms.
+- `verify` checks the evidence of a report (``classify(scene, certificate=True)``) with an independent program.
+- `lagrange` derives equations of motion; `configurations` samples a motion.
+- `draw`, `animate`, `graph`, `phase` are pictures of a scene, its motion, its constraints and its growth vector.
+- `linkage`, `redundant_links` analyse graphs of links in general position; the answer is a `Linkage`.
 - `load_assignment`, `grade`: homework.
-- `DofkitError`: the base of what is raised; `SceneError` and `TextError` know their places. `__version__`.
+- `DofkitError` is the base of all errors; `SceneError` and `TextError` give the location of each fault.
+- `__version__`: the version of dofkit.
 """
 
 from __future__ import annotations
@@ -37,23 +37,16 @@ if TYPE_CHECKING:
     from dofkit.pictures.animation import animate
     from dofkit.pictures.still import draw, graph, phase
     from dofkit.report import Report
-    from dofkit.scene import Scene, catalog_names, catalog_text, load, loads
+    from dofkit.scene.catalog import catalog_names, catalog_text
+    from dofkit.scene.reading import load, loads
+    from dofkit.scene.scene import Scene
 
-# In the order in which one meets them.
-__all__ = ["load", "loads"]
-__all__ += ["catalog_names", "catalog_text"]
-__all__ += ["Scene", "classify"]
-__all__ += ["Report", "ask", "derived_flag"]
-__all__ += ["verify"]
-__all__ += ["lagrange"]
-__all__ += ["configurations"]
-__all__ += ["draw"]
-__all__ += ["animate", "graph", "phase"]
-__all__ += ["linkage", "redundant_links"]
-__all__ += ["Linkage"]
-__all__ += ["load_assignment"]
-__all__ += ["grade"]
-__all__ += ["DofkitError", "SceneError", "TextError", "__version__"]
+#: What ``from dofkit import *`` imports and ``help(dofkit)`` describes; ``dir(dofkit)`` lists every public name.
+__all__ = ["animate", "ask", "classify", "draw", "grade", "lagrange", "load"]
+if TYPE_CHECKING:
+    __all__ += ["DofkitError", "Linkage", "Report", "Scene", "SceneError", "TextError", "__version__"]
+    __all__ += ["catalog_names", "catalog_text", "configurations", "derived_flag", "graph", "load_assignment", "loads"]
+    __all__ += ["linkage", "phase", "redundant_links", "verify"]
 
 #: Where names live whose modules are imported when they are first asked for.
 _HOMES = {
@@ -90,4 +83,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return list(__all__)
+    return [*_HOMES, "DofkitError", "SceneError", "TextError", "__version__"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from copy import copy
 from functools import lru_cache
-from typing import Any, Literal, Self, TypeVar
+from typing import Any, ClassVar, Literal, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, PrivateAttr, model_validator
 
@@ -89,15 +89,28 @@ class Count(ToldModel):
 
 
 class ConstraintEntry(DisplayedFormulas, ToldModel):
-    """One constraint's labels.
+    """The labels of one constraint. A label that is None is undecided, and ``reason`` says why.
 
-    ``form`` of the reduced equations; ``holonomic`` in the system and ``holonomic_alone`` without
-    the others; ``scleronomic``: time does not enter, up to factors that never vanish; ``catastatic``:
-    no dt term (None unless ``pfaffian``); ``exact``, ``integrating_factor``, ``integral`` of a
-    Pfaffian form; ``circuit``: what a redundant constraint depends on; ``equations`` and how many are
-    ``independent`` of all before; ``redundant_equations``: the others by name (None where it is not known which).
-    A None label means undecided, and ``reason`` says why; ``verdicts`` says of every label how sure it is.
+    Attributes
+    ----------
+    form
+        ``finite``, ``pfaffian``, ``nonlinear`` or ``inequality``, after reduction over the reals.
+    holonomic, holonomic_alone
+        Whether it is holonomic in the system; on its own.
+    scleronomic, catastatic
+        Whether t does not occur explicitly, in the constraint or in what it integrates to; whether it is homogeneous in
+        the velocities (None for finite constraints and inequalities).
+    exact, integrating_factor, integral
+        Of a Pfaffian form: whether it is closed as written, a factor that makes it so, and what it integrates to.
+    circuit
+        Of a redundant constraint: the minimal set of constraints that it depends on.
+    equations, independent, redundant_equations
+        The number of its scalar equations, how many are independent of all before, and the others in words.
+    verdict, verdicts, reason
+        How certain the labels are, and why.
     """
+
+    _in_brief: ClassVar[tuple[str, ...]] = ("name", "text", "holonomic", "verdict")
 
     name: str
     type: str
@@ -157,6 +170,8 @@ class Mobility(ToldModel):
 
     ``links``: N, bodies with the ground; ``joints``: j, constraints between two of them, of f_i freedoms each.
     ``formula`` holds the numbers, and what else is counted; ``freedom`` is the truth, and ``differs`` why it differs.
+    ``undriven``: the velocity freedom without the drives of joints, and its verdict; None where no joint is driven or
+    where it is undecided.
     """
 
     links: int
@@ -165,6 +180,8 @@ class Mobility(ToldModel):
     kutzbach: int
     freedom: int | None
     differs: str | None
+    undriven: int | None = None
+    undriven_verdict: Verdict | None = None
 
 
 class ForceEntry(ToldModel):
@@ -175,45 +192,53 @@ class ForceEntry(ToldModel):
 
 
 class SpecialCase(ToldModel):
-    """Where the answer is another one: values of ``parameters``, or a ``locus`` of configurations.
+    """Where the answer is another one: values of ``parameters``, a ``locus`` of configurations, or other branches.
 
     ``where`` are the conditions as text (``R = 0``, ``x = 0 and y = 0``), ``what`` says what changes there, and
     ``constraints`` for which.
     """
 
     where: str
-    kind: Literal["parameters", "locus"]
+    kind: Literal["parameters", "locus", "branch"]
     what: str
     constraints: list[str]
     verdict: Verdict
 
 
 class Report(Displayed, ToldModel):
-    """How a system can move; the fields and their meanings are those of the contract.
+    """How a system can move. `dofkit explain FIELD` and the glossary give the meaning of every field.
 
-    ``dof`` is the dimension of the configuration space (hidden finite relations included),
-    ``velocity_dof`` the number of independent velocities of finite motions,
-    ``instantaneous_dof`` what the constraints allow to first order at the reference configuration.
-    ``redundant`` is None, never empty, where it was not decided.
-    ``joint_coordinates``: of a tree of bodies the angles and displacements that describe it (None for any other).
-    ``special_cases`` are apart: all other fields are the generic answer.
-    ``generic`` is the count in general position beside that at the drawing (None without a drawing), ``mobility``
-    Gruebler's and Kutzbach's beside the truth (None without bodies and joints).
-    ``verdicts`` says of every field that can be wrong how sure it is, and ``verdict`` is the weakest of these, those of
-    the entries included; ``witness`` is a certified configuration (coordinate -> text, and parameters and ``t`` where
-    they occur), None where none was found.
-    ``certificate``: the evidence of what is proved, for `dofkit.verify`, where it was asked for.
-    A number that could not be decided is None, ``verdict`` is then ``undecided`` and ``warnings`` says why.
-    ``certificate``: evidence for what is proved, which `dofkit.verify` rechecks (None unless it was asked for).
-    ``feasible``: whether the inequalities can all be met together with the constraints (None where that is not known,
-    or where there are none); ``feasible_at`` is then a point at which they are: what is coupled to them, parameters
-    and time (``t``) and velocities (``xdot``) included; ``infeasible`` a minimal set that cannot be met.
+    A number or label that was not decided is None; ``verdict`` is then ``undecided`` and ``warnings`` says why.
 
+    Attributes
+    ----------
+    dof, velocity_dof, instantaneous_dof
+        The dimension of the configuration space; the number of independent admissible velocities of finite motions; and
+        that of the velocities that the constraints allow at the reference configuration.
+    holonomic, scleronomic
+        Whether every constraint is.
+    redundant, redundancies, conflicting
+        A maximal redundant set; the groups of dependent constraints; a minimal contradictory set.
+    constraints
+        One `ConstraintEntry` for each constraint, in order.
+    generic, mobility
+        The mobility in general position, and that by Gruebler and Kutzbach, M = D(N - 1 - j) + f_1 + ... + f_j.
+    special_cases
+        Where the answer differs from the generic one that all other fields give.
+    verdict, verdicts
+        How certain the report is, and each field.
+    witness, certificate
+        A certified configuration; the evidence for `dofkit.verify`.
+
+    Examples
+    --------
     >>> import dofkit
     >>> report = dofkit.classify("four-bar-linkage")
-    >>> report.dof, report.count.naive_dof, report.model_dump(mode="json")["holonomic"]
+    >>> report.dof, report.count.naive_dof, report.to_dict()["holonomic"]
     (1, 1, True)
     """
+
+    _in_brief: ClassVar[tuple[str, ...]] = ("scene", "dof", "velocity_dof", "verdict")
 
     scene: str
     consistent: bool | None
@@ -256,7 +281,33 @@ class Report(Displayed, ToldModel):
         """
         return text_of(self, width, how)
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the report as a mapping of JSON values; `Report.model_validate` reads it back.
+
+        >>> import dofkit
+        >>> dofkit.classify("four-bar-linkage").to_dict()["dof"]
+        1
+        """
+        return self.model_dump(mode="json")
+
+    def table(self) -> list[dict[str, Any]]:
+        """Return one flat mapping for each constraint, as ``pandas.DataFrame`` takes them.
+
+        Each has the scene's name and the fields of a `ConstraintEntry` except ``verdicts``; lists of names are joined
+        by commas.
+
+        >>> import dofkit
+        >>> [(row["name"], row["independent"]) for row in dofkit.classify("simple-pendulum-link").table()]
+        [('rod', 1)]
+        """
+        rows = [entry.model_dump(mode="json", exclude={"verdicts"}) for entry in self.constraints]
+        return [{"scene": self.scene, **{key: _cell(value) for key, value in row.items()}} for row in rows]
+
     def beside(self, scene: object) -> Self:
         """The same report with what it is about beside it, whose title and picture are then shown."""
         self._companion.scene = scene
         return self
+
+
+def _cell(value: Any) -> Any:
+    return ", ".join(map(str, value)) if isinstance(value, list) else value

@@ -6,11 +6,11 @@ Everything after this module works on `System` and never reads the scene again.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, Literal, NamedTuple, Protocol
 
-from dofkit.base.records import dataclass
+from dofkit.expressions.domains import Requirement
 from dofkit.expressions.terms import longest_number
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.unwritten import Unwritten
@@ -52,13 +52,15 @@ class Rotation:
 class Relation(NamedTuple):
     """One scalar relation ``expr sense 0``; ``part`` names it within its constraint (``point x``).
 
-    ``vector`` is the place or direction in the drawing that it is about.
+    ``vector`` is the place or direction in the drawing that it is about; ``domain``: what has to be so where the text,
+    as it was written, has a value.
     """
 
     expr: Expr
     sense: Sense = "="
     part: str = ""
     vector: tuple[Expr, ...] = ()
+    domain: tuple[Requirement, ...] = ()
 
 
 #: A linear relation between velocities: its coefficients by column.
@@ -314,6 +316,9 @@ class System:
 #: How an entry of what is left out begins that is a constraint: it would take freedom away.
 BINDING = "constraint "
 
+
+#: The part of a joint's relations that prescribes its motion.
+DRIVE = "drive"
 
 #: The fixed world, always there.
 GROUND = "ground"

@@ -31,9 +31,9 @@ import dofkit
 from dofkit.benchmark.trials import FAMILIES
 from dofkit.checker import CheckError
 from dofkit.checker.verification import verify
-from dofkit.methods.certificates import certificate_of_motion
 from dofkit.methods.certificates.certificate import Certifying
 from dofkit.methods.certificates.lowering import document_of_scene
+from dofkit.methods.certificates.motion_evidence import certificate_of_motion
 from dofkit.motion.lagrange.model import NoEquationsError
 from dofkit.motion_checker import MOTION_RULES
 from dofkit.scene.scene import Scene

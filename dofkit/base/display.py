@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 from dofkit.base.surface import handed_on
 
@@ -11,8 +11,8 @@ from dofkit.base.surface import handed_on
 def _drawn(name: str, *given: Any) -> Any:
     """A function of the module that draws, which `dofkit.DRAWN_BY` names; it is imported when something is first drawn.
 
-    It has ``text_of(value, width, how)``, lines for a terminal; ``html_of(value)``, a piece of a page; and
-    ``latex_of(value)``, a display of what has formulas, or None.
+    It has ``text_of(value, width, how)``, lines for a terminal; ``html_of(value)``, a piece of a page;
+    ``latex_of(value)``, a display of what has formulas, or None; and ``panel_of(error)``, the lines of an error.
     """
     return handed_on("dofkit", {name: sys.modules["dofkit"].DRAWN_BY}, name)(*given)
 
@@ -25,6 +25,12 @@ def text_of(value: object, width: int | None = None, how: bool = False) -> str:
     return str(_drawn("text_of", value, width, how))
 
 
+def panel_of(error: BaseException) -> list[str]:
+    """Return the lines that a notebook shows of an error: one panel, without the frames inside dofkit."""
+    lines: list[str] = _drawn("panel_of", error)
+    return lines
+
+
 #: Methods of Pydantic's models that a notebook offers beside the fields.
 _OF_USE = frozenset({"model_copy", "model_dump", "model_dump_json", "model_validate", "model_validate_json"})
 
@@ -33,9 +39,15 @@ class Displayed:
     """The base of what is drawn: by `print` as at a terminal, by a notebook as a table."""
 
     __slots__ = ()
+    #: The fields that ``repr`` shows.
+    _in_brief: ClassVar[tuple[str, ...]] = ()
 
     def __str__(self) -> str:
         return text_of(self)
+
+    def __repr__(self) -> str:
+        shown = ", ".join(f"{name}={getattr(self, name)!r}" for name in self._in_brief)
+        return f"{type(self).__name__}({shown})"
 
     def __dir__(self) -> list[str]:
         """What a reader asks for: of Pydantic's own methods only those that are of use here."""

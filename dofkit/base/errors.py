@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import ClassVar
 
-from dofkit.base.records import dataclass
+from dofkit.base.display import panel_of
 
 
 class DofkitError(Exception):
     """The base of every error that dofkit raises on purpose.
 
+    Examples
+    --------
     >>> import dofkit
     >>> try:
     ...     dofkit.classify("no-such-scene")
@@ -17,6 +20,10 @@ class DofkitError(Exception):
     ...     print(type(error).__name__)
     SceneError
     """
+
+    def _render_traceback_(self) -> list[str]:
+        """Return the lines that IPython shows instead of a traceback."""
+        return panel_of(self)
 
 
 class ArgumentError(DofkitError, TypeError, ValueError):
@@ -29,8 +36,13 @@ class ArgumentError(DofkitError, TypeError, ValueError):
 class TextError(DofkitError):
     """A mathematical text that cannot be read.
 
-    ``column`` counts from 1 within the text; ``hint`` says what to write instead.
+    Attributes
+    ----------
+    message, column, hint
+        What is wrong; where in the text, counted from 1; and what to write instead.
 
+    Examples
+    --------
     >>> error = TextError("a term is missing", 3, "write one after the sign")
     >>> str(error), error.column
     ('a term is missing', 3)
@@ -48,10 +60,13 @@ class TextError(DofkitError):
 
 @dataclass(frozen=True)
 class Fault:
-    """One fault of an input: what was asked, what was found, where, and what to do next.
+    """One fault of an input: what is wrong, its location, and what to do next.
 
     ``where`` is the path of keys and list positions from the top of the scene, ``line`` and
     ``column`` count from 1 (None where the input has no lines, such as a Python mapping).
+
+    >>> print(Fault("`dz` is not declared", ("constraints", 0, "text")))
+    constraints[0]: `dz` is not declared
     """
 
     message: str
@@ -61,16 +76,33 @@ class Fault:
     hint: str | None = None
 
     def __str__(self) -> str:
-        place = f"line {self.line}, column {self.column}: " if self.line is not None else ""
-        return place + self.message + (f" ({self.hint})" if self.hint else "")
+        location = f"{self.location}: " if self.location else ""
+        return location + self.message + (f" ({self.hint})" if self.hint else "")
+
+    @property
+    def location(self) -> str:
+        """Line and column, or else the path in the mapping; the text of a constraint stands for the constraint."""
+        if self.line is not None:
+            return f"line {self.line}, column {self.column}"
+        keys = self.where[:-1] if self.where[-1:] == ("text",) else self.where
+        return "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in keys).removeprefix(".")
 
 
 class SceneError(DofkitError):
-    """An input that is not a scene: all its ``faults`` at once, in the order of the file; ``source`` names it.
+    r"""An input that is not a scene.
 
+    Attributes
+    ----------
+    faults
+        All faults at once, in the order of the file: with ``message``, ``where``, ``line``, ``column`` and ``hint``.
+    source
+        The name of the input.
+
+    Examples
+    --------
     >>> import dofkit
     >>> try:
-    ...     dofkit.loads("coordinates: [x]\\nconstraints: [y = 1]")
+    ...     dofkit.loads("coordinates: [x]\nconstraints: [y = 1]")
     ... except dofkit.SceneError as error:
     ...     fault = error.faults[0]
     >>> fault.message, fault.line, fault.column, fault.where

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import log2
 from typing import Literal, get_args
-
-from dofkit.base.records import dataclass
 
 Verdict = Literal["proved", "probable", "numeric", "undecided"]
 

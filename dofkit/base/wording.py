@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+#: A ratio beyond which the rank of a numeric matrix is taken as certain in words.
+UNAMBIGUOUS = 1e12
+
 
 def many(number: int, what: str) -> str:
     """A number of things.
@@ -22,3 +25,17 @@ def verb(number: int, one: str = "is", several: str = "are") -> str:
     ('is', 'have')
     """
     return one if number == 1 else several
+
+
+def gap_in_words(gap: float, what: str) -> str:
+    """Return a sentence about the ratio that separates the numbers that are kept from those that are taken as zero.
+
+    >>> gap_in_words(2.34e4, "pivot")
+    'the smallest pivot that is kept is about 23000 times the largest that is taken as zero'
+    >>> gap_in_words(1.1e108, "pivot")
+    'the rank is unambiguous: no pivot that is kept is below 10^12 times one that is taken as zero'
+    """
+    if gap > UNAMBIGUOUS:
+        return f"the rank is unambiguous: no {what} that is kept is below 10^12 times one that is taken as zero"
+    digits = float(f"{gap:.1e}")
+    return f"the smallest {what} that is kept is about {digits:.0f} times the largest that is taken as zero"

@@ -8,7 +8,7 @@ import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import field
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from importlib.util import find_spec
 from pathlib import Path
@@ -16,13 +16,13 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from dofkit.base.records import dataclass
 from dofkit.base.version import __version__
 from dofkit.base.workers import Job
 from dofkit.base.workers.pool import cores
-from dofkit.benchmark import figures, runner, storing, tasks
+from dofkit.benchmark import runner, storing, tasks
 from dofkit.benchmark import trial_job as asking
 from dofkit.benchmark.failures import explained
+from dofkit.benchmark.figures import table
 from dofkit.benchmark.record import ChartRun, Data, Ran, ReductionCost, TrialLine
 from dofkit.benchmark.selecting import Selection
 from dofkit.benchmark.storing import ChartError
@@ -124,7 +124,7 @@ def finish(data: Data, out: Path) -> None:
 
 def draw(chart: ChartRun, out: Path) -> Iterator[Path]:
     """All figures. Raises OSError."""
-    return figures.write(chart, out)
+    return table.write(chart, out)
 
 
 def writable(out: Path) -> None:

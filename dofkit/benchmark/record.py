@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
-
-from dofkit.base.records import dataclass
 
 #: ``cannot``: the method never answers such a question or scene; ``undecided``: it tried, or failed on the way.
 Outcome = Literal["right", "wrong", "undecided", "timed out", "cannot"]

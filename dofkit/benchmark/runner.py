@@ -6,15 +6,14 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import contextmanager
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Protocol
 
-from dofkit.base.records import dataclass
-from dofkit.base.workers import MEMORY, Job, Pool
+from dofkit.base.workers import MEMORY, Job
 from dofkit.base.workers import JobOutcome as Ended
 from dofkit.base.workers.crews import Cluster, Crew, StoppedError, Threads
-from dofkit.base.workers.pool import cores
+from dofkit.base.workers.pool import Pool, cores
 from dofkit.benchmark.judging import outcome_of
 from dofkit.benchmark.record import Outcome, TrialLine
 from dofkit.benchmark.tasks import TrialTask

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import get_args
 
-from dofkit.base.records import dataclass
 from dofkit.benchmark.storing import ChartError
 from dofkit.benchmark.trials.trial import Trial
 from dofkit.methods.names import Question

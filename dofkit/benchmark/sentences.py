@@ -34,7 +34,7 @@ def _trials(chart: ChartRun) -> str:
     wrong = f"{mine.wrong} {'is' if mine.wrong == 1 else 'are'}" if mine.wrong else "none is"
     return (
         f"{_spaced(chart.ran.trials)} trials by {_word(methods)} methods, at most {chart.ran.limit:g} s each: of the "
-        f"answers of `auto` {wrong} wrong and {_percent(left, mine.trials)} are left open."
+        f"answers of `auto` {wrong} wrong and {_percent(left, mine.trials)} are undecided."
     )
 
 
@@ -58,12 +58,12 @@ def _method(chart: ChartRun, method: str) -> str:
         return ""
     left = whole.trials - whole.right - whole.wrong
     told = (
-        f"`{method}` is wrong on {_percent(whole.wrong, whole.trials)} and leaves {_percent(left, whole.trials)} open"
+        f"`{method}` is wrong on {_percent(whole.wrong, whole.trials)} and undecided on {_percent(left, whole.trials)}"
     )
     most = list(_worst(chart, method, wrong=bool(whole.wrong)))
     if not most:
         return told + "."
-    return f"{told}; it {'errs' if whole.wrong else 'leaves open'} most in {_listed(most)}."
+    return f"{told}; it is {'wrong' if whole.wrong else 'undecided'} most often in {_listed(most)}."
 
 
 def _worst(chart: ChartRun, method: str, *, wrong: bool) -> Iterator[str]:

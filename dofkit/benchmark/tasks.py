@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from dofkit.base.records import dataclass
 from dofkit.benchmark.trials.trial import Trial
 from dofkit.methods.shared.reply import Knobs
 

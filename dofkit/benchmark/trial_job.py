@@ -6,10 +6,9 @@ import sys
 import time
 import warnings
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from typing import Any
 
-from dofkit.base.records import dataclass
 from dofkit.base.workers import Json
 from dofkit.base.workers.child import function_named
 from dofkit.base.workers.limits import LateError, interrupting

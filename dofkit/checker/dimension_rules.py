@@ -122,18 +122,22 @@ def _rank(evidence: CheckedEvidence, minor: CheckedMinor, names: tuple[str, ...]
 
 
 def independence(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
-    """How many equations a constraint adds to those of the constraints before it.
+    """How many equations a constraint adds to those before it, where finite equations come before those of velocities.
 
-    Of the last constraint: by how much the dimension falls, from a manifold to a dof that was verified there.
+    Of the last finite constraint: by how much the dimension falls, from a manifold to a dof that was verified there.
     """
-    minor, order = evidence.minor(claim["minor"]), owners(evidence)
+    minor, order = evidence.minor(claim["minor"]), evidence.equations
     evidence.is_about("here", minor.point)
-    place, own = order.index(claim["owner"]), len(evidence.owned(claim["owner"]))
+    own = [rows for kind in ("finite", "velocity") if (rows := evidence.owned(claim["owner"], {kind}))]
     refuse(not own, "the constraint has no equations")
-    before, upto = (relations_of(evidence, order[:k]) for k in (place, place + 1))
-    last = "last" in claim and "/dof at" in verified and not evidence.moving and set(upto) == set(evidence.finite)
-    after = same_place(evidence, minor.point, verified) if last else _rank(evidence, minor, upto)
-    return min(own, after - _rank(evidence, minor, before))
+    added = 0
+    for rows in own:
+        place = order.index(rows[0])
+        before, upto = order[:place], order[: place + len(rows)]
+        last = "last" in claim and "/dof at" in verified and not evidence.moving and upto == order
+        after = same_place(evidence, minor.point, verified) if last else _rank(evidence, minor, upto)
+        added += min(len(rows), after - _rank(evidence, minor, before))
+    return added
 
 
 def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
@@ -217,7 +221,12 @@ def generalized_coordinates(evidence: CheckedEvidence, claim: Told, verified: To
 
 
 def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
-    """Words span each step of the growth from below; from above fields and their brackets, or the dimension of all."""
+    """Words span each step of the growth from below; from above fields and their brackets, or the dimension of all.
+
+    Directions are those of (q, t) where a constraint was verified to be rheonomic or not catastatic.
+    """
+    labels = [f"{field} {one.owner}" for field in ("scleronomic", "catastatic") for one in evidence.problem.relations]
+    refuse(evidence.timed and not any(verified.get(label) is False for label in labels), "time may be divided out")
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
     whole = len(evidence.problem.coordinates) - same_place(evidence, minor.point, verified) + evidence.timed
     refuse(not evidence.moving or not all(map(evidence.is_linear, evidence.moving)), "a growth vector is of forms")

@@ -34,6 +34,7 @@ _TOKEN = re.compile(
     re.ASCII | re.DOTALL,
 )
 _VELOCITY, _DIFFERENTIAL = re.compile(rf"(.+?)(?:_?dot|['{DOT}])([_0-9].*)?"), re.compile("d(.+)")
+_TOTAL = ("number", "pi", "symbol", "sum", "product", "exp", "sin", "cos", "apply")
 _PAIRS = {"(": ")", "[": "]", "{": "}"}
 _BEGIN = ("value", "moving", "function", "declared", "derivative", *_PAIRS)
 
@@ -201,7 +202,8 @@ class _Reader:
             sign, factor = self.accepted("*", "/").kind, self.factor()
             quotient = sign == "/" and factor != _STEP
             factors.append(_power(factor, number(-1)) if sign == "/" else factor)
-        return times(*factors)
+        found = times(*factors)
+        return Tree("product", tuple(factors)) if found == ZERO and any(map(_is_partial, factors)) else found
 
     def factor(self) -> Tree:
         """Signs, a primary and its power: ``-x^2`` is -(x^2), ``x^y^z`` is x^(y^z)."""
@@ -277,4 +279,11 @@ def _power(base: Tree, exponent: Tree) -> Tree:
             refuse(raised <= 0 and (value <= 0 if raised == 0 else value.denominator != 1), "there is no such power")
             if value.denominator == 1:
                 return number(raised ** int(value))
-    return power(base, exponent)
+    return Tree("power", (base, ZERO)) if exponent == ZERO and _is_partial(base) else power(base, exponent)
+
+
+def _is_partial(tree: Tree) -> bool:
+    """Whether a tree may have no value somewhere: then 0 times it is not 0 there."""
+    exponent = tree.below[1].value if tree.head == "power" else None
+    whole = isinstance(exponent, Fraction) and exponent.denominator == 1 and exponent > 0
+    return not (whole or tree.head in _TOTAL) or any(map(_is_partial, tree.below))

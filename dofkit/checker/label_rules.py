@@ -6,7 +6,7 @@ from typing import Any
 
 from dofkit.checker.dimension_rules import names_told, same_place
 from dofkit.checker.evidence import CheckedEvidence, Told, admissible, involutive, of_word
-from dofkit.checker.trees import ONE, ZERO, Tree, add, difference, refuse, times
+from dofkit.checker.trees import ONE, ZERO, Tree, add, difference, refuse, symbol, times
 from dofkit.checker.values import CheckedPoint, derivative, homogeneous_degree, not_zero, substituted
 
 Form = dict[str, Tree]
@@ -117,26 +117,31 @@ def exact(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
 
 
 def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """Neither t nor dt occurs; what is not linear in velocities is homogeneous."""
+    """Neither t nor dt occurs, and what is not linear in velocities is homogeneous.
+
+    One relation that was verified not to integrate is scleronomic where t does not occur.
+    """
     catastatic = claim["field"] == "catastatic"
     names = own(evidence, claim, EQUATIONS if catastatic else EVERY)
     ones = [evidence.relation(name) for name in claim.get("steps", names)]
     evidence.follow([one.name for one in ones], names, None, "the constraint")
     evidence.follow(names, [one.name for one in ones], None, "the steps")
     refuse(catastatic and all(one.kind != "velocity" for one in ones), "there is no form")
+    apart = not catastatic and len(names) == 1 and verified.get(f"holonomic {claim['owner']}") is False
     for one in ones:
-        mixed = catastatic or homogeneous_degree(one.left, evidence.velocities) is None
+        mixed = not apart and homogeneous_degree(one.left, evidence.velocities) is None
         refuse(mixed and not evidence.is_linear(one.name), f"`{one.name}` is no form, or not homogeneous in velocities")
         refuse(one.kind == "inequality" and evidence.met_by(one.left), "an inequality between velocities")
-        for name in ["tdot"] if catastatic else ["t", "tdot"]:
+        for name in ["tdot"] if catastatic else ["t"] if apart else ["t", "tdot"]:
             evidence.identity(derivative(one.left, name), ZERO, f"the derivative of `{one.name}` by {name}")
     return True
 
 
 def turns(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
-    """Time enters: at a point of the relation its derivative by t is not 0, or the form has a dt term or turns.
+    """Time enters: at a point of the relation its derivative by t is not 0, or the form turns, or integrates with dt.
 
-    Where a relation is phi times one without time, phi nowhere 0, none of these is so.
+    Where a relation is phi times one without time, none of these is so: where phi is 0 the relation is stationary.
+    What is not homogeneous in velocities is not catastatic.
     """
     name, point, catastatic = claim["relation"], evidence.point(claim["at"]), claim["field"] == "catastatic"
     names, one = own(evidence, claim, EVERY), evidence.relation(claim["relation"])
@@ -145,6 +150,8 @@ def turns(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     turned = derivative(one.left, "t")
     if one.kind == "velocity" and evidence.is_linear(name):
         turned = evidence.slope(name, "t")
+        integrates = _has_timed_integral(evidence, claim, verified)
+        refuse(not catastatic and "pair" not in claim and not integrates, "it is not shown to integrate")
         if not catastatic and "pair" in claim:
             a, b = (evidence.slope(name, v) for v in claim["pair"])
             turned = difference(times(a, derivative(b, "t")), times(b, derivative(a, "t")))
@@ -152,9 +159,23 @@ def turns(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
         if one.kind == "finite":
             evidence.on_set(point, names)
         held = one.kind == "finite" or evidence.holds(name, point)
-        refuse(catastatic or not held, "it is no form that could be catastatic, or not shown to be 0 there")
+        refuse((catastatic and one.kind != "velocity") or not held, "it holds no velocities, or is not 0 there")
+        slopes = {v: derivative(one.left, v) for v in sorted(one.left.symbols.difference(evidence.chosen, ["t"]))}
+        if catastatic:
+            turned = add(*(times(symbol(v), slopes[v]) for v in slopes if v in evidence.velocities))
+        stationary = not any(not_zero(point.value(slope)) for slope in slopes.values())
+        refuse(stationary and one.kind != "inequality", "the relation may be stationary at the point")
     refuse(not not_zero(point.value(turned)), "time may not enter at the point")
     return False
+
+
+def _has_timed_integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
+    """Whether a form with a dt term integrates alone, or was verified to have an integral that t occurs in."""
+    owner, point = claim["owner"], evidence.point(claim["at"])
+    if verified.get(f"holonomic_alone {owner}") is True or f"integral {owner}" not in verified:
+        return verified.get(f"holonomic_alone {owner}") is True
+    function = evidence.text(told_integral(evidence, verified[f"integral {owner}"]))
+    return not_zero(point.value(derivative(function, "t")))
 
 
 def factor(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:

@@ -191,7 +191,7 @@ def _owners(scene: Entry, key: str, roles: Sequence[str]) -> dict[str, list[str]
     found: dict[str, list[str]] = {}
     for entry in scene.get(key, []):
         known_fields(entry, FIELDS[key])
-        names = entry.get("coordinates") or [f"{role}_{entry['name']}" for role in roles]
+        names = entry.get("coordinates") or [f"{role}_{entry['name'].replace('-', '_')}" for role in roles]
         refuse(len(names) != len(roles) or entry["name"] in {*found, "ground"}, f"`{key}` cannot be read")
         found[entry["name"]] = names
     return found

@@ -131,7 +131,8 @@ path                                    rule           fields
                                                        point
 /growth_vector                          span           spans: for each entry {"words", "columns"}; at, fields, rows,
                                                        minor (regular: all rows). Upper bounds: their number, and /dof
-                                                       verified before, at the same point
+                                                       verified before, at the same point. Where t occurs: a label
+                                                       scleronomic or catastatic false, verified before
 /redundant                              cofactors      minor: rows are relations of the scene, all others follow from
                                                        them with numbers (or one, with cofactors not 0 at the
                                                        point; or all are linear or have generic lengths, by covers).
@@ -147,9 +148,14 @@ path                                    rule           fields
                                                        z] (``t`` for time)
 .../scleronomic, .../catastatic true    timeless       t, tdot do not occur; what is nonlinear in velocities is, as it
                                                        is written, homogeneous. steps [ID]: instead of NAME's own
-                                                       relations, these, which follow from them and they from these
-.../scleronomic false                   turns          at, relation ID; pair [x, y] for a form without tdot
-.../catastatic false                    turns          at, relation ID: the coefficient of tdot is not 0
+                                                       relations, these, which follow from them and they from these.
+                                                       scleronomic: or t does not occur in one relation that was
+                                                       verified before not to be holonomic
+.../scleronomic false                   turns          at, relation ID; pair [x, y] for a form, or a coefficient of
+                                                       tdot that is not 0 and holonomic_alone true, or an integral
+                                                       that t occurs in, verified before
+.../catastatic false                    turns          at, relation ID: the coefficient of tdot is not 0, or sum v dF/dv
+                                                       of a relation F not linear in velocities
 .../exact true                          exact          closed
 .../exact false                         not exact      at, pair [x, y]; relation ID where there are several forms
 .../independent 0                       inequality     of nothing but inequalities
@@ -161,9 +167,10 @@ path                                    rule           fields
 .../circuit                             cofactors      at (a point of all); minimal {NAME: {"minor"} at that point:
                                                        rows of the other members that account for them, and one of
                                                        the constraint's own}
-.../independent                         independent    minor: rows of constraints up to this; those before follow from
-                                                       rows before, and its own from all rows; at most as many as
-                                                       it has equations. last: of the last one, /dof before
+.../independent                         independent    minor: rows up to those of this constraint, finite
+                                                       ones first; those before follow from rows before, and
+                                                       its own from all rows; at most as many as it has
+                                                       equations. last: of the last one, /dof before
 ======================================= ============== ==========================================================
 
 Euler angles are read at a point only where the sine of the second is not 0: else they are no chart of the poses.

@@ -8,9 +8,9 @@ defect is logged.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import OPEN
 from dofkit.relations.answer import DEFECTS
 from dofkit.report import ConstraintEntry, FieldVerdict, Redundancy
@@ -21,7 +21,7 @@ INDEPENDENT, CIRCUIT, NAMED = f"{ENTRY}independent", f"{ENTRY}circuit", f"{ENTRY
 #: Fields that are empty where they are not told.
 LISTS = ("redundancies", "conflicting")
 UNDECIDED = FieldVerdict.of(OPEN)
-CONTRADICTION = "Not told, because they contradict each other ({law}): {fields}."
+CONTRADICTION = "These fields are withheld because they contradict each other ({law}): {fields}."
 
 Values = Mapping[str, Any]
 
@@ -155,56 +155,72 @@ def _open(told: Values) -> bool | None:
 
 AGREEMENTS: tuple[Agreement, ...] = (
     Agreement(
-        "velocities are no more than freedoms",
+        "the velocity freedom does not exceed the degrees of freedom",
         ("dof", "velocity_dof"),
         _compared("dof", "velocity_dof", by=lambda f, v: v <= f),
     ),
     Agreement(
-        "freedoms are no more than coordinates",
+        "the degrees of freedom do not exceed the number of coordinates",
         ("dof",),
         _compared("dof", "count", by=lambda f, c: 0 <= f <= c.coordinates),
     ),
     Agreement(
-        "velocities of motions are velocities to first order",
+        "the velocity freedom does not exceed the instantaneous freedom",
         ("velocity_dof", "instantaneous_dof"),
         _compared("velocity_dof", "instantaneous_dof", by=lambda v, i: v <= i),
     ),
     Agreement(
-        "singular is where the first order has other velocities",
+        "a configuration is singular where the instantaneous freedom differs from the velocity freedom",
         ("singular", "instantaneous_dof"),
         _compared("singular", "velocity_dof", "instantaneous_dof", by=lambda s, v, i: s is (v != i)),
     ),
     Agreement(
-        "equations too many are equations less (coordinates less velocities)",
+        "the redundant equations are the equations minus (coordinates minus velocity freedom)",
         ("redundant_equations", "velocity_dof"),
         _too_many,
     ),
     Agreement(
-        "as many equations follow as are too many",
+        "the number of implied equations is the number of redundant equations",
         ("redundant_equations", INDEPENDENT, "redundant"),
         _as_many_dependent,
     ),
-    Agreement("groups hold what is too many", ("redundant_equations", "redundancies", "redundant"), _groups_for_all),
-    Agreement("groups hold the equations that follow", ("redundancies", INDEPENDENT, "redundant"), _in_groups),
-    Agreement("what can be dropped stands in groups", ("redundant", "redundancies"), _within_groups),
-    Agreement("a circuit is of what can be dropped, and was written before", ("redundant", CIRCUIT), _circuits),
-    Agreement("as many equations are named as follow", (INDEPENDENT, NAMED), _named_equations),
     Agreement(
-        "as many coordinates are chosen as are free",
+        "the nullities of the groups add up to the number of redundant equations",
+        ("redundant_equations", "redundancies", "redundant"),
+        _groups_for_all,
+    ),
+    Agreement("the groups contain the implied equations", ("redundancies", INDEPENDENT, "redundant"), _in_groups),
+    Agreement("a redundant constraint belongs to a group", ("redundant", "redundancies"), _within_groups),
+    Agreement(
+        "a circuit belongs to a redundant constraint and consists of constraints written before it",
+        ("redundant", CIRCUIT),
+        _circuits,
+    ),
+    Agreement(
+        "the number of named equations is the number of implied equations", (INDEPENDENT, NAMED), _named_equations
+    ),
+    Agreement(
+        "the number of generalized coordinates is the number of degrees of freedom",
         ("generalized_coordinates", "dof"),
         _compared("generalized_coordinates", "dof", by=lambda q, f: len(q) == f),
     ),
-    Agreement("growth begins with the velocities and ends with the freedom", ("growth_vector",), _growth),
-    Agreement("the system is holonomic where all constraints are", ("holonomic",), _of_all("holonomic")),
-    Agreement("the system is scleronomic where all constraints are", ("scleronomic",), _of_all("scleronomic")),
     Agreement(
-        "a holonomic system has as many velocities as freedoms",
+        "the growth vector begins with the velocity freedom and ends with the degrees of freedom",
+        ("growth_vector",),
+        _growth,
+    ),
+    Agreement("the system is holonomic if and only if all constraints are", ("holonomic",), _of_all("holonomic")),
+    Agreement("the system is scleronomic if and only if all constraints are", ("scleronomic",), _of_all("scleronomic")),
+    Agreement(
+        "a holonomic system has as many independent velocities as degrees of freedom",
         ("holonomic", "velocity_dof", "dof"),
         _compared("holonomic", "velocity_dof", "dof", by=lambda h, v, f: not h or v == f),
     ),
-    Agreement("what is inconsistent has no freedom", ("dof", "velocity_dof", "consistent"), _nothing_moves),
-    Agreement("what conflicts is inconsistent", ("consistent", "conflicting"), _conflicting),
-    Agreement("what is not known makes the whole undecided", (), _open),
+    Agreement(
+        "an inconsistent system has no degrees of freedom", ("dof", "velocity_dof", "consistent"), _nothing_moves
+    ),
+    Agreement("a system with conflicting constraints is inconsistent", ("consistent", "conflicting"), _conflicting),
+    Agreement("an undecided field makes the report undecided", (), _open),
 )
 
 

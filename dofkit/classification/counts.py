@@ -4,25 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from dofkit.base.deadline import part, unless_late
-from dofkit.base.libraries import LateLibrary
 from dofkit.base.wording import many, verb
 from dofkit.classification.study import Study
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import echelon
+from dofkit.mobility import special_position
 from dofkit.mobility.general_position import General, has_geometry, in_general_position
 from dofkit.mobility.kutzbach import kutzbach_count
 from dofkit.mobility.near_dependence import MOST, nearly_dependent
 from dofkit.mobility.placement import Placement, drawn_placement, measured_placement
 from dofkit.relations.normal.pieces import Finite
 from dofkit.report import Generic, Mobility
-
-if TYPE_CHECKING:
-    from dofkit.mobility import special_position
-else:
-    special_position = LateLibrary("dofkit.mobility.special_position")
 
 #: Dependent sets of rows that are looked at, and sentences about them that are told.
 MOST_SETS, MOST_TOLD = 40, 6
@@ -65,9 +60,11 @@ class CountsBeside:
         if here is None or here == dof:
             return None
         if here < dof:
-            return "the drawing allows less than general position: what the texts say is special there"
+            return (
+                "the reference configuration allows less than general position, because the equations are special there"
+            )
         more = here - dof
-        start = f"at the drawing {many(more, 'further equation')} {verb(more, 'depends', 'depend')} on the others"
+        start = f"this geometry is special: {many(more, 'more equation')} {verb(more, 'is', 'are')} dependent"
         placement = self._placement
         told = (
             []

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from dofkit.base.deadline import expired
-from dofkit.base.libraries import LateLibrary
+from dofkit.classification import tangent_spaces
 from dofkit.classification.explicit_coordinates import MOST, PLAIN, QUADRATIC, explicit
 from dofkit.classification.freedom.bridged_blocks import with_still_parts
 from dofkit.classification.turned_coordinates import TurnedGroup, chosen_at_drawing, partly_turned, rows_at_drawing
@@ -23,11 +22,6 @@ from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 from dofkit.system import Rotation
-
-if TYPE_CHECKING:
-    from dofkit.classification import tangent_spaces
-else:
-    tangent_spaces = LateLibrary("dofkit.classification.tangent_spaces")
 
 #: Coordinates up to so many are looked for on a tangent space.
 MAX_COLUMNS = 120

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import DEFAULT_SECONDS, limited, part, unless_late
 from dofkit.base.memory import unhurried
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import weakest
 from dofkit.classification import report as fields
 from dofkit.classification.agreements import agreed
-from dofkit.classification.claims import claims
+from dofkit.classification.claims import claims, freedom
 from dofkit.classification.counts import counts_beside
 from dofkit.classification.feasibility.told import inequalities_together
 from dofkit.classification.freedom.branches import Outcome
@@ -20,9 +20,10 @@ from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import precise_for
+from dofkit.mobility.kutzbach import without_drives
 from dofkit.relations.reductions import ALL, Reductions
 from dofkit.relations.setting import Setting
-from dofkit.report import FieldVerdict, Report
+from dofkit.report import FieldVerdict, Mobility, Report
 from dofkit.system import System
 
 #: Of the time, for the blocks of a scene.
@@ -142,6 +143,11 @@ def _feasibility(study: Study, told: Values) -> Values:
 
 def _counts(study: Study, told: Values) -> Values:
     found, near = counts_beside(study, told["instantaneous_dof"])
+    mobility, released = found["mobility"], without_drives(study.system)
+    if isinstance(mobility, Mobility) and released is not None and told["consistent"] is True:
+        nothing: Values = {}
+        undriven = unless_late(partial(_velocity_freedom, study.setting.reductions, released), nothing)
+        found = {**found, "mobility": mobility.model_copy(update=dict(undriven))}
     return {**found, **({} if near is None else {"warnings": [*told["warnings"], near]})}
 
 
@@ -149,7 +155,17 @@ def _special(study: Study, told: Values) -> Values:
     again = partial(_generic, study.setting.reductions)
     report = _report(told)
     look = partial(special_cases, study.system, study.reduced, study.setting, study.outcome, report, again)
-    return unless_late(look, {"warnings": [*told["warnings"], NO_SPECIAL_CASES]})
+    found: Values = unless_late(look, {"warnings": [*told["warnings"], NO_SPECIAL_CASES]})
+    branches = [case.where for case in found.get("special_cases", ()) if case.kind == "branch"]
+    warnings = [*found.get("warnings", told["warnings"]), *fields.about_branches(study.system, branches)]
+    return {**found, "warnings": warnings}
+
+
+def _velocity_freedom(reductions: Reductions, released: System) -> Values:
+    """Return the velocity freedom of a system whose drives are released, with its verdict; nothing if undecided."""
+    answered = study(released, reductions=reductions)
+    number, verdict = answered.outcome.velocity_dof, freedom(answered).verdict
+    return {} if number is None or verdict == "undecided" else {"undriven": number, "undriven_verdict": verdict}
 
 
 PASSES: tuple[Pass, ...] = (

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
 
 from dofkit.base.deadline import unless_late
-from dofkit.base.libraries import LateLibrary
 from dofkit.base.wording import many, verb
 from dofkit.classification.dependence.redundancy import merged
 from dofkit.classification.freedom.branches import Outcome
@@ -16,6 +14,7 @@ from dofkit.classification.labels.integrable_part import integrable_part
 from dofkit.classification.study import Study
 from dofkit.classification.turned_coordinates import partly_turned, turned_together
 from dofkit.expressions.text import to_text
+from dofkit.mobility import tree_pose
 from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.mobility.textbook_count import CountedFacts, count
 from dofkit.relations.answer import Answer
@@ -24,11 +23,6 @@ from dofkit.relations.integration_constants import about_constants
 from dofkit.relations.normal.pieces import Finite
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, Count, ForceEntry, IntegrablePart, Redundancy
 from dofkit.system import BINDING, System
-
-if TYPE_CHECKING:
-    from dofkit.mobility import tree_pose
-else:
-    tree_pose = LateLibrary("dofkit.mobility.tree_pose")
 
 
 def instantaneous_dof(study: Study) -> int | None:
@@ -76,10 +70,12 @@ def redundant(study: Study) -> list[str] | None:
 
 
 def redundancies(study: Study) -> list[Redundancy]:
-    """Groups of constraints that depend on each other."""
-    names, dependent = study.names, study.dependence.dependent
-    if study.redundant_equations == 0:
-        dependent = [r for r in dependent if r.redundant]
+    """Return the groups of constraints that depend on each other, where a constraint or an equation is redundant.
+
+    In x^2 + y^2 = 0 and x^2 + z^2 = 0 none is, though x = 0 is stated twice.
+    """
+    names, sizes = study.names, [r.equations for r in study.reduced]
+    dependent = [r for r in study.dependence.dependent if r.redundant or r.has_dependent_equations(sizes)]
     return [Redundancy(nullity=nullity, members=[names[i] for i in members]) for nullity, members in merged(dependent)]
 
 
@@ -148,14 +144,21 @@ def growth_vector(outcome: Outcome, entries: Sequence[ConstraintEntry]) -> list[
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
         shared = uses_time(block)
         timed += shared
-        owners = {r.constraint for r in block.rows}
-        timeless += shared and all(entries[i].scleronomic and entries[i].catastatic is not False for i in owners)
-        if block.nonlinear or (a.growth is None and block.forms) or a.velocity_dof is None:
+        enters = {_time_enters(entries[r.constraint]) for r in block.rows} if shared else {False}
+        timeless += shared and enters == {False}
+        open_ = None in enters and True not in enters
+        if open_ or block.nonlinear or (a.growth is None and block.forms) or a.velocity_dof is None:
             return None
         growths.append(a.growth if a.growth is not None else (a.velocity_dof + shared,))
     length = max(len(g) for g in growths)
     base = len(outcome.untouched) - (timed if timed == timeless else max(0, timed - 1))
     return [base + sum(g[min(k, len(g) - 1)] for g in growths) for k in range(length)]
+
+
+def _time_enters(entry: ConstraintEntry) -> bool | None:
+    """Return whether a constraint holds t or a term without velocities that cannot be divided out; None: undecided."""
+    labels = (entry.scleronomic, *([entry.catastatic] if entry.form in ("pfaffian", "nonlinear") else []))
+    return True if False in labels else None if None in labels else False
 
 
 def forces(study: Study) -> list[ForceEntry]:
@@ -173,8 +176,8 @@ def witness(study: Study) -> dict[str, str] | None:
     if outcome.consistent is not True or any(a.witness is None for a in outcome.answers):
         return None
     found: dict[str, str] = {}
-    for a in outcome.answers:
-        for s, text in (a.witness or {}).items():
+    for told in (outcome.witness, *(a.witness or {} for a in outcome.answers)):
+        for s, text in told.items():
             if s.args[0] in ("coordinate", "parameter", "time") and found.setdefault(str(s.args[1]), text) != text:
                 return None
     names = [c.name for c in study.system.coordinates]
@@ -196,13 +199,13 @@ def modelled(system: System, outcome: Outcome) -> str:
         parts.append(f"{many(touched, 'coordinate')} in {many(len(outcome.blocks), 'independent part')}")
     if outcome.untouched:
         shown = ", ".join(outcome.untouched[:12]) + (", ..." if len(outcome.untouched) > 12 else "")
-        parts.append(f"counted but not computed with, because nothing constrains them: {shown}")
+        parts.append(f"counted but left out of the computation, because nothing constrains them: {shown}")
     finite = sum(not b.forms and not b.nonlinear for b in outcome.blocks)
     if finite:
-        parts.append("no integrability test where all relations are finite (d(dg) = 0)")
+        parts.append("no integrability test where all equations are geometric (d(dg) = 0)")
     parts += _looked_at(outcome)
     if system.forces:
-        parts.append("forces are left out: they do not constrain")
+        parts.append("forces are left out: they are not constraints")
     parts += [f"left out: {told}" for told in system.left_out]
     return "; ".join(parts) or "nothing constrains anything"
 
@@ -218,17 +221,17 @@ def _looked_at(outcome: Outcome) -> Iterator[str]:
     if left_out:
         whole = sum(len(b.rows) for b in outcome.blocks)
         yield (
-            f"{left_out} of {many(whole, 'relation')} {verb(left_out)} in no dependent set (trees and the like): "
-            "not followed"
+            f"{left_out} of {many(whole, 'relation')} {verb(left_out)} in no dependent set (as in open chains), "
+            "so their finite motion was not examined"
         )
     if rigid:
-        yield f"{many(rigid, 'dependent set')} taken for one rigid body each"
+        yield f"{many(rigid, 'dependent set')} treated as one rigid body each"
     if followed and left_out:
-        yield f"{many(followed, 'other dependent set')} followed apart from all else"
+        yield f"{many(followed, 'other dependent set')} examined separately"
     if any(k.spared for k in looked):
         yield (
-            "fewer coordinates where motions were followed (welded bodies and rigid clusters as one, bodies that do "
-            "not turn as particles, what a linear relation gives explicitly)"
+            "fewer coordinates for the finite motions (welded bodies and rigid clusters as one body, bodies that do "
+            "not turn as particles, variables that a linear equation gives explicitly)"
         )
 
 
@@ -236,7 +239,7 @@ def warnings(study: Study) -> list[str]:
     """Lines of text: what was noticed while reading, why something is open, and what is hidden."""
     told = list(study.system.warnings)
     told += [
-        f"not read, so that there may be less freedom: {t}" for t in study.system.left_out if t.startswith(BINDING)
+        f"not read, so the true freedom may be smaller: {t}" for t in study.system.left_out if t.startswith(BINDING)
     ]
     for r in study.reduced:
         for normal in r.normals:
@@ -244,17 +247,30 @@ def warnings(study: Study) -> list[str]:
             if len(normal.branches) > 1:
                 told.append(BRANCH_WARNING.format(name=r.constraint.name))
         told += [f"'{r.constraint.name}': {note}" for note in r.constraint.notes]
-    told += [f"'{study.names[i]}': whether it can hold at all was not decided" for i in study.outcome.unsettled]
+    told += [f"'{study.names[i]}': whether it can be satisfied at all was not decided" for i in study.outcome.unsettled]
     for a in study.outcome.answers:
         told += a.reasons
-        told += [f"hidden finite relation: {to_text(g)} = 0" for g in a.hidden]
+        told += [f"hidden geometric equation: {to_text(g)} = 0" for g in a.hidden]
     if study.outcome.dof is None and study.outcome.consistent is not False:
-        told += _wanting_a_drawing(study.system)
+        told += [
+            f"There is no reference configuration: give {missing}. With a reference configuration more can be decided."
+            for missing in _missing_reference(study.system)
+        ]
     return list(dict.fromkeys(told))
 
 
-def _wanting_a_drawing(system: System) -> Iterator[str]:
-    """What to give of a drawing where the freedom is open and there is none."""
+def about_branches(system: System, branches: Sequence[str]) -> Iterator[str]:
+    """Yield for each branch that alone has the report's freedom how the answer for another branch is obtained."""
+    for branch in branches:
+        for missing in _missing_reference(system):
+            yield (
+                f"The configuration space has branches of different dimension. The degrees of freedom, the redundancy "
+                f"and the coordinates are those of the largest branch, {branch}. To choose a branch, give {missing}."
+            )
+
+
+def _missing_reference(system: System) -> Iterator[str]:
+    """Yield what the scene has to give for a reference configuration, where it has none."""
     known = {str(symbol.args[1]) for symbol in system.pose}
     if system.reference is not None or all(c.name in known for c in system.coordinates):
         return
@@ -265,7 +281,4 @@ def _wanting_a_drawing(system: System) -> Iterator[str]:
         wanted.append("`at` (and `axis`) for the joints")
     if not wanted:
         wanted = ["`configuration`, a value for each coordinate"]
-    yield (
-        f"There is no drawing to look at: give {' and '.join(wanted)}. At a reference configuration it can be decided "
-        "more often."
-    )
+    yield " and ".join(wanted)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import NamedTuple
 
 from dofkit.base.deadline import part, unless_late
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import About, least
 from dofkit.classification.dependence.circuits import Redundancies, left_open
 from dofkit.classification.dependence.conflicts import Conflict, conflict

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from dofkit.base.libraries import LateLibrary, np
+from dofkit.base.libraries import np
 from dofkit.classification.turned_coordinates import ANYWHERE
 from dofkit.configuration.drawing.at_reference import ball_point
 from dofkit.configuration.generic_points import pose_point
+from dofkit.configuration.local import neighbourhood
 from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
@@ -23,11 +24,6 @@ from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.setting import Setting
 from dofkit.system import Rotation
-
-if TYPE_CHECKING:
-    from dofkit.configuration.local import neighbourhood
-else:
-    neighbourhood = LateLibrary("dofkit.configuration.local.neighbourhood")
 
 #: How far a singular or special configuration is left to look at the set nearby, and what counts as 0 there.
 AWAY, ZERO = (0.05, 0.05, 0.05, 0.05, 0.3, 0.6, 0.6, 1.0), 1e-7

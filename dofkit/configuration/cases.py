@@ -7,15 +7,15 @@ only; a part on which ``a`` is 0 may be larger.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.combinations import echelon_by_degree
 from dofkit.exact.solving.ideals import dimension_of
+from dofkit.exact.zero.analyticity import is_analytic
 from dofkit.exact.zero.independence import doubt
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
@@ -62,9 +62,12 @@ def cases_of(
 ) -> list[BoundedCase] | None:
     """The cases of some relations between ``unknowns``; None where there are too many of them.
 
-    Other symbols are generic constants. No case: there is no real point. Where combinations lead to too many cases,
-    those of the relations as they are.
+    Other symbols are generic constants, in which the relations have to be analytic: else what is not 0 everywhere may
+    be 0 through an interval. No case: there is no real point. Where combinations lead to too many cases, those of the
+    relations as they are.
     """
+    if not all(is_analytic(g, g.symbols.difference(unknowns), positive) for g in relations):
+        return None
     found = _cases_of(relations, unknowns, positive, True)
     return _cases_of(relations, unknowns, positive, False) if found is None else found
 

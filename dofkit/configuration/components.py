@@ -17,12 +17,12 @@ from dataclasses import replace
 from functools import partial
 from itertools import product as cartesian
 from math import prod
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from dofkit.base.components import components
 from dofkit.base.deadline import check
-from dofkit.base.libraries import LateLibrary
 from dofkit.base.verdicts import ArgumentKey, weakest
+from dofkit.configuration import cases as all_cases
 from dofkit.configuration.generic_points import field_jacobian, on_variety
 from dofkit.configuration.reality import most_near
 from dofkit.configuration.variety import Variety
@@ -30,6 +30,7 @@ from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero.analyticity import is_analytic
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
@@ -37,18 +38,16 @@ from dofkit.relations.chart import Chart
 from dofkit.relations.normal.zero_set import never_vanishes
 from dofkit.relations.reductions import ReductionName
 
-if TYPE_CHECKING:
-    from dofkit.configuration import cases as all_cases
-else:
-    all_cases = LateLibrary("dofkit.configuration.cases")
-
 #: Relations that are looked at; nodes of an expression past which no coordinate is put into it; cases of all parts
 #: together that are looked at, and that are listed.
 MAX_RELATIONS, MAX_NODES, MAX_TOGETHER, MAX_PRODUCTS = 200, 200, 16, 2000
-LARGER = "over the complex numbers the set has a part of larger dimension, and it was not decided what of it is real"
-NO_CASE = "no configuration satisfies the relations together: each case ends in a relation that holds nowhere"
-NEAR = "the freedom is that of the part of the configuration space near the witness: a larger part was not excluded"
-OTHERS = "the point that was found lies on a part of the set of which it is not known whether others pass through it"
+LARGER = "over the complex numbers the set has a component of larger dimension, and its real points were not decided"
+NO_CASE = "no configuration satisfies all equations: each case leads to an equation without a solution"
+NEAR = (
+    "the freedom is that of the component of the configuration space that contains the witness: a larger "
+    "component was not excluded"
+)
+OTHERS = "whether several components pass through the point that was found was not decided"
 
 _ELIMINATED: tuple[ReductionName, ...] = ("eliminations",)
 
@@ -105,8 +104,27 @@ def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variet
     if open_:
         return near(best) if best is found else _near_its_point(chart, best)
     best = _by(best, "graph" if not parts else "generic fibre" if all(fibres) else "cases")
+    best = replace(best, separating=separating_expressions(together, (best.dimension or 0) - loose))
     exact = all(case.exact for c in cases for case in c or ())
     return best if exact else replace(best, verdict=weakest(best.verdict, "probable"))
+
+
+def separating_expressions(choices: Sequence[Sequence[all_cases.BoundedCase]], largest: int) -> tuple[Expr, ...]:
+    """Return expressions that vanish in every case of the largest dimension and not in every smaller one.
+
+    The shortest come first; where no relation occurs in all large cases, their product is the only one.
+    """
+    cases = [({g for case in choice for g in case.relations}, _most(choice)) for choice in choices]
+    large, small = [c for c, most in cases if most == largest], [c for c, most in cases if most < largest]
+    own = [sorted((g for g in case if any(g not in other for other in small)), key=_length) for case in large]
+    if not own or not all(own):
+        return ()
+    common = [g for g in own[0] if all(g in case for case in large)]
+    return tuple(common) or (ex.mul(*dict.fromkeys(case[0] for case in own)),)
+
+
+def _length(e: Expr) -> tuple[int, str]:
+    return sum(1 for _ in ex.nodes(e)), repr(e)
 
 
 def _found(chart: Chart, relations: Sequence[Expr], look: Callable[[Chart], Variety]) -> Variety:
@@ -125,7 +143,7 @@ def _is_regular(chart: Chart, found: Variety) -> bool:
 
 def by_cases(chart: Chart, found: Variety, look: Callable[[Chart], Variety]) -> Variety:
     """What is known of a set on which no point was found: the first case with points, or that no case has any."""
-    if not 1 < len(chart.relations) <= MAX_RELATIONS:
+    if not 0 < len(chart.relations) <= MAX_RELATIONS:
         return found
     given, left = explicit_relations(chart.relations)
     parts = parts_of(left, [s for s in chart.symbols if s != ex.TIME])
@@ -271,7 +289,8 @@ def _is_parameter(e: Expr) -> bool:
 
 def _is_generic(e: Expr) -> bool:
     """No coordinate in it, and 0 at single moments, or for special parameters, at most."""
-    return all(s.args[0] != "coordinate" for s in e.symbols) and is_identically_zero(e) is False
+    constant = all(s.args[0] != "coordinate" for s in e.symbols)
+    return constant and is_identically_zero(e) is False and is_analytic(e, e.symbols)
 
 
 def _may_be_put(g: Expr, s: Expr, relations: Sequence[Expr]) -> bool:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations, islice, pairwise
 from typing import Any
@@ -18,7 +19,6 @@ from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import nx
-from dofkit.base.records import dataclass
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
@@ -111,7 +111,7 @@ class _Web:
             table[frozenset((a, b))] = side
         elif not at_most and self.twice is None and owner is not None and self._differ(known, side):
             lengths = f"{_side_text(known)} and {_side_text(side)}"
-            self.twice = Unmet(_owners((known, side)), f"{a[1]} and {b[1]} cannot be both {lengths} apart.")
+            self.twice = Unmet(_owners((known, side)), f"{a[1]} and {b[1]} cannot both be {lengths} apart.")
 
     def _differ(self, a: Side, b: Side) -> bool:
         return self._longer(a, [b]) or self._longer(b, [a])

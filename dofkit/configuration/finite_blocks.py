@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from math import isfinite
-from typing import TYPE_CHECKING
 
-from dofkit.base.libraries import LateLibrary
+from dofkit.base.wording import gap_in_words
+from dofkit.configuration.drawing import measured as measured_drawing
+from dofkit.configuration.drawing import measured_as_written
 from dofkit.configuration.drawing.at_reference import AtReference, at_reference, ball_matrix
 from dofkit.configuration.drawing.measured_blocks import drawing_of_block, is_measured, is_tree
 from dofkit.configuration.generic_points import field_jacobian
@@ -29,20 +31,16 @@ from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.setting import Setting
 
-if TYPE_CHECKING:
-    from dofkit.configuration.drawing import measured as measured_drawing
-    from dofkit.configuration.drawing import measured_as_written
-else:
-    measured_as_written = LateLibrary("dofkit.configuration.drawing.measured_as_written")
-    measured_drawing = LateLibrary("dofkit.configuration.drawing.measured")
-
 OFF_REFERENCE = (
-    "the reference configuration does not satisfy all finite relations: the answer is for configurations that do, "
-    "and nothing is said of the reference itself"
+    "the reference configuration does not satisfy all geometric equations: the answer is for configurations that do, "
+    "not for the reference configuration itself"
 )
 #: Measured numbers are not exact: away from where they were measured they prove nothing.
-NOT_DRAWN = "with a tolerance geometry is right near its drawing only, and not everything here is drawn"
-ONE_MOMENT = "at the reference configuration the relations hold at this moment only: no motion passes through it"
+NOT_DRAWN = (
+    "with a tolerance the geometry is valid only near the reference configuration, and not everything "
+    "here has a position there"
+)
+ONE_MOMENT = "the reference configuration satisfies the equations at this instant only: no motion passes through it"
 
 
 def finite_answer(block: Block, setting: Setting) -> Answer:
@@ -68,18 +66,18 @@ def _within_tolerance(block: Block, chart: Chart, setting: Setting) -> Answer:
 def _finite_answer(chart: Chart, setting: Setting) -> Answer:
     if setting.reference is not None:
         drawn = _drawn_answer(chart, setting, setting.reference)
+        if drawn is not None and drawn.consistent is False:
+            return drawn
         if drawn is not None:
             drawn.about, drawn.witness = "reference", of_reference(chart.symbols, setting.reference)
             return drawn
     found = find(chart, setting.pose)
-    result = Answer(
-        found.consistent, found.dimension, found.dimension, found.verdict, found.about, found.argument, gap=found.gap
-    )
+    result = _answer_of(found)
     result.bits = error_bits(chart.ring, chart.nodes, len(chart.columns))
     result.witness = found.witness or of_real_point(chart, found.real)
+    result.separating = found.separating
     if found.argument in ("cases", "regular point"):
         result.real = _real_rows(chart, found.real)
-    result.reasons = list(found.reasons)
     if setting.reference is not None:
         result.reasons.append(OFF_REFERENCE)
     result.method = "rank over GF(p)" + (" and balls" if found.real else "")
@@ -89,6 +87,13 @@ def _finite_answer(chart: Chart, setting: Setting) -> Answer:
         result.method = "real points with balls"
         _numeric_matrix(chart, found.real, result)
     return result
+
+
+def _answer_of(found: Variety) -> Answer:
+    """What is known of a set of configurations, as the answer of a block."""
+    freedom = found.dimension
+    told = Answer(found.consistent, freedom, freedom, found.verdict, found.about, found.argument, gap=found.gap)
+    return replace(told, reasons=list(found.reasons))
 
 
 def _real_rows(chart: Chart, real: RealPoint | None) -> RealRows | None:
@@ -107,10 +112,6 @@ def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
     shown = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
     columns = [i for i, s in enumerate(shown) if s != ex.TIME]
     part = ball_part([[row[c] for c in columns] for row in real.matrix])
-    if part.rank < real.rank:
-        result.consistent, result.dof, result.velocity_dof, result.argument = False, None, None, "time fixed"
-        result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
-        return
     result.dependent = tuple(str(shown[columns[i]].args[1]) for i in part.columns)
 
 
@@ -130,11 +131,6 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
     else:
         result.method = "balls at the given configuration"
         result.dependent = tuple(str(chart.symbols[c].args[1]) for c in found.dependent)
-    if found.local.confined and found.rank == len(chart.columns):
-        result.consistent, result.dof, result.velocity_dof, result.verdict = False, None, None, "probable"
-        result.argument = "time fixed"
-        result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
-        return result
     if found.local.confined:
         return _confined_answer(chart, setting, result)
     if found.local.dimension is None and chart.time is not None:
@@ -149,13 +145,13 @@ def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]
 def _confined_answer(chart: Chart, setting: Setting, result: Answer) -> Answer:
     """No motion passes through the reference; whether one does elsewhere is asked of generic configurations."""
     elsewhere = find(chart, {})
-    result.consistent = False if elsewhere.consistent is False else None
+    if elsewhere.consistent is False:
+        return replace(_answer_of(elsewhere), method=result.method)
     if elsewhere.samples:
         _finite_matrix(chart, elsewhere, result)
-    result.dof = result.velocity_dof = result.instantaneous = None
-    if result.consistent is not False:
-        result.verdict = "undecided"
-        result.reasons.append(ONE_MOMENT)
+    result.consistent = result.dof = result.velocity_dof = result.instantaneous = None
+    result.verdict = "undecided"
+    result.reasons.append(ONE_MOMENT)
     return result
 
 
@@ -173,8 +169,8 @@ def _measured_answer(chart: Chart, setting: Setting, drawing: Mapping[Expr, Expr
         result.consistent, result.verdict, result.argument = False, "numeric", "time fixed"
     elif told.dimension is None and (chart.time is not None or told.reason == measured_drawing.MISSED):
         result.consistent = None
-    exact = "no singular value but 0 itself is taken for 0"
-    gap = f"the gap between singular values is {told.gap:.1e}" if isfinite(told.gap) else exact
+    exact = "only an exact zero counts as a zero singular value"
+    gap = gap_in_words(told.gap, "singular value") if isfinite(told.gap) else exact
     result.reasons.append(f"{told.reason}; {gap}")
     result.matrix, result.modulus = sparse(told.dependencies), 2
     result.dependent = tuple(str(chart.symbols[c].args[1]) for c in told.columns)
@@ -193,19 +189,13 @@ def _floats(found: AtReference) -> dict[Expr, float]:
 
 
 def _finite_matrix(chart: Chart, found: Variety, result: Answer) -> None:
+    """Which relations depend on which, and which coordinates on which, from a point over GF(p)."""
     point = found.samples[0]
-    matrix = field_jacobian(chart, point)
-    n = chart.coordinates
-    rank = rank_of_rows(matrix, point.p)
-    rank_q = rank_of_rows(without_time(matrix, n), point.p) if len(chart.columns) > n else rank
-    result.matrix, result.modulus = matrix, point.p
-    result.dependent = dependent_names(matrix, chart, point.p)
-    if rank_q < rank:
-        result.consistent, result.dof, result.velocity_dof = False, None, None
-        result.verdict, result.argument = "probable", "time fixed"
-        result.reasons.append("the finite relations fix the time: no motion satisfies them through an interval of time")
-        return
-    result.degenerate = result.dof is not None and result.dof != n - rank
+    result.matrix, result.modulus = field_jacobian(chart, point), point.p
+    result.dependent = dependent_names(result.matrix, chart, point.p)
+    result.degenerate = result.dof is not None and result.dof != chart.coordinates - rank_of_rows(
+        result.matrix, point.p
+    )
 
 
 def dependent_names(rows: Sequence[SparseRow], chart: Chart, p: int) -> tuple[str, ...]:

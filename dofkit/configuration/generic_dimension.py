@@ -3,26 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from dofkit.base.deadline import check
-from dofkit.base.libraries import LateLibrary
 from dofkit.base.verdicts import ArgumentKey, Verdict
-from dofkit.configuration.generic_points import field_jacobian, generators_of
-from dofkit.configuration.reality import BALL_COLUMNS, real_point, with_reality
+from dofkit.base.wording import gap_in_words
+from dofkit.configuration.generic_points import field_jacobian, generators_of, has_same_signs, time_is_free
+from dofkit.configuration.local import dimension as local_dimension
+from dofkit.configuration.reality import BALL_COLUMNS, near_singular_point, real_point, with_reality
 from dofkit.configuration.variety import Variety
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.relations.chart import Chart
-
-if TYPE_CHECKING:
-    from dofkit.configuration.local import dimension as local_dimension
-else:
-    local_dimension = LateLibrary("dofkit.configuration.local.dimension")
 
 
 def variety_at(
@@ -30,8 +26,14 @@ def variety_at(
 ) -> Variety:
     """The set near generic points over GF(p) that lie on it, held against a real point.
 
-    ``solver``: what drew them, None where they have given values; ``core``: relations to search a real point of.
+    ``solver``: what drew them, None where they have given values; ``core``: relations to search a real point of. Points
+    at which the time is fixed, or at which a sign is another than at the real point, lie on other parts of the set.
     """
+    real = real_point(chart, seed, core) if len(chart.columns) <= BALL_COLUMNS else None
+    samples = [p for p in samples if time_is_free(chart, p)] or samples
+    samples = [p for p in samples if real is None or has_same_signs(chart, p, real)]
+    if not samples:
+        return near_real_point(chart, real, core)
     ranks = [rank_of_rows(field_jacobian(chart, p), p.p) for p in samples]
     rank = max(ranks)
     samples = [p for p, r in zip(samples, ranks, strict=True) if r == rank]
@@ -51,7 +53,6 @@ def variety_at(
             dimension = None if exact is None else exact - timed
             verdict, argument = "undecided" if exact is None else "probable", local.argument or "generic points"
             reasons.append(local.reason)
-    real = real_point(chart, seed, core) if len(chart.columns) <= BALL_COLUMNS else None
     return with_reality(chart, Variety(True, dimension, verdict, samples, real, reasons, argument=argument), rank)
 
 
@@ -89,3 +90,20 @@ def _free_dimension(chart: Chart, solver: TriangularSolver | None) -> int | None
     if any(index not in of for index in moved):
         return None
     return sum(c < 0 or c not in moved for c in chart.columns)
+
+
+def near_real_point(chart: Chart, real: RealPoint | None, core: Sequence[int]) -> Variety:
+    """The set near a real point, without points over GF(p)."""
+    if real is None:
+        return Variety(None, None, "undecided", reasons=["no configuration satisfying all equations was found"])
+    columns = len(chart.columns)
+    timed = columns - chart.coordinates
+    if real.certified and real.consistent and real.rank == real.solved == len(core) == len(chart.nodes):
+        return Variety(True, columns - real.rank - timed, "proved", [], real, argument="regular point")
+    if not real.certified or not real.consistent:
+        return near_singular_point(chart, Variety(True, None, "proved", [], real))
+    if real.gap > 1e3:
+        why = gap_in_words(real.gap, "pivot")
+        dimension = columns - real.rank - timed
+        return Variety(True, dimension, "numeric", [], real, [why], argument="regular point", gap=real.gap)
+    return Variety(None, None, "undecided", [], real, ["only singular points were found"])

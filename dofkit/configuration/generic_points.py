@@ -7,9 +7,11 @@ from hashlib import sha256
 
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError, PoleError
-from dofkit.exact.matrices.sparse import SparseRow
+from dofkit.exact.matrices.modular import without_time
+from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import Pivots, sparse_frame
+from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.instructions import VAR, reachable
 from dofkit.exact.ring.program import gradient, value_of, values
 from dofkit.exact.ring.ring import Ring
@@ -100,6 +102,27 @@ def pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[Fie
             return []
         found.append(point)
     return found
+
+
+def time_is_free(chart: Chart, point: FieldPoint) -> bool:
+    """Return whether the relations leave the time free to first order at a point."""
+    rows = field_jacobian(chart, point)
+    return chart.time is None or rank_of_rows(without_time(rows, chart.coordinates), point.p) == rank_of_rows(
+        rows, point.p
+    )
+
+
+def has_same_signs(chart: Chart, point: FieldPoint, real: RealPoint) -> bool:
+    """Return whether what stands in absolute values has the same signs at a point over GF(p) as at a real one."""
+    ring = chart.ring
+    signs = [i for i in generators_of(chart) if ring.vars[i].kind == "sign"]
+    if not signs:
+        return True
+    try:
+        here, there = values(ring, point), values(ring, real.point)
+    except NoValueError:
+        return False
+    return all((here[ring.var_node[i]] == 1) == bool(there[ring.var_node[i]] > 0) for i in signs)
 
 
 def generators_of(chart: Chart) -> set[int]:

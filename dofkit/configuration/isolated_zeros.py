@@ -20,7 +20,7 @@ from dofkit.expressions.enclosures import differs_from_zero, interval_of
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
-from dofkit.relations.normal.exact_zeros import analytic_everywhere, analytic_where_defined, candidates
+from dofkit.relations.normal.exact_zeros import candidates, is_analytic_in_coordinates
 
 MAX_RELATIONS = 40
 
@@ -35,7 +35,7 @@ def isolated(chart: Chart, found: Variety) -> Variety | None:
     """
     if "balls" not in chart.engines or chart.time is not None or len(chart.relations) > MAX_RELATIONS:
         return None
-    if not any(all(map(kind, chart.relations)) for kind in (analytic_everywhere, analytic_where_defined)):
+    if not all(is_analytic_in_coordinates(g, poles=True) for g in chart.relations):
         return None
     given, left = explicit_relations(chart.relations)
     symbols = [s for s in chart.symbols if s != ex.TIME]

@@ -10,13 +10,12 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
 from flint import fmpq
 
-from dofkit.base.records import dataclass
 from dofkit.configuration.reality import BALL_COLUMNS
 from dofkit.exact.engines import BOTH
 from dofkit.exact.matrices.modular import without_time
@@ -34,8 +33,8 @@ from dofkit.relations.normal.pieces import Finite, Pfaffian, Piece
 from dofkit.relations.setting import Setting
 
 METHOD = "exact elimination over the rationals"
-CONTRADICTION = "linear relations contradict each other"
-OTHERWISE = "exact elimination over the rationals does not say what points over GF(p) do"
+CONTRADICTION = "the linear equations contradict each other"
+OTHERWISE = "exact elimination over the rationals disagrees with points over GF(p)"
 #: Functions of time that are analytic everywhere: 0 through an interval only if they are 0 always.
 _ENTIRE = frozenset({"sin", "cos", "exp", "sinh", "cosh", "tanh", "atan"})
 

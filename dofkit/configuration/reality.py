@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from flint import arb
 
-from dofkit.base.libraries import LateLibrary
 from dofkit.base.verdicts import weakest
+from dofkit.configuration import singular_points
 from dofkit.configuration.generic_points import generators_of
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
@@ -21,15 +20,10 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
 
-if TYPE_CHECKING:
-    from dofkit.configuration import singular_points
-else:
-    singular_points = LateLibrary("dofkit.configuration.singular_points")
-
 #: Blocks with more columns than this are not certified with balls.
 BALL_COLUMNS = 60
-NEARLY = "relations that are independent by little hold at a real point within its precision; a zero was not certified"
-ALLOWING = "for an unknown function that allows real configurations"
+NEARLY = "nearly dependent equations are satisfied at a real point within its precision, but a zero was not certified"
+ALLOWING = "for an unknown function that admits real configurations"
 
 
 def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:
@@ -61,7 +55,9 @@ def with_reality(chart: Chart, found: Variety, rank: int) -> Variety:
         found.reasons.append(NEARLY)
     if real.rank != rank:
         found.verdict, found.dimension, found.parted = "undecided", None, True
-        found.reasons.append("real points and points over GF(p) disagree about the rank: the set has several parts")
+        found.reasons.append(
+            "real points and points over GF(p) disagree about the rank: the set has several components"
+        )
     elif any(map(_hangs_on_a_function, chart.relations)):
         found.verdict = weakest(found.verdict, "probable")
         found.reasons.append(ALLOWING)
@@ -101,7 +97,7 @@ def _by_field_alone(chart: Chart, found: Variety) -> Variety:
         found.verdict = weakest(found.verdict, "probable")
         return found
     found.consistent, found.dimension, found.verdict = None, None, "undecided"
-    found.reasons.append("the functions that occur may be related in a way that points over GF(p) do not show")
+    found.reasons.append("the functions that occur may satisfy an identity that points over GF(p) do not detect")
     return found
 
 
@@ -113,7 +109,7 @@ def _without_reality(chart: Chart, found: Variety) -> Variety:
         found.reasons.append(ALLOWING)
         return found
     found.consistent, found.dimension, found.verdict = None, None, "undecided"
-    found.reasons.append("no real configuration was found, and none was ruled out")
+    found.reasons.append("no real configuration was found, and none was excluded")
     return found
 
 
@@ -124,7 +120,7 @@ def near_singular_point(chart: Chart, found: Variety) -> Variety:
     if local is None or local.dimension is None or local.confined:
         found.consistent = None
         found.verdict, found.dimension = "undecided", None
-        found.reasons.append("every real configuration that was found is singular; what moves there was not decided")
+        found.reasons.append("every real configuration that was found is singular; the motions there were not decided")
         return found
     found.dimension = local.dimension - (len(chart.columns) - chart.coordinates)
     found.verdict, found.argument = weakest(found.verdict, "numeric"), local.argument

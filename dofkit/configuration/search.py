@@ -7,21 +7,23 @@ agree the rank stands. A real point makes sure that there is a real configuratio
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import partial
 
 from dofkit.base.verdicts import Verdict
 from dofkit.configuration.components import by_cases, of_largest_part
-from dofkit.configuration.generic_dimension import variety_at
-from dofkit.configuration.generic_points import on_variety, pose_samples, samples_for
+from dofkit.configuration.generic_dimension import near_real_point, variety_at
+from dofkit.configuration.generic_points import on_variety, pose_samples, samples_for, time_is_free
 from dofkit.configuration.isolated_zeros import isolated
-from dofkit.configuration.reality import near_singular_point, real_point
+from dofkit.configuration.reality import ALLOWING, real_point
 from dofkit.configuration.variety import Variety
+from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.ring.instructions import VAR, reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
 from dofkit.exact.zero.identity import excludes_zero
 from dofkit.exact.zero.independence import independent_on_set
+from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.ambient import free_point
 from dofkit.relations.chart import Chart
@@ -30,7 +32,8 @@ from dofkit.relations.normal.no_solution import no_solution
 
 #: More relations than this are not searched for a proof that they have no real solution.
 MAX_RELATIONS = 40
-EMPTY = "no real configuration satisfies the relations together: all of space is excluded by certified bounds"
+FIXED = "at the points that were found the geometric equations fix the time: no motion passes through them"
+EMPTY = "no real configuration satisfies all equations: interval bounds exclude every real solution"
 
 
 def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
@@ -38,18 +41,34 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
 
     Where no real point was found it is tried to prove that there is none.
     """
-    found = _variety(chart, pose, seed)
-    looked = {"field", "balls"} <= chart.engines and found.consistent is not True and found.verdict != "proved"
+    found, look = _variety(chart, pose, seed), partial(_variety, pose={}, seed=seed)
+    if _fixes_time(chart, found):
+        found = Variety(None, None, "undecided", reasons=[FIXED], parted=True)
+    timed = chart.time is not None and found.consistent is None and "field" in chart.engines
+    if timed:
+        found = by_cases(chart, found, look)
+    unseen = found.consistent is not True or ALLOWING in found.reasons
+    looked = {"field", "balls"} <= chart.engines and unseen and found.verdict != "proved"
     if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.positive):
         return Variety(False, None, "proved", reasons=[EMPTY], argument="no real solution")
     alone = isolated(chart, found) if found.consistent is None or found.dimension is None else None
     if alone is not None:
         return alone
-    look = partial(_variety, pose={}, seed=seed)
     by_case = found.dimension is None and "field" in chart.engines and (found.consistent is None or found.parted)
-    if by_case:
+    if by_case and not timed:
         found = by_cases(chart, found, look)
-    return of_largest_part(chart, found, look, by_case)
+    return of_largest_part(chart, found, look, by_case or timed)
+
+
+def _fixes_time(chart: Chart, found: Variety) -> bool:
+    """Return whether the relations hold at single instants only near all points that were found."""
+    if chart.time is None or not found.consistent:
+        return False
+    if found.samples or found.real is None:
+        return bool(found.samples) and not time_is_free(chart, found.samples[0])
+    ranked = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
+    rows = [[v for v, s in zip(row, ranked, strict=True) if s != ex.TIME] for row in found.real.matrix]
+    return ball_part(rows).rank < found.real.rank
 
 
 def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
@@ -66,10 +85,10 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
             return variety_at(chart, posed, None, seed, chart.nodes)
     linear = presolve(chart.relations if "eliminations" in chart.reductions else ())
     if linear.contradiction:
-        why = "linear relations contradict each other"
+        why = "the linear equations contradict each other"
         return Variety(False, None, "proved", reasons=[why], argument="linear contradiction")
     if "field" not in chart.engines:
-        return _numerical(chart, seed, chart.nodes)
+        return near_real_point(chart, real_point(chart, seed, chart.nodes), chart.nodes)
     core = [n for i, n in enumerate(chart.nodes) if i not in linear.superfluous]
     others = [n for i, n in enumerate(chart.nodes) if i not in linear.linear]
     solver = TriangularSolver(chart.ring, [*(chart.ring.node(e) for e in linear.reduced), *others], seed=seed)
@@ -81,7 +100,11 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
     if drawn:
         return variety_at(chart, drawn, solver, seed, core)
     samples = pose_samples(chart, pose, seed)
-    return variety_at(chart, samples, None, seed, core) if samples else _numerical(chart, seed, core)
+    return (
+        variety_at(chart, samples, None, seed, core)
+        if samples
+        else near_real_point(chart, real_point(chart, seed, core), core)
+    )
 
 
 def _has_joint_positions(chart: Chart) -> bool:
@@ -92,19 +115,21 @@ def _has_joint_positions(chart: Chart) -> bool:
 def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:
     """What elimination alone says against the relations; None where it says nothing."""
     if solver.plan.special:
-        why = "the relations hold only for special values of the parameters"
+        why = "the equations can be satisfied only for special values of the parameters"
         return Variety(False, None, "probable", reasons=[why], argument="number left over")
     if not solver.plan.contradictory or _signed(chart.ring, solver.plan.witness):
         return None
     if solver.plan.divided:
-        why = "eliminating the unknowns leaves a number that should be 0 and is not, but divides by what may be 0"
+        why = (
+            "eliminating the unknowns leaves a number that should be 0 and is not, but divides by a term that may be 0"
+        )
         return Variety(None, None, "undecided", reasons=[why])
     if "balls" in chart.engines:
         certain = excludes_zero(chart.ring, solver.plan.witness, chart.positive)
     else:
         certain = independent_on_set(chart.ring, chart.nodes)
     if not certain:
-        why = "eliminating the unknowns leaves a number of which it is not known whether it is 0"
+        why = "eliminating the unknowns leaves a number that could not be proved to be zero or nonzero"
         return Variety(None, None, "undecided", reasons=[why])
     why = "eliminating the unknowns leaves a number that should be 0 and is not"
     return Variety(False, None, "probable", reasons=[why], argument="number left over")
@@ -114,21 +139,3 @@ def _signed(ring: Ring, node: int) -> bool:
     """Is there a sign that varies? Another one may make 0 of what is not."""
     inside = (ring.code[i] for i in reachable(ring, [node], through_generators=False))
     return any(op == VAR and ring.vars[k].kind == "sign" and ring.var_expr[k].symbols for op, k in inside)
-
-
-def _numerical(chart: Chart, seed: int, core: Sequence[int]) -> Variety:
-    """Without points over GF(p): real points only."""
-    real = real_point(chart, seed, core)
-    if real is None:
-        return Variety(None, None, "undecided", reasons=["no configuration was found that satisfies all of it"])
-    columns = len(chart.columns)
-    timed = columns - chart.coordinates
-    if real.certified and real.consistent and real.rank == real.solved == len(core) == len(chart.nodes):
-        return Variety(True, columns - real.rank - timed, "proved", [], real, argument="regular point")
-    if not real.certified or not real.consistent:
-        return near_singular_point(chart, Variety(True, None, "proved", [], real))
-    if real.gap > 1e3:
-        why = f"the gap between pivots is {real.gap:.1e}"
-        dimension = columns - real.rank - timed
-        return Variety(True, dimension, "numeric", [], real, [why], argument="regular point", gap=real.gap)
-    return Variety(None, None, "undecided", [], real, ["the only points found are singular"])

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import About, ArgumentKey, Verdict
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealPoint
@@ -20,7 +19,8 @@ class Variety:
     ``consistent``: None where it is not known. ``dimension``: of the configuration space at fixed time (None:
     not decided). ``samples``: points over GF(p) on it; ``real``: a real point with balls; ``about``: is it told of
     the largest part, or of the ``component`` of these points? ``argument``, ``gap``, ``witness``: see `Answer`.
-    ``parted``: these points lie on different parts of it.
+    ``parted``: these points lie on different parts of it. ``separating``: expressions each of which vanishes on every
+    component of this dimension, where there may be others.
     """
 
     consistent: bool | None
@@ -34,3 +34,4 @@ class Variety:
     gap: float = GAP
     witness: Mapping[Expr, str] | None = None
     parted: bool = False
+    separating: tuple[Expr, ...] = ()

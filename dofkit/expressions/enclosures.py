@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from dofkit.expressions.tree import HALF, Expr
+from dofkit.expressions.tree import HALF, Expr, children
 
 if TYPE_CHECKING:
     from flint import arb
@@ -24,26 +24,24 @@ def is_constant(e: Expr) -> bool:
 
 def has_call(e: Expr) -> bool:
     """True where an unknown function occurs."""
-    if e.op in ("num", "sym", "const"):
-        return False
-    if e.op == "call":
-        return True
-    return any(has_call(child) for child in (e.args[1:] if e.op == "fn" else e.args))
+    return "call" in e.functions
 
 
-def interval_of(e: Expr, values: Mapping[Expr, Fraction] | None = None, bits: int = BITS) -> arb | None:
+def interval_of(e: Expr, values: Mapping[Expr, Fraction | arb] | None = None, bits: int = BITS) -> arb | None:
     """A ball that holds the real value of ``e``, symbols replaced by ``values``; None where there is none."""
     from flint import ctx
 
     def go(node: Expr) -> arb:
         if node not in known:
-            parts = () if node.op in ("num", "const", "sym") else node.args[node.op == "fn" :]
-            known[node] = _combined(node, [go(part) for part in parts])
+            known[node] = _combined(node, [go(part) for part in children(node)])
         return known[node]
 
     with ctx.workprec(bits):
         try:
-            known = {symbol: _ball(value) for symbol, value in (values or {}).items()}
+            known = {
+                symbol: _ball(value) if isinstance(value, Fraction) else value
+                for symbol, value in (values or {}).items()
+            }
             found = go(e)
         except (KeyError, ZeroDivisionError, RecursionError, OverflowError):
             return None

@@ -16,12 +16,11 @@ import os
 import sys
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from dofkit.base.errors import DofkitError
-from dofkit.base.records import dataclass
 from dofkit.base.workers.crews import StoppedError
 from dofkit.homework.answers.attribution import by_platform
 from dofkit.homework.answers.prairielearn import answers_of

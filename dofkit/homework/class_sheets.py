@@ -6,13 +6,13 @@ import csv
 import os
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ruamel.yaml import YAML
 
-from dofkit.base.records import dataclass
 from dofkit.base.version import __version__
 from dofkit.base.wording import many
 from dofkit.homework.answers.label_words import word_of

@@ -81,7 +81,18 @@ class Grader:
                 return cast(Result, stop.value)
 
     def steps(self, submission: Submission) -> Generator[Spot, None, Result]:
-        """The same, telling of every answer that takes work that it comes next."""
+        """The same, telling of every answer that takes work that it comes next.
+
+        What fails outside one answer is the error of this submission alone; nobody else loses a result by it.
+        """
+        try:
+            return (yield from self._steps(submission))
+        except MemoryError:
+            raise
+        except Exception as error:
+            return self.refused(submission.student, f"dofkit failed on this submission ({type(error).__name__})")
+
+    def _steps(self, submission: Submission) -> Generator[Spot, None, Result]:
         if submission.error is not None:
             return self.refused(submission.student, submission.error)
         try:
@@ -164,15 +175,15 @@ class Grader:
         try:
             with by_processor(self.seconds), ctx.workprec(PRECISION):
                 found = self._read(question, answer, key, earlier)
+            if self.prepared.assignment.feedback == "full" and found.status in ("wrong", "partly"):
+                return found.saying(question.solution(key))
+            return found
         except OutOfTimeError:
             return needs_review("", "the time for it was not enough.")
         except MemoryError:
             raise
         except Exception as error:
             return needs_review("", say("dofkit failed here ({error}).", error=type(error).__name__))
-        if self.prepared.assignment.feedback == "full" and found.status in ("wrong", "partly"):
-            return found.saying(question.solution(key))
-        return found
 
     def _read(self, question: QuestionBase, answer: Given, key: Key, earlier: Mapping[str, Fraction]) -> Judgement:
         """What an answer is worth, or why it is open where it cannot be read in one way."""
@@ -261,15 +272,34 @@ def unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
 
 
 def grade(assignment: Any, submission: Any, reviewed: str | os.PathLike[str] | None = None) -> Result:
-    """Grade one submission: both are paths, mappings, or what was made of them.
+    """Return the result of one submission: points, status, feedback codes and feedback for every question.
 
-    ``reviewed``: a ``review.csv`` that a person filled in, which goes before what dofkit finds. Raises AssignmentError
-    for what is no assignment, ReviewError for what is no such table and OSError for one that is not there; a submission
-    that cannot be read is a result with its error.
+    Parameters
+    ----------
+    assignment
+        A path, a mapping, or the value of `load_assignment`.
+    submission
+        A path or a mapping.
+    reviewed
+        A ``review.csv`` that a person filled in; its points replace those that dofkit gives.
 
+    Returns
+    -------
+    Result
+        A submission that cannot be read gives a result with its ``error``.
+
+    Raises
+    ------
+    AssignmentError, ReviewError
+        If the assignment or the table of reviews cannot be read.
+    OSError
+        If a file does not exist.
+
+    Examples
+    --------
     >>> scene = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]}
-    >>> asked = {"id": "circle", "scene": scene, "questions": [{"id": "f", "ask": "dof", "points": 2}]}
-    >>> grade({"title": "One", "problems": [asked]}, {"student": "Ana", "answers": {"circle": {"f": "f = 1"}}}).score
+    >>> problem = {"id": "circle", "scene": scene, "questions": [{"id": "f", "ask": "dof", "points": 2}]}
+    >>> grade({"title": "One", "problems": [problem]}, {"student": "Ana", "answers": {"circle": {"f": "f = 1"}}}).score
     2.0
     """
     prepared = assignment if isinstance(assignment, Prepared) else load_assignment(assignment)

@@ -14,10 +14,9 @@ from __future__ import annotations
 import math
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from dofkit.base.records import dataclass
 from dofkit.homework.key.codes import CODES
 from dofkit.homework.own_sheets import structure_told
 from dofkit.homework.result import Item, Result

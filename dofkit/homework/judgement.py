@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
 
 from dofkit.base.errors import TextError
-from dofkit.base.records import dataclass
 from dofkit.homework.result import Status
 from dofkit.homework.sentences.said import Language, Said, say
 

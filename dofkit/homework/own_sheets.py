@@ -11,11 +11,10 @@ import hashlib
 import json
 from collections import Counter
 from collections.abc import Generator, Hashable, Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, TypeVar, cast
 
 from dofkit.base.errors import DofkitError, SceneError
-from dofkit.base.records import dataclass
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.key.key import Key
 from dofkit.homework.problem import Problem, StudentSheet

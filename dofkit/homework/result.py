@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
@@ -52,6 +52,8 @@ class Result(Displayed, ToldModel):
     ``error``: why the submission could not be graded; then there are no items and ``score`` is None. ``doubt``: why a
     person has to say whose it is, where its file and the ``student`` in it, or the platform's user, are not the same.
     """
+
+    _in_brief: ClassVar[tuple[str, ...]] = ("student", "score", "max_score", "error")
 
     student: str
     score: float | None

@@ -13,6 +13,7 @@ from pydantic import TypeAdapter
 from ruamel.yaml import YAML
 
 from dofkit.homework.key.key import Key
+from dofkit.homework.key.polar_angles import polar_angles
 from dofkit.homework.questions import AnyQuestion
 from dofkit.scene.reading import load
 
@@ -36,7 +37,9 @@ def starting(sources: Sequence[str], every: bool = False) -> str:
         name = _unused(scene.name or Path(source).stem, [p["id"] for p in problems])
         key = Key(scene)
         asked = list(questions(key)) if every else list(best_questions(key))
-        problems.append({"id": name, **title, "scene": source, "questions": asked})
+        angles = polar_angles(key)
+        also = {"also": angles} if angles else {}
+        problems.append({"id": name, **title, "scene": source, **also, "questions": asked})
     yaml = YAML()
     yaml.width = 110
     out = StringIO()

@@ -8,11 +8,11 @@ with a constant C that the initial state sets. What is found is proved: dF/dt - 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from itertools import chain
 from itertools import product as cartesian
 
 from dofkit.base.errors import TextError
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.zero.identity import certainly_nonzero, zero_and_verdict
 from dofkit.expressions import tree as ex
@@ -30,8 +30,8 @@ from dofkit.relations.normal.zero_set import zero_set
 #: Factors mu that are tried.
 MAX_FACTORS = 24
 
-NOT_INTEGRABLE = "the second derivatives are not the rate of any function of positions, velocities and time"
-WHAT_TO_DO = "integrate it by hand and write the result, or put it into the equations of motion"
+NOT_INTEGRABLE = "the second derivatives are not the time derivative of any function of positions, velocities and time"
+WHAT_TO_DO = "integrate it by hand and write the result, or write it as an equation of motion"
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,10 @@ def without_accelerations(e: Expr, positive: frozenset[Expr], fresh: Iterator[st
 
 def _integration_note(once: Once, constant: str) -> str:
     times = "" if once.factor == ex.ONE else f", after multiplying by {to_text(once.factor)}"
-    return f"integrated once{times}: {to_text(once.integral)} = {constant}; the constant is set by the initial state"
+    return (
+        f"integrated once{times}: {to_text(once.integral)} = {constant}; the constant is determined by the "
+        "initial conditions"
+    )
 
 
 def integrated_once(e: Expr, positive: frozenset[Expr]) -> Once:

@@ -10,9 +10,9 @@ is there), or where that grows too large or several finite relations hold, at fr
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import permutations
 
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.frames import field_frame
 from dofkit.exact.ring.canonical import Canon, Poly, remainder

@@ -10,11 +10,11 @@ Where one curve is not enough, S_k is what several span together.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from flint import fmpz
 
-from dofkit.base.records import dataclass
 from dofkit.exact.points.frames import FormRows, Pivots, rank_over
 from dofkit.exact.points.series import Series, SeriesPoint
 from dofkit.exact.ring.instructions import Scalar, Var

@@ -35,7 +35,7 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
     found = ball_span(forms, rank, real.point)
     if found is None or part.gap < CLEAR:
         result.verdict, result.consistent = "undecided", None
-        result.reasons.append("the only points found are singular")
+        result.reasons.append("only singular points were found")
         return
     span, _ = found
     reached = span.dimension == total
@@ -48,7 +48,9 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
         result.reasons.append(f"decided at real points of high precision, with a gap of {gap:.1e} between pivots")
     else:
         result.verdict = "undecided"
-        result.reasons.append(f"brackets of the velocities are found down to a gap of {gap:.1e} only: some may be lost")
+        result.reasons.append(
+            f"Lie brackets are resolved down to a gap of {gap:.1e} only, so some may have been missed"
+        )
     if "field" not in forms.chart.engines:
         result.matrix = sparse(dependencies(matrix, part))
         if real.consistent and len(real.rows) == forms.finite and rank == len(matrix):
@@ -57,7 +59,7 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
         finite = isinstance(row.piece, Finite)
         zero = all(v.contains(0) for v in pairing(matrix[place], span.vectors))
         if zero and gap < CLEAR and not finite:
-            result.labels[i] = HolonomyLabel(None, "undecided", "a bracket that tells may be lost to the precision")
+            result.labels[i] = HolonomyLabel(None, "undecided", "a decisive Lie bracket may have been lost to rounding")
             continue
         sure: Verdict = "proved" if finite or not zero else "numeric"
         result.labels[i] = HolonomyLabel(zero, sure)

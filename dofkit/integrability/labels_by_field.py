@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from flint import nmod_mat
 
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.variety import Variety
@@ -100,18 +99,22 @@ def field_labels(
     known = SampledForms(block, forms, good, independent_on_set(forms.chart.ring, forms.chart.nodes))
     if not known.trusted and "balls" not in setting.engines:
         result.verdict = "undecided"
-        result.reasons.append("the functions that occur may be related in a way that points over GF(p) do not show")
+        result.reasons.append("the functions that occur may satisfy an identity that points over GF(p) do not detect")
         return
     result.trusted = known.trusted and (not forms.finite or found.about == "everywhere")
     _set_freedom(known, result, setting)
     if found.dimension is None or found.dimension != forms.n - known.rank_finite:
         result.dof, result.velocity_dof, result.verdict, result.degenerate = None, None, "undecided", True
-        result.reasons.append("the finite relations are singular where they hold; the rest was not decided there")
+        result.reasons.append(
+            "the geometric equations are singular on their solution set; nothing further was decided there"
+        )
         return
     proof_of = certificate(known, found)
     if not known.trusted and (proof_of is None or proof_of[0].dimension != known.sampled.span.dimension):
         result.dof, result.velocity_dof, result.growth, result.verdict = None, None, None, "undecided"
-        result.reasons.append("functions that occur may be related on the set, and no ball tells what is not 0 there")
+        result.reasons.append(
+            "the functions that occur may satisfy an identity on the set, and no certified interval excludes zero there"
+        )
         return
     result.verdict = weakest(found.verdict, _rank_verdict(known, proof_of, setting))
     result.argument = "Lie algebra, certified" if result.verdict == "proved" else "Lie algebra at points"
@@ -119,7 +122,7 @@ def field_labels(
     result.bits = error_bits(forms.chart.ring, nodes, len(forms.rows.entries))
     if any(s.span.dimension != known.sampled.span.dimension for _, s in good):
         result.verdict = weakest(result.verdict, "probable")
-        result.reasons.append("the freedom differs between points: the generic one is given")
+        result.reasons.append("the freedom differs between points; the generic value is given")
     _set_labels(known, proof_of, result)
     result.dependent = _integrable_names(known)
 
@@ -202,7 +205,7 @@ def _label(place: int, known: SampledForms, proof_of: Certificate | None) -> Hol
     if all(zero):
         line = known.columns - known.rank <= 1
         return HolonomyLabel(True, "proved" if line and proof_of is not None else "probable", "line" if line else "")
-    disagree = "exact arithmetic and balls disagree: an identity between functions was not seen"
+    disagree = "exact arithmetic and certified intervals disagree: an identity between functions was not detected"
     if proof_of is None:
         return HolonomyLabel(False, "probable") if known.trusted else HolonomyLabel(None, "undecided", disagree)
     span, matrix = proof_of

@@ -13,13 +13,13 @@ Series of matrices are lists of coefficient matrices; over GF(p) `nmod_mat`, ove
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 from flint import arb_mat, arb_poly, nmod_mat, nmod_poly
 
 from dofkit.base.deadline import affordable, check
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.points.frames import FormRows, Pivots, kernel, rank_over
 from dofkit.exact.points.series import Series, SeriesPoint, series_values, zero_poly

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import chain
 from typing import Any
 
 from flint import arb
 
-from dofkit.base.records import dataclass
 from dofkit.configuration.reality import real_point
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError

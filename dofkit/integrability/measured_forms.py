@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from dofkit.base.libraries import np
-from dofkit.base.records import dataclass
 from dofkit.configuration.drawing.measured import independent_rows
 from dofkit.configuration.drawing.measured_blocks import drawing_of_block
 from dofkit.configuration.drawing.measured_relations import SLACK, MeasuredRelations
@@ -34,10 +34,11 @@ from dofkit.relations.setting import Setting
 
 #: Decimals that were measured are no exact numbers, to which a form would have to be put.
 BESIDE = (
-    "measured relations stand beside differential ones: what these integrate to was not decided within the tolerance"
+    "measured equations occur together with differential ones; whether these integrate was not decided "
+    "within the tolerance"
 )
-CURVED = "no combination of the forms is integrable, beyond what the tolerance may hide"
-LINE = "one direction is left at the most: along it everything integrates"
+CURVED = "no combination of the forms is integrable, by more than the tolerance could hide"
+LINE = "at most one direction is admissible, and along it every form integrates"
 #: Errors of rounding.
 ROUGH = 1e-9
 
@@ -148,7 +149,7 @@ def _forms_at(block: Block, setting: Setting, tangents: _Tangents) -> tuple[Any,
     ring = Ring([e for piece in pieces for e in piece.coefficients.values()], setting.positive)
     nodes = [{name: ring.node(e) for name, e in piece.coefficients.items()} for piece in pieces]
     if any(v.kind == "call" for v in ring.vars):
-        raise OutsideDomainError("what an unknown function is decides")
+        raise OutsideDomainError("the answer depends on the unknown function")
     rng = random.Random("dofkit measured forms")
     place = {v.key: rng.uniform(0.5, 2) for v in ring.vars if v.kind == "symbol"}
     point = FloatPoint({**place, **tangents.at}, 0)

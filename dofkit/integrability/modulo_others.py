@@ -42,10 +42,10 @@ from dofkit.relations.setting import Setting
 VECTORS, CHECKED = 3, 2
 
 NOT_EQUIVALENT = (
-    "a velocity was eliminated by dividing by what vanishes where the finite relations hold: "
-    "what is left of a nonlinear constraint was not decided"
+    "a velocity was eliminated by dividing by a term that vanishes on the geometric equations: "
+    "the remaining nonlinear constraint was not decided"
 )
-NO_VELOCITY = "no velocities were found to hold it against"
+NO_VELOCITY = "no velocities were found at which it could be compared"
 
 
 def blocks_of(slot: RewrittenRow, blocks: Sequence[Block]) -> list[int]:
@@ -123,9 +123,15 @@ def label_modulo_others(
 def _why(slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer]) -> str:
     """Why a relation that reads otherwise beside the others is none of positions."""
     if not slot.rows:
-        return "It holds because of the other constraints, which are not integrable, and no finite relation gives it"
+        return (
+            "It is implied by the other constraints, which are not integrable, and is not a consequence of "
+            "geometric equations"
+        )
     if not any(isinstance(row.piece, (Pfaffian, Nonlinear)) for row in slot.rows):
-        return "Beside the others it says where the system is, but by itself it relates velocities, not positions"
+        return (
+            "Together with the other constraints it restricts the configuration, but on its own it relates "
+            "velocities, not positions"
+        )
     rows = {id(row) for row in slot.rows}
     labels = [
         a.labels.get(i)
@@ -134,8 +140,11 @@ def _why(slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer])
         if id(row) in rows
     ]
     if all(x is not None and x.holonomic for x in labels):
-        return "It is integrable modulo the others, which are not integrable, and no finite relation gives it"
-    return "Beside the others it is linear in the velocities, but not integrable"
+        return (
+            "It is integrable modulo the others, which are not integrable, and is not a consequence of geometric "
+            "equations"
+        )
+    return "Together with the other constraints it is linear in the velocities, but not integrable"
 
 
 def _on_the_kernel(f: Expr, joint: Block, hidden: Sequence[Expr], setting: Setting) -> HolonomyLabel:

@@ -39,12 +39,17 @@ MAX_ORDER = 8
 #: Real states that are looked for, until one agrees with that over GF(p).
 SEEDS = 4
 
-NO_VELOCITIES = "no velocities were found that satisfy the constraints"
-SINGULAR = "the velocities that satisfy the constraints are singular"
-PARTS = "real velocities and those over GF(p) disagree about the rank: the set of them has several parts"
-HIDDEN = "the constraints that are nonlinear in the velocities force a relation that could not be written down"
-AT_REFERENCE = "at the reference no velocities were found that are allowed and regular, as there are elsewhere"
-FLAT = "the velocities that are allowed form flat pieces, which were not written as linear forms"
+NO_VELOCITIES = "no velocities satisfying the constraints were found"
+SINGULAR = "the velocities that satisfy the constraints form a singular set"
+PARTS = (
+    "real velocities and those over GF(p) disagree about the rank: the set of admissible velocities has "
+    "several components"
+)
+HIDDEN = "the constraints that are nonlinear in the velocities imply an equation that could not be written explicitly"
+AT_REFERENCE = (
+    "at the reference configuration no regular admissible velocities were found, although they exist elsewhere"
+)
+FLAT = "the admissible velocities form linear subspaces, which were not written as linear forms"
 
 
 def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None:
@@ -214,7 +219,7 @@ def _open_labels(result: Answer, why: str) -> None:
 def _by_field_alone(states: States, point: FieldPoint | None, result: Answer) -> None:
     """The velocity freedom over the complex numbers; whether the allowed velocities bend is left open."""
     result.dof = None
-    _open_labels(result, "whether the allowed velocities bend takes real ones")
+    _open_labels(result, "real velocities are needed to decide whether the set of admissible velocities is curved")
     if point is None or not states.independent:
         result.velocity_dof, result.verdict = None, "undecided"
         return

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 from flint import arb
 
-from dofkit.base.records import dataclass
 from dofkit.configuration.drawing.at_reference import CLEAR, ball_matrix, ball_point
 from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.errors import NoValueError

@@ -26,6 +26,7 @@ from dofkit.exact.ring.canonical import Canon, divided
 from dofkit.exact.ring.instructions import Point, Scalar
 from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.exact.ring.program import values
+from dofkit.exact.zero.analyticity import is_analytic
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.pfaffian_system import Codistribution
@@ -68,13 +69,13 @@ def prolong(ways: Sequence[Sequence[Expr]], setting: Setting) -> tuple[tuple[Exp
 
 
 def _joint_branches(relations: Sequence[Expr], setting: Setting) -> list[tuple[Expr, ...]] | None:
-    """The branches on which all of some relations hold; None where they are too many."""
+    """The branches on which all of some relations hold; None where they are too many or it is not known."""
     options = []
     for relation in relations:
         if never_vanishes(relation, setting.positive):
             return []
         if not any(s.args[0] == "coordinate" for s in relation.symbols):
-            return []
+            return [] if is_analytic(relation, relation.symbols, setting.positive) else None
         variables = frozenset(s for s in relation.symbols if s.args[0] in ("coordinate", "time"))
         options.append(zero_set(relation, setting.positive, variables)[0])
     if math.prod(map(len, options)) > MAX_TOGETHER:

@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import combinations
-from typing import TYPE_CHECKING
 
-from dofkit.base.libraries import LateLibrary
-from dofkit.base.records import dataclass
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import zero_and_verdict
 from dofkit.exact.zero.independence import odd_constants
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
+from dofkit.integrability.integrals import search
 from dofkit.integrability.traits import exact
 from dofkit.relations.normal.pieces import Pfaffian
-
-if TYPE_CHECKING:
-    from dofkit.integrability.integrals import search
-else:
-    search = LateLibrary("dofkit.integrability.integrals.search")
 
 
 @dataclass(frozen=True)
@@ -54,11 +48,11 @@ def _ring(form: Pfaffian, positive: frozenset[Expr]) -> Ring:
 def proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
     """Why the form integrates by itself, where that is proved; else None."""
     if exact(form, positive) == (True, "proved"):  # [PoincareLemma]
-        return "it is closed, so locally the differential of a function"
+        return "it is closed, so locally it is the differential of a function"
     items = list(form.items())
     symbols = {s for s, _ in items} | {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")}
     if len(symbols) <= 2:  # [Frobenius1877]
-        return "a form in two variables always integrates"
+        return "a form in two variables is always integrable"
     if len(items) <= 5 and _frobenius(items):
         return "d(omega) ^ omega = 0 identically"
     return None

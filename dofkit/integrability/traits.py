@@ -1,21 +1,22 @@
-"""Labels that one piece carries by itself: scleronomic, catastatic, exact."""
+"""Labels that one piece carries by itself: whether time occurs in it, catastatic, exact."""
 
 from __future__ import annotations
 
 import random
-from collections.abc import Callable
+from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import VERDICTS, Verdict, weakest
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.real_search import RealSearch, at_another_time
+from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.solving.triangular import TriangularSolver
+from dofkit.exact.zero.analyticity import is_analytic
 from dofkit.exact.zero.identity import is_proved_zero, zero_and_verdict
 from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
@@ -24,7 +25,7 @@ from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.normal_form import velocities_of
-from dofkit.relations.normal.pieces import Finite, Inequality, Pfaffian, Piece
+from dofkit.relations.normal.pieces import Inequality, Nonlinear, Pfaffian, Piece
 from dofkit.relations.normal.zero_set import never_vanishes
 
 TraitAnswer = tuple[bool | None, Verdict]
@@ -35,85 +36,133 @@ DRAWS, MAX_DEGREE, CLOSE = 8, 64, 1e-9
 
 @dataclass(frozen=True)
 class Traits:
-    """The labels of one piece; ``catastatic`` and ``exact`` are None for what is not Pfaffian."""
+    """The labels of one piece.
 
-    scleronomic: TraitAnswer
+    ``timeless``: t does not occur explicitly; ``catastatic`` is None for what holds no velocities or is an inequality,
+    ``exact`` for what is not Pfaffian.
+    """
+
+    timeless: TraitAnswer
     catastatic: TraitAnswer | None = None
     exact: TraitAnswer | None = None
 
 
 def traits(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH, opened: bool = False) -> Traits:
-    """All labels that a piece carries by itself; ``opened``: its differential is known not to be 0."""
-    still = scleronomic(piece, positive, engines)
+    """Return all labels that a piece carries by itself; ``opened``: its differential is known not to be 0."""
+    without_t = timeless(piece, positive, engines)
+    if isinstance(piece, Nonlinear):
+        return Traits(without_t, _is_cone(piece.expr, positive, engines))
     if not isinstance(piece, Pfaffian):
-        return Traits(still)
+        return Traits(without_t)
     closed: TraitAnswer = (False, "proved") if opened else exact(piece, positive, engines)
-    return Traits(still, catastatic(piece, positive, engines), closed)
+    return Traits(without_t, zero_and_verdict(piece.dt, positive, engines), closed)
 
 
-def scleronomic(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
-    """Time enters neither as t nor as dt, once factors that never vanish are taken out."""
-    if isinstance(piece, Pfaffian):
-        return _pfaffian_without_time(piece, positive, engines)
-    if isinstance(piece, Inequality):
-        return _inequality_without_time(piece.expr, positive)
-    if isinstance(piece, Finite):
-        return _finite_without_time(piece.expr, positive, engines)
-    return _nonlinear_without_time(piece.expr, positive, engines)
+def timeless(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
+    """Return whether t does not occur explicitly, once removable factors are taken out, and how sure that is.
 
-
-def _inequality_without_time(g: Expr, positive: frozenset[Expr]) -> TraitAnswer:
-    """False is proved by a point on the boundary at which dg/dt is not 0: there the boundary moves."""
-    if _factors_without_time(g, positive, never_vanishes):
+    A piece is the zero set of a function of coordinates, velocities and time, or the side of it where the function is
+    positive. What is left of t in the function does not matter where the set is the same at all times.
+    """
+    e = piece.expr if not isinstance(piece, Pfaffian) else _rate(piece)
+    if ex.TIME not in e.symbols:
         return True, "proved"
-    if _moves(g, positive):
+    sided = isinstance(piece, Inequality)
+    if not sided and _is_of_time_alone(e):
+        constant, sure = zero_and_verdict(diff(e, ex.TIME), positive, engines)
+        return (constant, sure) if not constant or is_analytic(e, [ex.TIME], positive) else (None, "undecided")
+    parts = [f for f in _factors_left(e, sided, positive) if ex.TIME in f.symbols]
+    answers = [_is_still(f, sided, positive, engines) for f in parts]
+    if (False, "proved") in answers:
         return False, "proved"
-    return (True, "proved") if _factors_without_time(g, positive, _has_no_zero) else (None, "undecided")
+    kept = [answer for f, answer in zip(parts, answers, strict=True) if not no_solution([f], positive)]
+    return all_of(kept) if not sided or not kept else (None, "undecided")
 
 
-def _nonlinear_without_time(e: Expr, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
-    """Neither t nor a hidden dt: on e = 0 both de/dt and v . de/dv vanish (Euler: the set is a cone in v)."""
-    moving = sorted(velocities_of(e), key=repr)
-    radial = ex.add(*(v * diff(e, v) for v in moving))
-    cone: TraitAnswer = (True, "proved") if _homogeneous(e, radial) else _vanishes_on(e, radial, positive, engines)
-    parts = [_finite_without_time(e, positive, engines), cone]
-    if any(holds is False for holds, _ in parts):
-        return False, min((sure for holds, sure in parts if holds is False), key=VERDICTS.index)
-    return (None, "undecided") if any(holds is None for holds, _ in parts) else (True, weakest(*(s for _, s in parts)))
+def all_of(answers: Sequence[TraitAnswer]) -> TraitAnswer:
+    """Return whether all are true, and how sure that is."""
+    denied = [sure for holds, sure in answers if holds is False]
+    if denied:
+        return False, min(denied, key=VERDICTS.index)
+    if any(holds is None for holds, _ in answers):
+        return None, "undecided"
+    return True, weakest(*(sure for _, sure in answers))
 
 
-def _finite_without_time(g: Expr, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
-    """dg/dt = 0 on g = 0. A point where it is not is found much sooner than it is proved that a factor has no zero."""
-    if ex.TIME not in g.symbols or _factors_without_time(g, positive, never_vanishes):
-        return True, "proved"
-    found = _vanishes_on(g, diff(g, ex.TIME), positive, engines)
-    if found[1] == "proved":
-        return found
-    return (True, "proved") if _factors_without_time(g, positive, _has_no_zero) else found
+def _is_still(f: Expr, sided: bool, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
+    """Return whether the zero set of a factor is the same at all times: df/dt = 0 on it, where it is regular."""
+    moving = [s for s in f.symbols if s.args[0] in ("coordinate", "velocity")]
+    if not moving:
+        return None, "undecided"
+    return vanishes_on(f, diff(f, ex.TIME), positive, engines, None if sided else moving)
 
 
-def _vanishes_on(g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
-    """Is ``slope`` = 0 wherever g = 0? A certified point where it is not is a proof that it is not."""
+def _rate(form: Pfaffian) -> Expr:
+    """Return what a form says of velocities: 0 for those that it allows."""
+    return ex.add(*(a * ex.velocity(name) for name, a in form.coefficients.items()), form.dt)
+
+
+def _factors_left(e: Expr, sided: bool, positive: frozenset[Expr]) -> list[Expr]:
+    """Return the factors of the numerator, over the rationals, without those that can be taken out.
+
+    Those have no zero, or of an equation cannot rest at 0: analytic functions of time alone, which vanish at single
+    instants only [IsolatedZeros], and declared functions, which are generic, beside another factor.
+    """
+    try:
+        ring = Ring([e], positive)
+        node = ring.node(e)
+        canon = Canon(ring)
+        factors = [canon.to_expr(f) for f, _ in canon.factors(canon.quotient(node)[0])]
+    except NoValueError:
+        return [e]
+    kept = [f for f in factors if ex.TIME not in f.symbols or not never_vanishes(f, positive)]
+    return kept if sided else [f for f in kept if not _is_zero_at_instants(f)] or kept
+
+
+def _is_zero_at_instants(f: Expr) -> bool:
+    return _is_declared_function(f) or (_is_of_time_alone(f) and is_analytic(f, [ex.TIME]))
+
+
+def _is_declared_function(e: Expr) -> bool:
+    return all(part.op in ("call", "num") for part in (e.args if e.op == "mul" else (e,)))
+
+
+def _is_of_time_alone(e: Expr) -> bool:
+    return all(s.args[0] in ("time", "parameter") for s in e.symbols) and "call" not in e.functions
+
+
+def _is_cone(e: Expr, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
+    """Return whether e = 0 is homogeneous in the velocities where it holds: v . de/dv = 0 there (Euler)."""
+    radial = ex.add(*(v * diff(e, v) for v in sorted(velocities_of(e), key=repr)))
+    return (True, "proved") if _homogeneous(e, radial) else vanishes_on(e, radial, positive, engines)
+
+
+def vanishes_on(
+    g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engines = BOTH, regular_in: Sequence[Expr] | None = None
+) -> TraitAnswer:
+    """Return whether ``slope`` = 0 wherever g = 0, and how sure that is.
+
+    A certified point where it is not is a proof that it is not; with ``regular_in`` g must not be stationary in these
+    symbols there. What one branch of a root or sign of an absolute value tells is not told of the others.
+    """
     still, sure = zero_and_verdict(slope, positive, engines)
     if still:
-        return True, sure
-    ring = Ring([g, slope], positive)
-    node, rate = ring.node(g), ring.node(slope)
+        return (True, sure) if is_analytic(g, [ex.TIME], positive) else (None, "undecided")
+    slopes = [diff(g, s) for s in sorted(regular_in or (), key=repr)]
+    ring = Ring([g, slope, *slopes], positive)
+    node, rate, *others = (ring.node(e) for e in (g, slope, *slopes))
     point = TriangularSolver(ring, [node]).draw(1) if "field" in engines else None
     if point is not None:
         try:
             if values(ring, point)[rate] == 0:
-                return True, "probable"
+                return (True, "probable") if is_analytic(g, g.symbols, positive) else (None, "undecided")
         except NoValueError:
             return None, "undecided"
     if "balls" not in engines:
         known = point is not None and independent_on_set(ring, [node])
         return (False, "probable") if known else (None, "undecided")
-    search = RealSearch(ring, [node], sorted(g.symbols - {ex.TIME}, key=repr), positive)
-    real = search.search() or at_another_time(search)
-    if real is None:
-        real = RealSearch(ring, [node], sorted(g.symbols, key=repr), positive).search()
-    apart = real is not None and not values(ring, real.point)[rate].contains(0)
+    real = _real_point(ring, node, g, positive)
+    apart = real is not None and _is_apart(ring, real, rate, others)
     if real is not None and apart and real.certified:
         return False, "proved"
     if "field" not in engines:
@@ -121,78 +170,17 @@ def _vanishes_on(g: Expr, slope: Expr, positive: frozenset[Expr], engines: Engin
     return (False, "numeric") if point is not None and apart else (None, "undecided")
 
 
-def _moves(g: Expr, positive: frozenset[Expr]) -> bool:
-    """Is there a certified zero of g at which dg/dt is not 0? False says nothing."""
-    slope = diff(g, ex.TIME)
-    ring = Ring([g, slope], positive)
-    node, rate = ring.node(g), ring.node(slope)
-    try:
-        real = RealSearch(ring, [node], sorted(g.symbols, key=repr), positive).search()
-        return real is not None and real.certified and not values(ring, real.point)[rate].contains(0)
-    except (NoValueError, OverflowError, ValueError):
-        return False
+def _real_point(ring: Ring, node: int, g: Expr, positive: frozenset[Expr]) -> RealPoint | None:
+    """Return a real zero of g, at a random time if possible."""
+    search = RealSearch(ring, [node], sorted(g.symbols - {ex.TIME}, key=repr), positive)
+    real = search.search() or at_another_time(search)
+    return real or RealSearch(ring, [node], sorted(g.symbols, key=repr), positive).search()
 
 
-def _factors_without_time(
-    e: Expr, positive: frozenset[Expr], without_zero: Callable[[Expr, frozenset[Expr]], bool]
-) -> bool:
-    """True where time is left in no factor that can vanish (the numerator's, over the rationals); False: not known."""
-    if ex.TIME not in e.symbols:
-        return True
-    try:
-        ring = Ring([e], positive)
-        node = ring.node(e)
-        canon = Canon(ring)
-        factors = canon.factors(canon.quotient(node)[0])
-        shown = [canon.to_expr(f) for f, _ in factors]
-    except NoValueError:
-        return False
-    return all(ex.TIME not in f.symbols or without_zero(f, positive) for f in shown)
-
-
-def _pfaffian_without_time(form: Pfaffian, positive: frozenset[Expr], engines: Engines) -> TraitAnswer:
-    still, sure = zero_and_verdict(form.dt, positive, engines)
-    if not still:
-        return still, sure
-    coefficients = list(form.coefficients.values())
-    if all(ex.TIME not in e.symbols for e in coefficients):
-        return True, sure
-    turning = [a * diff(b, ex.TIME) - b * diff(a, ex.TIME) for a, b in combinations(coefficients, 2)]
-    told = [zero_and_verdict(e, positive, engines) for e in turning]
-    if any(zero is False for zero, _ in told):
-        return False, min((v for zero, v in told if zero is False), key=VERDICTS.index)
-    if not all(zero for zero, _ in told):
-        return None, "undecided"
-    still = _common_factor_without_zeros(coefficients, positive)
-    return (None, "undecided") if still is None else (still, weakest(sure, *(v for _, v in told)))
-
-
-def _common_factor_without_zeros(coefficients: list[Expr], positive: frozenset[Expr]) -> bool | None:
-    """The direction does not turn: is the factor that carries the time free of zeros? None: not known."""
-    try:
-        ring = Ring(coefficients, positive)
-        nodes = [ring.node(e) for e in coefficients]
-        canon = Canon(ring)
-        common = canon.quotient(nodes[0])[0]
-        for node in nodes[1:]:
-            common = common.gcd(canon.quotient(node)[0])
-        shown = [canon.to_expr(f) for f, _ in canon.factors(common)]
-    except NoValueError:
-        return None
-    timed = [f for f in shown if ex.TIME in f.symbols and not _of_time_alone(f) and not _has_no_zero(f, positive)]
-    if not timed:
-        return True
-    return False if any(_moves(f, positive) for f in timed) else None
-
-
-def _has_no_zero(e: Expr, positive: frozenset[Expr]) -> bool:
-    """Is it proved that ``e`` vanishes at no real point?"""
-    return never_vanishes(e, positive) or no_solution([e], positive)
-
-
-def _of_time_alone(e: Expr) -> bool:
-    """A known function of time: it vanishes at single instants only, and between them the constraint is the same."""
-    return all(s.args[0] in ("time", "parameter") for s in e.symbols) and all(n.op != "call" for n in ex.nodes(e))
+def _is_apart(ring: Ring, real: RealPoint, rate: int, others: list[int]) -> bool:
+    """Return whether a number is not 0 at a point, and one of the others, where there are any, is not either."""
+    found = values(ring, real.point)
+    return not found[rate].contains(0) and (not others or any(not found[k].contains(0) for k in others))
 
 
 def _homogeneous(e: Expr, radial: Expr) -> bool:
@@ -214,11 +202,6 @@ def _ratio(a: Expr, b: Expr) -> Fraction | None:
         near = Fraction(value).limit_denominator(MAX_DEGREE)
         return near if abs(value - near) < CLOSE else None
     return None
-
-
-def catastatic(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
-    """No dt term."""
-    return zero_and_verdict(form.dt, positive, engines)
 
 
 def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:

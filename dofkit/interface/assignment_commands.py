@@ -1,4 +1,4 @@
-"""The commands about assignments: a first one over scenes, the sheet that students get, and one for each student."""
+"""The commands about assignments: a first assignment, the handout for students, and a variant per student."""
 
 from __future__ import annotations
 
@@ -8,11 +8,13 @@ from typing import Annotated, Any
 
 import typer
 
+from dofkit.base.endings import format_of_path
 from dofkit.base.surface import handed_on
 from dofkit.interface import options
 from dofkit.interface.failures import failures_of
+from dofkit.interface.help_panels import PanelCommand
 
-#: What is imported only where a command needs it.
+#: Names that are imported only where a command needs them.
 _HOMES = {
     "class_sheets": "dofkit.homework.class_sheets",
     "load_roster": "dofkit.homework.answers.roster",
@@ -33,33 +35,40 @@ def _of(name: str) -> Any:
 
 
 assignment_app = typer.Typer(
-    help="Write assignments, and the sheets that students get.", no_args_is_help=True, rich_markup_mode=None
+    help="Write assignments, handouts and a variant per student.", no_args_is_help=True, rich_markup_mode=None
 )
 
 
-@assignment_app.command("new")
+@assignment_app.command("new", cls=PanelCommand)
 def new(
-    scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Paths or catalog names.")],
-    every: Annotated[bool, typer.Option("--all", help="All the questions that the scenes can be asked.")] = False,
+    scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Scenes: paths or catalog names.")],
+    every: Annotated[bool, typer.Option("--all", help="Include every question that fits the scenes.")] = False,
 ) -> None:
-    """Print a starting assignment: of each scene the five questions most worth asking."""
+    """Print a first assignment with five questions per scene."""
     with failures_of(None):
         typer.echo(_of("starting")(scenes, every), nl=False)
 
 
-@assignment_app.command("handout")
+@assignment_app.command("handout", cls=PanelCommand)
 def handout(
     assignment: options.Assignment,
-    form: Annotated[str, typer.Option("--format", metavar="NAME", help="html, pdf, tex or md.")] = "html",
+    form: Annotated[
+        str | None, typer.Option("--format", metavar="NAME", help="html (default), pdf, tex or md.")
+    ] = None,
     out: Annotated[
-        Path | None, typer.Option("--out", metavar="PATH", help="The file; by default beside the assignment.")
+        Path | None,
+        typer.Option("--out", metavar="PATH", help="The file, whose ending decides the format."),
     ] = None,
     student: Annotated[
-        str | None, typer.Option("--student", metavar="NAME", help="Whose sheet, where everyone has another.")
+        str | None, typer.Option("--student", metavar="NAME", help="The student whose variant is written.")
     ] = None,
 ) -> None:
-    """Write the sheet that students get: problems, pictures, names, how to write answers; it tells no answer."""
+    """Write the handout for students, with pictures and notation.
+
+    It states the problems, the names and how answers are written, and gives no answer away.
+    """
     with failures_of(assignment):
+        form = form or "html" if out is None else format_of_path(out, _of("HANDOUTS"), form)
         prepared = _of("load_assignment")(assignment)
         target = Path(assignment).with_suffix(f".{form}") if out is None else out
         if target.resolve() == Path(assignment).resolve():
@@ -72,21 +81,22 @@ def handout(
     typer.echo(target)
 
 
-@assignment_app.command("vary")
+@assignment_app.command("vary", cls=PanelCommand)
 def vary(
     assignment: options.Assignment,
-    roster: Annotated[Path, typer.Option("--roster", metavar="TABLE.csv", help="Who is in the course.")],
-    seed: Annotated[str, typer.Option("--seed", metavar="TEXT", help="What the sheets are made from: keep it.")],
-    out: Annotated[Path, typer.Option("--out", metavar="FOLDER", help="Where everything goes.")],
+    roster: Annotated[Path, typer.Option("--roster", metavar="TABLE.csv", help="The students of the course.")],
+    seed: Annotated[str, typer.Option("--seed", metavar="TEXT", help="The seed of the variants: keep it.")],
+    out: Annotated[Path, typer.Option("--out", metavar="FOLDER", callback=options.folder, help="The folder to write.")],
     form: Annotated[
-        str, typer.Option("--format", metavar="NAME", help="Of the sheets: html, pdf, tex or md.")
+        str, typer.Option("--format", metavar="NAME", help="The format of the handouts: html, pdf, tex or md.")
     ] = "html",
-    anew: Annotated[bool, typer.Option("--anew", help="Draw all sheets again, though the folder has some.")] = False,
+    anew: Annotated[bool, typer.Option("--anew", help="Replace the variants that the folder holds already.")] = False,
 ) -> None:
-    """Write a sheet for each student, equally hard, an assignment that grades them all, and a table of what differs.
+    """Write an equally hard variant for every student.
 
-    `dofkit grade FOLDER/assignment.yaml ...` finds everyone's own variant from the seed. The same seed gives a student
-    the same sheet everywhere; every key is proved. Who has a sheet in the folder keeps it when the roster changes.
+    The folder gets a handout per student, one assignment that grades all of them (`dofkit grade FOLDER/assignment.yaml
+    ...`), and a table of the differences. The same seed gives a student the same variant everywhere, and every key is
+    proved. Students who have a variant in the folder keep it when the roster changes.
     """
     with failures_of(assignment):
         made = _of("class_sheets")(assignment, _of("load_roster")(roster), seed, out, anew)
@@ -97,7 +107,7 @@ def vary(
 
 
 def drawing() -> Callable[[Any, Any, str], str | None]:
-    """What draws a scene for a sheet."""
+    """Return the function that draws a scene for a handout."""
     unanswered = _of("unanswered")
 
     def draw(scene: Any, report: Any, title: str) -> str | None:

@@ -1,4 +1,4 @@
-"""The command line: every command reads files, tells what it found of each, and never lets one stop the others."""
+"""The command line: every command answers the files one by one, and no file stops the others."""
 
 from __future__ import annotations
 
@@ -6,42 +6,52 @@ import json
 import math
 import os
 import sys
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from contextlib import closing
 from copy import copy
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, cast
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 
 import typer
 from typer.main import get_command_name
 from typer.models import CommandInfo
 
+from dofkit.base.endings import format_of_path, is_folder_path
+from dofkit.base.errors import ArgumentError
 from dofkit.base.version import __version__
 from dofkit.interface import options
 from dofkit.interface.assignment_commands import assignment_app
-from dofkit.interface.catalog_commands import catalog_app
+from dofkit.interface.catalog_commands import catalog
 from dofkit.interface.export_commands import export_app
 from dofkit.interface.failures import INTERRUPTED, UNREADABLE, failures_of, print_json
+from dofkit.interface.help_panels import MORE, PanelCommand, PanelGroup
 from dofkit.interface.presentation import Telling
 
 if TYPE_CHECKING:
     from dofkit.interface.supervised import Printed
     from dofkit.methods.names import MethodName
 
+Handler = TypeVar("Handler", bound=Callable[..., Any])
+
 app = typer.Typer(
     name="dofkit",
-    help="Tells how a mechanical system can move: degrees of freedom, labels of its constraints, what is redundant.",
+    cls=PanelGroup,
+    help="Determine how a mechanical system can move: its degrees of freedom, constraint labels and redundancy.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-app.add_typer(catalog_app, name="catalog")
-app.add_typer(assignment_app, name="assignment")
-app.add_typer(export_app, name="export")
+app.add_typer(assignment_app, name="assignment", rich_help_panel=MORE)
+app.add_typer(export_app, name="export", rich_help_panel=MORE)
 
-#: Reports of more scenes than this are a line each, unless they are asked for in full.
+#: Reports of more scenes than this are printed as one line each, unless full reports are asked for.
 MOST_IN_FULL = 3
+
+
+def _command(panel: str | None = None) -> Callable[[Handler], Handler]:
+    """Return what adds a function to the command line, under a heading of the help."""
+    return app.command(cls=PanelCommand, rich_help_panel=panel)
 
 
 def _version(asked: bool) -> None:
@@ -56,10 +66,10 @@ def dofkit(
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and stop.")
     ] = False,
 ) -> None:
-    """Tell how a mechanical system can move."""
+    """Determine how a mechanical system can move."""
 
 
-@app.command()
+@_command()
 def classify(
     files: options.Files,
     as_json: options.AsJson = False,
@@ -78,13 +88,16 @@ def classify(
     scheduler: options.Scheduler = None,
     out: options.ReportFolder = None,
 ) -> None:
-    """Classify scenes: degrees of freedom, labels, integrals, redundancy, each with a verdict."""
+    """Report degrees of freedom, constraint labels and redundancy.
+
+    Every answer carries a verdict: proved, probable, numeric or undecided.
+    """
     from dofkit.interface.classification import Asked, classified, watched
 
     if budget is not None and math.isnan(budget):
-        raise typer.BadParameter("it is a number of seconds", param_hint="--budget")
+        raise typer.BadParameter("the budget is a number of seconds", param_hint="--budget")
     if out is not None and (watch or full or how or brief):
-        raise typer.BadParameter("it writes JSON lines, without --watch, --brief, --full, --how", param_hint="--out")
+        raise typer.BadParameter("it cannot be combined with --watch, --brief, --full or --how", param_hint="--out")
     telling = Telling.here(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
     telling = telling._replace(only=options.fields(only), without=options.listed(without), limits=limits)
     asked = Asked(tuple(files), telling, budget, cast("MethodName", method), certificate, options.failures(fail_on))
@@ -94,63 +107,37 @@ def classify(
     raise typer.Exit(status)
 
 
-@app.command()
-def verify(files: options.CertificateFiles, strict: options.Strict = False, as_json: options.AsJson = False) -> None:
-    """Recheck a certificate by a second program: so many of so many claims hold, and what is not covered."""
-    from dofkit.interface.supervised import CertificateGiven, verification
-
-    if len(files) > 2:
-        raise typer.BadParameter("a scene and its certificate, or a certificate alone", param_hint="[SCENE] CERT")
-    out, err, status = verification(CertificateGiven(files[0] if files[1:] else None, files[-1], strict, as_json))
-    typer.echo(out, nl=False)
-    typer.echo(err, nl=False, err=True)
-    raise typer.Exit(status)
+@_command()
+def draw(
+    files: options.Files,
+    drawn_as: options.DrawnAs = "mechanism",
+    out: options.PicturePath = None,
+    form: options.StillKind = None,
+) -> None:
+    """Draw the mechanism, its constraint graph or its directions."""
+    _pictures(files, drawn_as, out, form, options.STILL_KINDS)
 
 
-@app.command()
-def convert(file: options.ModelPath, out: options.ScenePath = None, limits: options.Limits = False) -> None:
-    """Make a scene of a model: MJCF, URDF or a SolveSpace sketch, as a file to go on from."""
-    from dofkit.interface.conversion import write_converted
-
-    with failures_of(file):
-        typer.echo(write_converted(file, out, limits), nl=False)
+@_command()
+def animate(files: options.Files, out: options.PicturePath = None, form: options.MovingKind = None) -> None:
+    """Animate the motion: a page with a slider, a GIF or an MP4."""
+    _pictures(files, "motion", out, form, options.MOVING_KINDS)
 
 
-@app.command()
+@_command()
 def lagrange(
     files: options.Files,
     as_json: options.AsJson = False,
     linearize: options.Linearize = False,
     certificate: options.CertificatePath = None,
 ) -> None:
-    """Derive equations of motion: Lagrangian, momenta, forces, one equation for each coordinate."""
+    """Derive the equations of motion from the energies."""
     from dofkit.interface.supervised import motions
 
     _print(motions(files, linearize, Telling.here(as_json), certificate))
 
 
-def _still(kind: str, about: str) -> None:
-    """A command for a kind of still picture."""
-
-    @app.command(kind, help=about)
-    def still(files: options.Files, out: options.PicturePath = None, form: options.StillKind = "svg") -> None:
-        _pictures(files, kind, out, form)
-
-
-_still("draw", "Draw scenes: ground, bodies, joints by their symbols, what moves, is redundant or contradicts.")
-
-
-@app.command()
-def animate(files: options.Files, out: options.PicturePath = None, form: options.MovingKind = "html") -> None:
-    """Draw scenes in motion: a page with a slider, a gif or an mp4."""
-    _pictures(files, "animate", out, form)
-
-
-_still("graph", "Draw constraints and what they hold as a graph, redundant ones marked.")
-_still("phase", "Draw the directions that differential constraints allow, and those that their brackets add.")
-
-
-@app.command()
+@_command()
 def grade(
     assignment: options.Assignment,
     submissions: options.Submissions,
@@ -163,7 +150,7 @@ def grade(
     reviewed: options.ReviewTable = None,
     roster: options.RosterPath = None,
 ) -> None:
-    """Grade submissions: a result for each, in the order given."""
+    """Grade the submissions of an assignment, with feedback."""
     from dofkit.homework.runs.run import GradingOptions, run
 
     chosen = GradingOptions(form, out, workers, scheduler, check_only, certificates, reviewed, roster)
@@ -173,46 +160,40 @@ def grade(
         raise typer.Exit(UNREADABLE)
 
 
-@app.command()
-def chart(
-    question: options.Questions = None,
-    families: options.Families = None,
-    methods: options.Methods = None,
-    out: options.ChartFolder = Path("dofkit-chart"),
-    source: options.ChartSource = None,
-    quick: options.Quick = False,
-    most: options.Most = None,
-    scheduler: options.Scheduler = None,
-    workers: options.Workers = None,
-    timeout: options.Timeout = None,
-) -> None:
-    """Chart speed against accuracy: every method on scenes whose answers are known."""
-    from dofkit.benchmark.command import ChartOptions, chart
-    from dofkit.benchmark.selecting import Selection
+@_command(MORE)
+def new(file: options.NewPath = None) -> None:
+    """Write a first scene to edit, with the schema for editors."""
+    from dofkit.interface.conversion import write_new
 
-    selection = Selection(question or (), families or (), methods or (), quick, most)
-    with failures_of("chart"):
-        whole = chart(ChartOptions(selection, out, source, scheduler, workers, timeout))
-    if not whole:
-        raise typer.Exit(INTERRUPTED)
+    with failures_of("new"):
+        typer.echo(write_new(file), nl=False)
 
 
-@app.command()
+@_command(MORE)
+def convert(file: options.ModelPath, out: options.ScenePath = None, limits: options.Limits = False) -> None:
+    """Convert a MJCF, URDF or SolveSpace model to a scene."""
+    from dofkit.interface.conversion import write_converted
+
+    with failures_of(file):
+        typer.echo(write_converted(file, out, limits), nl=False)
+
+
+@_command(MORE)
 def explain(
     words: Annotated[
         list[str] | None,
         typer.Argument(
             metavar="WORD",
             show_default=False,
-            help="A code of feedback, a field of a report, a verdict, an argument, a theorem, a type of constraint.",
+            help="A feedback code, report field, verdict, argument, theorem or constraint type.",
             autocompletion=options.explained,
         ),
     ] = None,
     as_json: options.AsJson = False,
 ) -> None:
-    """Explain a word of dofkit: what a code, a field, a verdict, a theorem or a type of constraint means.
+    """Explain a field, verdict, constraint type or feedback code.
 
-    Without a WORD all that can be explained is listed.
+    Without a WORD, list every word that can be explained.
     """
     from dofkit.interface.explanations import explanations_of, listed
 
@@ -221,21 +202,38 @@ def explain(
         typer.echo(listed())
         return
     with failures_of(word):
-        found = explanations_of(word)
-    for told in found:
+        explanations = explanations_of(word)
+    for explanation in explanations:
         if as_json:
-            print_json(told._asdict())
+            print_json(explanation._asdict())
         else:
-            typer.echo(told.text())
+            typer.echo(explanation.text())
 
 
-@app.command()
+_command(MORE)(catalog)
+
+
+@_command(MORE)
+def verify(files: options.CertificateFiles, strict: options.Strict = False, as_json: options.AsJson = False) -> None:
+    """Check a certificate with the independent checker."""
+    from dofkit.interface.supervised import CertificateGiven, verification
+
+    if len(files) > 2:
+        raise typer.BadParameter("a scene and its certificate, or a certificate alone", param_hint="[SCENE] CERT")
+    out, err, status = verification(CertificateGiven(files[0] if files[1:] else None, files[-1], strict, as_json))
+    typer.echo(out, nl=False)
+    typer.echo(err, nl=False, err=True)
+    raise typer.Exit(status)
+
+
+@_command(MORE)
 def schema(
     of: Annotated[
-        str, typer.Argument(metavar="[WHAT]", help="scene, assignment, submission, result, report or chart.")
+        str,
+        typer.Argument(metavar="[WHAT]", help="scene, assignment, submission, result, report or chart."),
     ] = "scene",
 ) -> None:
-    """Print the JSON Schema of a scene, or of what is named."""
+    """Print the JSON Schema of scenes, assignments or reports."""
     if of == "scene":
         from dofkit.scene.schema import scene_schema
 
@@ -253,14 +251,43 @@ def schema(
         raise typer.BadParameter(f"'{of}' is none of scene, {', '.join(SCHEMAS)}, chart", param_hint="WHAT")
 
 
-def _pictures(files: list[str], kind: str, out: Path | None, ending: str) -> None:
+@_command(MORE)
+def chart(
+    question: options.Questions = None,
+    families: options.Families = None,
+    methods: options.Methods = None,
+    out: options.ChartFolder = Path("dofkit-chart"),
+    source: options.ChartSource = None,
+    quick: options.Quick = False,
+    most: options.Most = None,
+    scheduler: options.Scheduler = None,
+    workers: options.Workers = None,
+    timeout: options.Timeout = None,
+) -> None:
+    """Compare methods by speed and accuracy on known scenes."""
+    from dofkit.benchmark.command import ChartOptions, chart
+    from dofkit.benchmark.selecting import Selection
+
+    selection = Selection(question or (), families or (), methods or (), quick, most)
+    with failures_of("chart"):
+        whole = chart(ChartOptions(selection, out, source, scheduler, workers, timeout))
+    if not whole:
+        raise typer.Exit(INTERRUPTED)
+
+
+def _pictures(files: list[str], kind: str, out: Path | None, form: str | None, known: tuple[str, ...]) -> None:
     from dofkit.interface.supervised import pictures
 
-    _print(pictures(files, kind, None if out is None else str(out), ending))
+    if out is not None and not is_folder_path(out):
+        with failures_of("--out"):
+            form = format_of_path(out, known, form)
+            if len(files) > 1:
+                raise ArgumentError(f"'{out}' is one file, and {len(files)} scenes are drawn: name a folder")
+    _print(pictures(files, kind, out, form or known[0]))
 
 
 def _print(printed: Generator[Printed]) -> None:
-    """Print what there is of each file; the exit status tells whether one could not be read."""
+    """Print the output for each file; exit with status 2 if a file could not be read."""
     from dofkit.interface.classification import echo
 
     failed = False
@@ -273,11 +300,11 @@ def _print(printed: Generator[Printed]) -> None:
 
 
 def _app_for(words: list[str]) -> typer.Typer:
-    """The command line; where its first word names a command, with no other: to make all ready takes longer."""
-    found = copy(app)
-    found.registered_commands = [one for one in app.registered_commands if [_name_of(one)] == words]
-    found.registered_groups = [one for one in app.registered_groups if [one.name] == words]
-    return found if found.registered_commands or found.registered_groups else app
+    """Return the command line; where its first word names a command, with that command only, which starts sooner."""
+    only = copy(app)
+    only.registered_commands = [command for command in app.registered_commands if [_name_of(command)] == words]
+    only.registered_groups = [group for group in app.registered_groups if [group.name] == words]
+    return only if only.registered_commands or only.registered_groups else app
 
 
 def _name_of(command: CommandInfo) -> str | None:
@@ -285,7 +312,7 @@ def _name_of(command: CommandInfo) -> str | None:
 
 
 def main() -> None:
-    """Run the command line; no exit is untidy."""
+    """Run the command line; an interrupt or a closed pipe ends it without a traceback."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")

@@ -1,23 +1,37 @@
-"""The command `convert`: a model of others as the file of a scene that a person can go on from."""
+"""The commands `new` and `convert`: a first scene, or the scene of a model, as a file to edit."""
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 from dofkit.base.errors import DofkitError, SceneError
 from dofkit.base.version import __version__
-from dofkit.models import ModelFile, read_model
-from dofkit.models.formats import is_model
+from dofkit.models.formats import is_model, read_model
+from dofkit.models.model_document import ModelFile
 from dofkit.models.scene_text import scene_text
 from dofkit.scene.found_files import find
 from dofkit.scene.reading import SceneFile
+from dofkit.scene.schema import scene_schema
+
+#: The schema beside a scene; its name is hidden, so that it is not read as a scene of the folder.
+SCHEMA = ".dofkit-schema.json"
+FIRST_SCENE = """\
+title: A pendulum on a cart
+dimension: 2
+parameters: {l: positive}
+particles: [cart, bob]
+constraints:
+- {name: rail, type: equation, text: "y_cart = 0"}
+- {name: rod, type: link, between: [cart, bob], length: l}
+"""
 
 
 def converted(file: str, limits: bool = False) -> str:
-    """The scene of a model as YAML. Raises SceneError for what is no model or at fault."""
+    """Return the scene of a model as YAML. Raises DofkitError for a file that is not a model or has faults."""
     found = find(file)
     if not is_model(found.data):
-        raise DofkitError(f"'{file}' is no model of others: it is read as a scene as it is")
+        raise DofkitError(f"'{file}' is not a model: only MJCF, URDF and SolveSpace files are converted")
     scene = SceneFile.read(found.data, found.name, found.path, limits)
     try:
         scene.scene()
@@ -26,19 +40,33 @@ def converted(file: str, limits: bool = False) -> str:
     model = read_model(ModelFile(found.data, found.name, found.path, limits))
     remarks = [f"Made from {Path(file).name} by dofkit {__version__}."]
     if model.tolerance is not None and "tolerance" not in model.value:
-        remarks.append(
-            f"A tree of joints: no place in it is special. Where you close a loop add `tolerance: {model.tolerance:g}`."
-        )
+        remarks.append(f"The joints form a tree. If you close a loop, add `tolerance: {model.tolerance:g}`.")
     return scene_text({"name": found.name, **model.value}, tuple(remarks))
 
 
 def write_converted(file: str, out: Path | None, limits: bool) -> str:
-    """Write the scene of a model to a path, or give its text; what to print."""
-    text = converted(file, limits)
+    """Write the scene of a model to a path, or return its text where there is none; return what to print."""
+    return _written(converted(file, limits), out)
+
+
+def write_new(out: Path | None) -> str:
+    """Write a first scene to a path, or return its text where there is none; return what to print.
+
+    Raises DofkitError where the file exists.
+    """
+    if out is not None and out.exists():
+        raise DofkitError(f"'{out}' exists: name a new file")
+    return _written(FIRST_SCENE, out)
+
+
+def _written(text: str, out: Path | None) -> str:
+    """Write a scene, and beside it the schema by which editors complete and check it."""
     if out is None:
         return text
     try:
-        out.write_text(text, encoding="utf-8")
+        out.parent.mkdir(parents=True, exist_ok=True)
+        out.with_name(SCHEMA).write_text(json.dumps(scene_schema(), indent=1) + "\n", encoding="utf-8")
+        out.write_text(f"# yaml-language-server: $schema={SCHEMA}\n{text}", encoding="utf-8")
     except OSError as error:
         raise DofkitError(f"the scene cannot be written to '{out}': {error.strerror or error}") from None
     return f"{out}\n"

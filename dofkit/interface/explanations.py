@@ -1,4 +1,4 @@
-"""What dofkit's words mean: codes of feedback, fields, verdicts, arguments, theorems, types and labels."""
+"""The meaning of words: codes of feedback, fields, verdicts, arguments, theorems, types and labels."""
 
 from __future__ import annotations
 
@@ -20,25 +20,32 @@ from dofkit.scene.synonyms import synonyms
 
 _THEOREM = re.compile(r"^\| `(?P<key>\w+)` \| (?P<author>[^|]+) \| (?P<year>[^|]+) \| (?P<says>[^|]+) \|", re.MULTILINE)
 _WIDTH = 88
-#: Words of mechanics that are no field.
+#: Terms of mechanics that are no field.
 _WORDS = {
-    "non-holonomic": "Of a constraint on velocities: no relation between coordinates and time has it as a consequence. "
-    "It limits velocities, and leaves all configurations within reach.",
-    "rheonomic": "Time enters the constraint: a support that is moved, a length that changes.",
-    "unilateral": "An inequality: it stops a motion from one side, and takes no degree of freedom away.",
+    "non-holonomic": "Said of a constraint on velocities that is not integrable: no equation between coordinates and "
+    "time implies it. It restricts the velocities, not the configurations that can be reached.",
+    "rheonomic": "Time occurs explicitly (Greenwood's definition), in the constraint or in the equation that it "
+    "integrates to: a support that is moved, a length that changes, `xdot = v` with x = v t + C. A constraint that "
+    "does not hold t and is not integrable, such as `xdot^2 + ydot^2 = v^2`, is scleronomic.",
+    "acatastatic": "A Pfaffian form with a term in dt, or a nonlinear constraint that is not homogeneous in the "
+    "velocities, such as a prescribed speed. See catastatic.",
+    "unilateral": "An inequality: it restricts the motion on one side, and does not reduce the number of degrees of "
+    "freedom.",
     "pfaffian": "Linear in the velocities: a_1 dx_1 + ... + a_n dx_n + b dt = 0.",
-    "nonlinear": "Not linear in the velocities: its square, a product of them, a speed that is prescribed.",
-    "finite": "A relation between coordinates and time, without velocities.",
-    "inequality": "A relation with <= or >=: it bounds the motion and takes no degree of freedom away.",
-    "redundant": "It follows from the others: without it the same motions are left.",
-    "degrees of freedom": "Here the dimension of the configuration space (`dof`); `velocity_dof` counts velocities.",
-    "reference configuration": "The configuration that the scene is drawn in: `at`, `axis`, `configuration`.",
-    "general position": "Places and directions without anything special: none parallel, concurrent or in line.",
+    "nonlinear": "Not linear in the velocities: a square or a product of velocities, a prescribed speed.",
+    "finite": "A configuration-level (geometric) constraint: it relates coordinates and time, without velocities.",
+    "inequality": "A relation with <= or >=. It does not reduce the number of degrees of freedom.",
+    "redundant": "Implied by the other constraints: without it the motion is the same.",
+    "degrees of freedom": "The dimension of the configuration space (`dof`). The number of independent admissible "
+    "velocities is `velocity_dof`.",
+    "reference configuration": "The configuration that a scene gives by `at`, `axis` and `configuration`.",
+    "general position": "Positions and directions without anything special: none parallel, concurrent or collinear.",
+    "generic": "In general position; true of almost all configurations.",
     "growth vector": "See growth_vector.",
-    "certificate": "The evidence of what is proved; `dofkit verify` rechecks it by a second program.",
-    "reference": "In `about`: the claim speaks of the configurations near the drawing.",
-    "component": "In `about`: the claim speaks of the part of the configurations that holds the `witness`.",
-    "everywhere": "In `about`: the claim speaks of all configurations.",
+    "certificate": "The evidence for what is proved; `dofkit verify` checks it with an independent program.",
+    "reference": "In `about`: the claim is about the configurations near the reference configuration.",
+    "component": "In `about`: the claim is about the component of the configuration space that contains the `witness`.",
+    "everywhere": "In `about`: the claim is about all configurations.",
 }
 
 
@@ -100,7 +107,7 @@ def all_explanations() -> tuple[Explanation, ...]:
         *(Explanation(name, "verdict", _sentence(meaning)) for name, meaning in VERDICT_MEANS.items()),
         *(Explanation(word, "word", meaning) for word, meaning in _WORDS.items()),
         *(_type(name, cls) for name, cls in TYPES.items()),
-        *(Explanation(word, "another word", f"In a scene: `{kind}`.") for word, kind in synonyms().items()),
+        *(Explanation(word, "synonym", f"In a scene: `{kind}`.") for word, kind in synonyms().items()),
         *_arguments(),
         *_theorems(),
     )
@@ -126,7 +133,7 @@ def _type(name: str, cls: type[ConstraintBase]) -> Explanation:
 def _arguments() -> Iterator[Explanation]:
     for key, row in TABLE.items():
         theorem = f" Theorem: {row.theorem}." if row.theorem else ""
-        yield Explanation(key, "argument", f"It shows: {row.claims}. It holds because: {row.hypotheses}.{theorem}")
+        yield Explanation(key, "argument", f"It shows: {row.claims}. Hypotheses: {row.hypotheses}.{theorem}")
 
 
 def _theorems() -> Iterator[Explanation]:

@@ -1,4 +1,4 @@
-"""The commands ``dofkit export ...``: what course platforms need to grade an assignment, and results for others."""
+"""The commands ``dofkit export ...``: assignments and results in the formats of course platforms."""
 
 from __future__ import annotations
 
@@ -9,28 +9,33 @@ import typer
 
 from dofkit.interface import options
 from dofkit.interface.failures import failures_of
+from dofkit.interface.help_panels import PanelCommand
 
 export_app = typer.Typer(
-    help="Write what a course platform needs to grade an assignment.", no_args_is_help=True, rich_markup_mode=None
+    help="Export assignments and grades for course platforms.", no_args_is_help=True, rich_markup_mode=None
 )
 
 
-@export_app.command("gradescope")
+@export_app.command("gradescope", cls=PanelCommand)
 def export_gradescope(
     assignment: options.Assignment,
-    out: Annotated[Path, typer.Option("--out", metavar="PATH", help="The zip to upload.")] = Path("autograder.zip"),
+    out: Annotated[
+        Path, typer.Option("--out", metavar="PATH", callback=options.file_of("zip"), help="The zip to upload.")
+    ] = Path("autograder.zip"),
     python: Annotated[
         list[str] | None,
         typer.Option(
-            "--python", metavar="VERSION", help="A Python there; may be given again. By default 3.11 to 3.13."
+            "--python",
+            metavar="VERSION",
+            help="A Python version on the platform; may be repeated. Default: 3.11 to 3.13.",
         ),
     ] = None,
     wheels: Annotated[
-        bool, typer.Option(help="Put in dofkit and all it needs, so that no network is needed there.")
+        bool, typer.Option(help="Include dofkit and its dependencies, so that no network is needed.")
     ] = True,
     reviewed: options.ReviewTable = None,
 ) -> None:
-    """Write the autograder of an assignment for Gradescope, as one zip to upload."""
+    """Write a Gradescope autograder as one zip to upload."""
     from dofkit.homework import export
 
     with failures_of(assignment):
@@ -40,12 +45,17 @@ def export_gradescope(
         typer.echo(f"{out}: {note}", err=True)
 
 
-@export_app.command("otter")
+@export_app.command("otter", cls=PanelCommand)
 def export_otter(
     assignment: options.Assignment,
-    out: Annotated[Path, typer.Option("--out", metavar="FOLDER", help="Where the notebook goes.")] = Path("otter"),
+    out: Annotated[
+        Path, typer.Option("--out", metavar="FOLDER", callback=options.folder, help="The folder to write.")
+    ] = Path("otter"),
 ) -> None:
-    """Write an assignment's master notebook for `otter assign`, and the two files that its tests read."""
+    """Write the master notebook for `otter assign`.
+
+    Two files that the notebook's tests read are written beside it.
+    """
     from dofkit.homework import export
 
     with failures_of(assignment):
@@ -53,15 +63,17 @@ def export_otter(
             typer.echo(path)
 
 
-@export_app.command("grades")
+@export_app.command("grades", cls=PanelCommand)
 def export_grades(
     assignment: options.Assignment,
-    results: Annotated[Path, typer.Argument(metavar="RESULTS", help="results.jsonl of `dofkit grade`, or its folder.")],
-    form: Annotated[str, typer.Option("--format", metavar="NAME", help="What a gradebook or platform reads.")],
-    out: Annotated[Path, typer.Option("--out", metavar="PATH", help="Where to write.")],
+    results: Annotated[
+        Path, typer.Argument(metavar="RESULTS", help="The results.jsonl of `dofkit grade`, or its folder.")
+    ],
+    form: Annotated[str, typer.Option("--format", metavar="NAME", help="The format of a gradebook or platform.")],
+    out: Annotated[Path, typer.Option("--out", metavar="PATH", help="The file or folder to write.")],
     roster: options.RosterPath = None,
 ) -> None:
-    """Write results that are there for another platform: nothing is graded again."""
+    """Write existing results in another format, without regrading."""
     from dofkit.homework.runs.conversion import convert
     from dofkit.homework.runs.run import GradingOptions
 

@@ -1,67 +1,72 @@
-"""What each field of a report means, and each of a constraint in it."""
+"""The meaning of each field of a report, and of each constraint in it."""
 
 from __future__ import annotations
 
 #: Of a report.
 OF_REPORT: dict[str, str] = {
     "scene": "the scene's name",
-    "consistent": "false where no configuration, or no motion, satisfies all equations; conflicting then names a "
-    "minimal set",
-    "feasible": "whether the inequalities can all be met together with the constraints; null where undecided, or "
-    "without any",
-    "infeasible": "a minimal set of constraints with inequalities that cannot be met together",
-    "feasible_at": "a certified point where all inequalities hold",
-    "dof": "degrees of freedom: the dimension of the configuration space, coordinates less independent finite "
-    "relations, hidden ones included; non-holonomic constraints and inequalities do not reduce it",
-    "velocity_dof": "independent velocities of finite motions; non-holonomic constraints reduce it too",
-    "instantaneous_dof": "velocities that the constraints allow to first order at the reference configuration",
-    "singular": "true where more velocities are allowed to first order than belong to motions",
-    "holonomic": "true where every constraint is: it follows from relations between coordinates (and time)",
-    "scleronomic": "true where time enters no constraint",
-    "count": "the lecture's count f = N d - k of all finite equations as written, and why it errs",
-    "redundant_equations": "how many scalar equations are too many",
-    "redundant": "constraints that can be dropped together without changing any motion, as many as possible",
-    "redundancies": "groups of constraints that depend on each other, and how many equations each has too many",
+    "consistent": "true if a configuration satisfies all equations at one time; false if no configuration, or no "
+    "motion, does; conflicting then names a minimal set; each inequality is considered on its own",
+    "feasible": "whether all inequalities can be satisfied together with the constraints; null if undecided, or if "
+    "there are none",
+    "infeasible": "a minimal set of constraints with inequalities that cannot be satisfied together",
+    "feasible_at": "a certified point at which all inequalities are satisfied",
+    "dof": "degrees of freedom: the dimension of the configuration space, which is the number of coordinates less the "
+    "number of independent holonomic equations, hidden ones included; non-holonomic constraints and inequalities do "
+    "not reduce it",
+    "velocity_dof": "velocity freedom: the number of independent admissible velocities of finite motions; "
+    "non-holonomic constraints reduce it too",
+    "instantaneous_dof": "instantaneous freedom: the number of independent velocities that the constraints allow at "
+    "the reference configuration",
+    "singular": "true if the instantaneous freedom differs from the velocity freedom",
+    "holonomic": "true if every constraint is: it is implied by equations between coordinates (and time)",
+    "scleronomic": "true if time occurs explicitly in no constraint, nor in an equation that one integrates to",
+    "count": "the textbook count f = N d - k of all holonomic equations as written, and why the count is off",
+    "redundant_equations": "the number of scalar equations that depend on the others",
+    "redundant": "a maximal redundant set: constraints that can be removed together without changing the motion",
+    "redundancies": "groups of constraints that depend on each other, and the number of dependent equations in each",
     "conflicting": "a minimal set of constraints that contradict each other",
     "generalized_coordinates": "an independent choice among the scene's coordinates, one for each degree of freedom",
-    "joint_coordinates": "of a tree of bodies that joints alone hold: angles and displacements of joints that "
-    "describe it, one for each degree of freedom; null for any other",
-    "growth_vector": "dimensions of the directions that differential constraints allow, then with their brackets, "
-    "and so on",
-    "integrable_part": "the finite relations that all differential constraints together amount to",
-    "generic": "the freedom of the same joints in general position, and what is special about the drawing",
-    "mobility": "the count of Gruebler and Kutzbach beside the truth, and why they differ",
+    "joint_coordinates": "joint angles and displacements that describe a tree of bodies, one for each degree of "
+    "freedom; null for any other scene",
+    "growth_vector": "the dimensions of the distribution D of admissible directions, of D + [D, D], and so on",
+    "integrable_part": "the holonomic equations that all differential constraints imply together",
+    "generic": "the mobility in general position, and why the reference configuration is not generic",
+    "mobility": "the mobility by the formula of Gruebler and Kutzbach, and why it differs from the true one",
     "constraints": "the constraints in order, each with its labels, its verdict and the reason",
-    "forces": "forces, and why they are no constraints",
-    "special_cases": "places and values of parameters where the answer is another one",
-    "verdict": "how sure the report is: the weakest of all verdicts in it",
-    "verdicts": "how sure each field is, by which argument, with which bound, and of which points it speaks",
+    "forces": "the forces, and why they are no constraints",
+    "special_cases": "configurations and parameter values at which the answer is another one",
+    "verdict": "how certain the report is: the weakest of all its verdicts",
+    "verdicts": "how certain each field is, with the argument, the bound, and the points that the claim is about",
     "witness": "a certified configuration: coordinate -> value",
-    "certificate": "evidence of what is proved, for `dofkit verify`",
-    "method": "what ran",
-    "modelled": "what was computed with and what was left out, and why",
-    "warnings": "what was noticed, and why something is open",
+    "certificate": "the evidence for what is proved, which `dofkit verify` checks",
+    "method": "the method that was used",
+    "modelled": "what was kept in the model, what was left out, and why",
+    "warnings": "remarks, and why something is undecided",
 }
 
 #: Of a constraint's entry.
 OF_CONSTRAINT: dict[str, str] = {
     "name": "as written, or c1, c2, ... by position",
-    "type": "the type of constraint",
+    "type": "the constraint type",
     "text": "as written",
-    "form": "finite, pfaffian (linear in velocities), nonlinear (in velocities) or inequality",
-    "holonomic": "is it, in this system, a consequence of relations between coordinates (and time)?",
-    "holonomic_alone": "the same with all other constraints forgotten",
-    "scleronomic": "does time not enter?",
-    "catastatic": "has a form linear in velocities no term with dt? null for any other",
+    "form": "finite, pfaffian (linear in the velocities), nonlinear (in the velocities) or inequality",
+    "holonomic": "whether it is, in this system, implied by equations between coordinates (and time)",
+    "holonomic_alone": "the same without all other constraints",
+    "scleronomic": "whether time does not occur explicitly, nor in the equation that it integrates to (Greenwood's "
+    "definition); factors that never vanish, analytic functions of t alone and declared functions are taken out "
+    "first",
+    "catastatic": "whether a Pfaffian form has no term in dt, or a nonlinear constraint is homogeneous in the "
+    "velocities; null for any other",
     "bilateral": "false for an inequality",
-    "exact": "is the form, as written, the differential of a function?",
-    "integrating_factor": "what makes the form exact",
-    "integral": "the finite relation that it integrates to, such as x*y = C",
-    "circuit": "of a redundant one: a minimal set of constraints before it that it follows from",
-    "equations": "its scalar equations",
-    "independent": "how many of them do not follow from those before",
-    "redundant_equations": "those that do, in words",
-    "verdict": "how sure its labels are: the weakest of them",
-    "verdicts": "how sure each label is",
+    "exact": "whether the form, as written, is the differential of a function",
+    "integrating_factor": "a factor that makes the form exact",
+    "integral": "the equation that it integrates to, such as x*y = C",
+    "circuit": "for a redundant constraint: a minimal set of earlier constraints that it is implied by",
+    "equations": "the number of its scalar equations",
+    "independent": "how many of them are independent of all before",
+    "redundant_equations": "those that are not, in words",
+    "verdict": "how certain its labels are: the weakest of their verdicts",
+    "verdicts": "how certain each label is",
     "reason": "why, for a student",
 }

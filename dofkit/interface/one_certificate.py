@@ -10,7 +10,7 @@ from dofkit.base.errors import DofkitError
 from dofkit.base.workers import Json
 from dofkit.checker import CheckError, Verification, verify
 from dofkit.interface.supervised import CertificateGiven
-from dofkit.methods import certificates
+from dofkit.methods.certificates import verifying
 from dofkit.motion_checker import MOTION_RULES
 from dofkit.scene.found_files import find
 
@@ -40,7 +40,7 @@ def _verified(given: CertificateGiven) -> Verification:
     try:
         return verify(data if isinstance(data, str) else data.decode("utf-8"), certificate, MOTION_RULES)
     except (CheckError, UnicodeDecodeError):
-        return certificates.verify(given.scene, certificate)
+        return verifying.verify(given.scene, certificate)
 
 
 def _unread(given: CertificateGiven, message: str) -> Json:

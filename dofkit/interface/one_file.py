@@ -21,7 +21,7 @@ from dofkit.interface.show.terminal import Screen
 from dofkit.interface.supervised import STDIN, Cut, Given
 from dofkit.methods.classify import with_certificate
 from dofkit.methods.stages import classified, lowered, stages
-from dofkit.motion import lagrange
+from dofkit.motion.lagrange.equations import lagrange
 from dofkit.report import Report
 from dofkit.scene.found_files import FoundFile, find
 from dofkit.scene.reading import SceneFile
@@ -29,6 +29,7 @@ from dofkit.scene.scene import Scene
 
 #: What only some options need, imported there.
 _USED_BY_OPTIONS = {
+    "as_the_scene": "dofkit.interface.show.decimals",
     "certificate_of_motion": "dofkit.methods.certificates.motion_evidence",
     "changed": "dofkit.interface.show.changes",
     "selected_line": "dofkit.interface.selection",
@@ -124,7 +125,10 @@ def _told(whole: Scene, scene: Scene, report: Report, given: Given, start: float
     told = report.model_dump(mode="json") if scene.expect or given.telling.as_json else {}
     missed = _used("unmet")(scene, told) if scene.expect else []
     more = (*changes, *_used("unexpected")(missed)) if missed else changes
-    text = _told_line(told, given) if given.telling.as_json else _report_text(report, scene.title, given, more)
+    if given.telling.as_json:
+        text = _told_line(told, given)
+    else:
+        text = _report_text(_used("as_the_scene")(report, scene), scene.title, given, more)
     seconds = time.perf_counter() - start
     counted = {**outcome_of(report), "expects": bool(scene.expect), "unmet": missed, "seconds": seconds}
     return streams(text, outcome=counted)
@@ -153,14 +157,15 @@ def _write(certificate: dict[str, Any] | None, path: str) -> None:
 
 
 def _equations(scene: Scene, given: Given) -> Iterator[Json]:
-    report = lagrange.lagrange(scene, given.linearize, given.budget)
+    report = lagrange(scene, given.linearize, given.budget)
     if given.certificate is not None:
         told = report.model_dump(mode="json")
         _write(_used("certificate_of_motion")(scene, told, report.classification), given.certificate)
     if given.telling.as_json:
         yield streams(_line(report.model_dump(mode="json"), given))
     else:
-        yield streams(show.as_text(show.sheet_of_motion(report, scene.title), _screen(given)) + "\n\n")
+        sheet = show.sheet_of_motion(_used("as_the_scene")(report, scene), scene.title)
+        yield streams(show.as_text(sheet, _screen(given)) + "\n\n")
 
 
 def streams(out: str = "", err: str = "", failed: bool = False, outcome: Json = None) -> Json:

@@ -14,10 +14,10 @@ from dofkit.pictures.still import Picture, draw, graph, phase
 from dofkit.scene.scene import Scene
 
 _KINDS: Mapping[str, Callable[[Scene], Picture | Animation]] = {
-    "draw": draw,
-    "animate": animate,
+    "mechanism": draw,
     "graph": graph,
-    "phase": phase,
+    "directions": phase,
+    "motion": animate,
 }
 
 

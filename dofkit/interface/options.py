@@ -1,4 +1,4 @@
-"""The arguments and options of the commands: what each takes, and its line of help."""
+"""The arguments and options of the commands, each with its line of help."""
 
 from __future__ import annotations
 
@@ -8,11 +8,14 @@ from typing import Annotated, Any
 
 import typer
 
+from dofkit.base.endings import format_of_path, is_folder_path
+from dofkit.base.errors import ArgumentError
 from dofkit.base.surface import handed_on
+from dofkit.interface.help_panels import ADVANCED
 from dofkit.interface.outcome import FAILURES
 from dofkit.methods.table import METHODS
 
-#: What is imported only where an option needs it.
+#: Names that are imported only where an option needs them.
 _HEAVY = {
     "Report": "dofkit.report",
     "all_explanations": "dofkit.interface.explanations",
@@ -21,17 +24,17 @@ _HEAVY = {
     "no_such": "dofkit.base.spelling",
 }
 
-# what a shell completes
+# completion by the shell
 
 
 def explained(incomplete: str) -> list[str]:
-    """The words that `explain` knows."""
+    """Return the words that `explain` knows."""
     known = handed_on(__name__, _HEAVY, "all_explanations")()
     return list(dict.fromkeys(told.word for told in known if told.word.casefold().startswith(incomplete.casefold())))
 
 
 def catalogued(incomplete: str) -> list[str]:
-    """The names of the catalog; files are completed by the shell where none fits."""
+    """Return the names of the catalog; where none fits the shell completes files."""
     names = handed_on(__name__, _HEAVY, "catalog_names")()
     return [name for name in names if incomplete and name.startswith(incomplete)]
 
@@ -40,78 +43,123 @@ def catalogued(incomplete: str) -> list[str]:
 
 
 def _named(arguments: list[str]) -> list[str]:
-    """Every file that is named; folders and patterns stand for what is in them."""
+    """Return every file that the arguments name; folders and patterns stand for the files in them."""
     found: list[str] = handed_on(__name__, _HEAVY, "named_files")(arguments)
     return found
+
+
+def folder(path: Path | None) -> Path | None:
+    """Return the path of a folder. Raises BadParameter for a path with the ending of a file."""
+    return path if path is None or is_folder_path(path) else _of_format(path, ())
+
+
+def file_of(*known: str) -> Callable[[Path | None], Path | None]:
+    """Return what checks that a path has one of the endings of the files that can be written."""
+    return lambda path: path if path is None else _of_format(path, known)
+
+
+def _of_format(path: Path, known: Collection[str]) -> Path:
+    try:
+        format_of_path(path, known)
+    except ArgumentError as error:
+        raise typer.BadParameter(str(error)) from None
+    return path
 
 
 Files = Annotated[
     list[str],
     typer.Argument(
-        metavar="FILE...",
-        help="Scenes and models: paths, folders, catalog names, - for stdin.",
+        metavar="FILE",
+        help="Scenes or models: paths, folders, patterns, catalog names, or - for standard input.",
         autocompletion=catalogued,
         callback=_named,
     ),
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="One JSON object a line, in the order given.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object per line, in the order given.")]
 Budget = Annotated[
     float | None,
     typer.Option(
-        "--budget", metavar="SECONDS", min=0, help="Seconds for each scene; what is not finished is undecided."
+        "--budget",
+        metavar="SECONDS",
+        min=0,
+        help="Time limit per scene; what is unfinished then is undecided.",
+        rich_help_panel=ADVANCED,
     ),
 ]
 
 
-def _one_of(known: Collection[str]) -> Callable[[str], str]:
-    """What checks that an option is one of some words."""
+def _one_of(known: Collection[str]) -> Callable[[str | None], str | None]:
+    """Return what checks that an option is one of the known words."""
 
-    def checked(word: str) -> str:
-        if word not in known:
+    def checked(word: str | None) -> str | None:
+        if word is not None and word not in known:
             raise typer.BadParameter(f"'{word}' is none of {', '.join(known)}")
         return word
 
     return checked
 
 
-Brief = Annotated[bool, typer.Option("--brief", help="A line a scene; so it is for more than three.")]
-Full = Annotated[bool, typer.Option("--full", help="Every report in full, however many there are.")]
-How = Annotated[bool, typer.Option("--how", help="Also how sure each answer is, and by which argument; in full.")]
+Brief = Annotated[bool, typer.Option("--brief", help="Print one line per scene (the default for more than three).")]
+Full = Annotated[bool, typer.Option("--full", help="Print full reports, however many scenes there are.")]
+How = Annotated[bool, typer.Option("--how", help="Show the argument behind each answer and how certain it is.")]
 Only = Annotated[
     list[str] | None,
-    typer.Option("--only", metavar="FIELD,...", help="These fields of the report and no others, such as dof."),
+    typer.Option("--only", metavar="FIELD,...", help="Print these fields of the report only, such as dof."),
 ]
 Without = Annotated[
     list[str] | None,
-    typer.Option("--without", metavar="NAME,...", help="What if these constraints are dropped? What changes."),
+    typer.Option("--without", metavar="NAME,...", help="Drop these constraints, and show what changes."),
 ]
 FailOn = Annotated[
     list[str] | None,
-    typer.Option("--fail-on", metavar="WHAT,...", help=f"Exit status 1 where a scene is {', '.join(FAILURES)}."),
+    typer.Option("--fail-on", metavar="WHAT,...", help=f"Exit with status 1 if a scene is {', '.join(FAILURES)}."),
 ]
 SceneWorkers = Annotated[
     int | None,
-    typer.Option("--workers", metavar="N", min=1, help="So many processes at once; with --out one for each core."),
+    typer.Option(
+        "--workers",
+        metavar="N",
+        min=1,
+        help="Number of processes; with --out the default is one per core.",
+        rich_help_panel=ADVANCED,
+    ),
 ]
 ReportFolder = Annotated[
     Path | None,
-    typer.Option("--out", metavar="DIR", help="Write JSON lines there; a later run answers only what is not there."),
+    typer.Option(
+        "--out",
+        metavar="DIR",
+        callback=folder,
+        help="Write the reports to DIR/reports.jsonl; a later run answers only what is new or changed.",
+    ),
 ]
-Limits = Annotated[bool, typer.Option("--limits", help="Of models: ranges of joints as inequalities.")]
-ModelPath = Annotated[str, typer.Argument(metavar="FILE", help="MJCF, URDF, or a SolveSpace sketch.")]
+Limits = Annotated[bool, typer.Option("--limits", help="Include the joint limits of models as inequalities.")]
+ModelPath = Annotated[str, typer.Argument(metavar="FILE", help="A MJCF or URDF file, or a SolveSpace sketch.")]
 ScenePath = Annotated[
-    Path | None, typer.Option("--out", metavar="SCENE.yaml", help="Where to write; else it is printed.")
+    Path | None,
+    typer.Option(
+        "--out",
+        metavar="SCENE.yaml",
+        callback=file_of("yaml", "yml"),
+        help="The file to write; without it the scene is printed.",
+    ),
 ]
-Watch = Annotated[bool, typer.Option("--watch", help="Again whenever a file changes, until Ctrl-C.")]
+NewPath = Annotated[
+    Path | None,
+    typer.Argument(
+        metavar="[FILE]", callback=file_of("yaml", "yml"), help="The file to write; without it the scene is printed."
+    ),
+]
+Watch = Annotated[bool, typer.Option("--watch", help="Run again whenever a file changes, until Ctrl-C.")]
 
 
 def listed(given: list[str] | None) -> tuple[str, ...]:
-    """The names in lists with commas."""
+    """Return the names in lists with commas."""
     return tuple(name for text in given or () for name in text.replace(",", " ").split())
 
 
 def fields(only: list[str] | None) -> tuple[str, ...]:
-    """Names of fields of a report."""
+    """Return names of fields of a report. Raises BadParameter for any other name."""
     if not only:
         return ()
     report = handed_on(__name__, _HEAVY, "Report")
@@ -119,116 +167,161 @@ def fields(only: list[str] | None) -> tuple[str, ...]:
 
 
 def failures(fail_on: list[str] | None) -> tuple[str, ...]:
-    """Names of what a command is to fail on."""
+    """Return the findings that a command fails on. Raises BadParameter for any other name."""
     return _known(listed(fail_on), FAILURES, "failure", "--fail-on")
 
 
 def _known(names: tuple[str, ...], known: Iterable[str], what: str, option: str) -> tuple[str, ...]:
     for name in names:
         if name not in known:
-            said = handed_on(__name__, _HEAVY, "no_such")(name, known, what)
-            raise typer.BadParameter(said, param_hint=option)
+            message = handed_on(__name__, _HEAVY, "no_such")(name, known, what)
+            raise typer.BadParameter(message, param_hint=option)
     return names
 
 
 Method = Annotated[
     str,
     typer.Option(
-        "--method", metavar="NAME", callback=_one_of(METHODS), help=f"One way to answer alone: {', '.join(METHODS)}."
+        "--method",
+        metavar="NAME",
+        callback=_one_of(METHODS),
+        help=f"Answer by one method only: {', '.join(METHODS)}.",
+        rich_help_panel=ADVANCED,
     ),
 ]
 
 
-Assignment = Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="What was handed out: YAML or JSON.")]
+Assignment = Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="The assignment: YAML or JSON.")]
 Workers = Annotated[
-    int | None, typer.Option("--workers", metavar="N", min=1, help="Processes; by default one for each core.")
+    int | None,
+    typer.Option(
+        "--workers",
+        metavar="N",
+        min=1,
+        help="Number of processes; the default is one per core.",
+        rich_help_panel=ADVANCED,
+    ),
 ]
 Scheduler = Annotated[
-    str | None, typer.Option("--scheduler", metavar="ADDRESS", help="A Dask cluster that does the work.")
+    str | None,
+    typer.Option(
+        "--scheduler", metavar="ADDRESS", help="Run on the Dask cluster at this address.", rich_help_panel=ADVANCED
+    ),
 ]
 
 # of certificates
 
 CertificatePath = Annotated[
     str | None,
-    typer.Option("--certificate", metavar="OUT.json", help="Write why: a certificate; a folder for several files."),
+    typer.Option(
+        "--certificate",
+        metavar="OUT.json",
+        help="Write a certificate that `dofkit verify` can check; for several files name a folder.",
+    ),
 ]
 CertificateFiles = Annotated[
     list[str],
-    typer.Argument(metavar="[SCENE] CERT", help="A scene and its certificate, or one that holds its scene."),
+    typer.Argument(metavar="[SCENE] CERT", help="A scene and its certificate, or a certificate that holds its scene."),
 ]
 CertificateFolder = Annotated[
     Path | None,
     typer.Option(
         "--certificates",
         metavar="DIR",
-        help="Write, for appeals, what keys rest on and what shows that equations are right or wrong.",
+        callback=folder,
+        help="Write the evidence behind keys and judgements, for appeals.",
     ),
 ]
-Strict = Annotated[bool, typer.Option("--strict", help="Nothing may be uncovered either.")]
+Strict = Annotated[bool, typer.Option("--strict", help="Fail if a claim is not covered by evidence, too.")]
 
 # of pictures
 
 PicturePath = Annotated[
     Path | None,
-    typer.Option("--out", metavar="PATH", help="Where to write: a file by its ending, or a folder for several scenes."),
+    typer.Option(
+        "--out", metavar="PATH", help="The file, whose ending decides the format; or a folder for several scenes."
+    ),
 ]
 
 
 STILL_KINDS, MOVING_KINDS = ("svg", "png", "pdf", "html"), ("html", "gif", "mp4")
+DRAWN_AS = ("mechanism", "graph", "directions")
 
 
 def _format(kinds: Collection[str]) -> Any:
-    """The option for the format of pictures in a folder."""
-    told = f"In a folder: {', '.join(kinds)}."
-    return typer.Option("--format", metavar="KIND", callback=_one_of(kinds), help=told)
+    """Return the option for the format of the pictures in a folder."""
+    about = f"The format in a folder: {', '.join(kinds)}; the default is {next(iter(kinds))}."
+    return typer.Option("--format", metavar="KIND", callback=_one_of(kinds), help=about)
 
 
-StillKind = Annotated[str, _format(STILL_KINDS)]
-MovingKind = Annotated[str, _format(MOVING_KINDS)]
+StillKind = Annotated[str | None, _format(STILL_KINDS)]
+MovingKind = Annotated[str | None, _format(MOVING_KINDS)]
+DrawnAs = Annotated[
+    str,
+    typer.Option(
+        "--as",
+        metavar="KIND",
+        callback=_one_of(DRAWN_AS),
+        help="mechanism; graph: constraints and what they constrain; directions: those of a growth vector.",
+    ),
+]
 
 # of `lagrange`
 
-Linearize = Annotated[bool, typer.Option("--linearize", help="Also M, C and K of small motions about an equilibrium.")]
+Linearize = Annotated[
+    bool, typer.Option("--linearize", help="Add the matrices M, C and K of small motions about an equilibrium.")
+]
 
 # of `grade`
 
 Submissions = Annotated[
     list[str],
-    typer.Argument(metavar="SUBMISSION...", help="YAML, JSON, JSON lines, CSV, folders of these, - for stdin."),
+    typer.Argument(
+        metavar="SUBMISSION",
+        help="YAML, JSON, JSON lines or CSV files, folders of them, or - for standard input.",
+    ),
 ]
-ResultFormat = Annotated[str, typer.Option("--format", metavar="NAME", help="native, or what a gradebook reads.")]
+ResultFormat = Annotated[
+    str, typer.Option("--format", metavar="NAME", help="native, html, or the format of a gradebook.")
+]
 ResultPath = Annotated[
     Path | None,
-    typer.Option("--out", metavar="PATH", help="Where to write; an interrupted run goes on where it stopped."),
+    typer.Option("--out", metavar="PATH", help="The file or folder to write; an interrupted run resumes there."),
 ]
 ReviewTable = Annotated[
     Path | None,
-    typer.Option("--reviewed", metavar="CSV", help="A review.csv with points that a person filled in."),
+    typer.Option("--reviewed", metavar="CSV", help="A review.csv in which a person has filled in points."),
 ]
-CheckOnly = Annotated[bool, typer.Option("--check-only", help="Tell how every answer is read, and grade none.")]
+CheckOnly = Annotated[bool, typer.Option("--check-only", help="Show how every answer is read, without grading.")]
 
 RosterPath = Annotated[
     Path | None,
-    typer.Option("--roster", metavar="TABLE.csv", help="Who is in the course: names, addresses, ids."),
+    typer.Option("--roster", metavar="TABLE.csv", help="The students of the course: names, addresses, ids."),
 ]
 
 # of `chart`
 
 Questions = Annotated[
-    list[str] | None, typer.Option("--question", metavar="Q", help="dof, integrability, redundancy, equivalence.")
+    list[str] | None, typer.Option("--question", metavar="Q", help="dof, integrability, redundancy or equivalence.")
 ]
 Families = Annotated[
-    list[str] | None, typer.Option("--families", metavar="NAME,...", help="Of the trials; by default all.")
+    list[str] | None, typer.Option("--families", metavar="NAME,...", help="Families of trials; the default is all.")
 ]
-Methods = Annotated[list[str] | None, typer.Option("--methods", metavar="NAME,...", help="By default all.")]
-ChartFolder = Annotated[Path, typer.Option("--out", metavar="DIR", help="Where data and figures go.")]
-ChartSource = Annotated[Path | None, typer.Option("--from", metavar="DIR", help="Draw again from the data of a run.")]
-Quick = Annotated[bool, typer.Option("--quick", help="A few small trials of each family: under a minute.")]
+Methods = Annotated[
+    list[str] | None, typer.Option("--methods", metavar="NAME,...", help="Methods to compare; the default is all.")
+]
+ChartFolder = Annotated[
+    Path, typer.Option("--out", metavar="DIR", callback=folder, help="The folder for data and figures.")
+]
+ChartSource = Annotated[
+    Path | None, typer.Option("--from", metavar="DIR", help="Redraw the figures from the data of an earlier run.")
+]
+Quick = Annotated[bool, typer.Option("--quick", help="Run a few small trials of each family, in under a minute.")]
 Most = Annotated[
-    int | None, typer.Option("--most", metavar="N", min=0, help="Trials of each family and question; 0: all.")
+    int | None,
+    typer.Option("--most", metavar="N", min=0, help="The number of trials per family and question; 0 for all."),
 ]
 Timeout = Annotated[
     float | None,
-    typer.Option("--timeout", metavar="SECONDS", min=0.01, help="Processor time for each trial and method."),
+    typer.Option("--timeout", metavar="SECONDS", min=0.01, help="Processor time per trial and method."),
 ]

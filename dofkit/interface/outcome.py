@@ -1,4 +1,4 @@
-"""What is counted of a report among many, and how wide a line of it is."""
+"""The findings of a report that a summary counts, and the widths of its line."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from dofkit.report import Report
 
-#: What ``--fail-on`` may name.
+#: The findings that ``--fail-on`` may name.
 FAILURES = ("inconsistent", "infeasible", "redundant", "undecided")
-#: The widths of a line a scene: a name is given no more room than this; the labels; a verdict.
+#: The widths of the line of a scene: the most for a name; the labels; a verdict.
 WIDEST_NAME, LABELS, VERDICT = 40, len("non-holonomic, scleronomic"), len("undecided")
 
 
 def headline(widest: int) -> str:
-    """What stands above a line a scene; ``f``: degrees of freedom, ``v``: independent velocities."""
-    return f"{'scene':<{min(widest, WIDEST_NAME)}}  {'f':>3} {'v':>3}  {'the system':<{LABELS}}  verdict"
+    """Return the heading above the lines of scenes; ``f``: degrees of freedom, ``v``: velocity freedom."""
+    return f"{'scene':<{min(widest, WIDEST_NAME)}}  {'f':>3} {'v':>3}  {'system':<{LABELS}}  verdict"
 
 
 def outcome_of(report: Report) -> dict[str, Any]:
-    """What is counted of a report; ``is`` holds those of `FAILURES` that it is."""
+    """Return what a summary counts of a report; ``is``: those of `FAILURES` that hold."""
     found = {
         "inconsistent": report.consistent is False,
         "infeasible": report.feasible is False,

@@ -12,12 +12,13 @@ import stat
 import sys
 from collections import Counter
 from collections.abc import Callable, Generator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
 from dofkit.base.deadline import DEFAULT_SECONDS, limit
 from dofkit.base.documents.document import MOST_BYTES
-from dofkit.base.records import dataclass
+from dofkit.base.endings import is_folder_path
 from dofkit.base.workers import Job, JobOutcome, Json, Worker
 from dofkit.base.workers.processes import can_fork
 from dofkit.interface.presentation import Telling
@@ -38,7 +39,7 @@ PICTURE_SHARE = 3
 
 
 class PictureGiven(NamedTuple):
-    """A kind of picture, the name of a function of dofkit; and where it is written."""
+    """A kind of picture (mechanism, graph, directions or motion), and the path that it is written to."""
 
     kind: str
     path: str
@@ -159,17 +160,16 @@ def motions(
     )
 
 
-def pictures(files: Sequence[str], kind: str, out: str | None, ending: str) -> Generator[Printed]:
-    """What is printed of the picture of each file, in their order: where it was written.
+def pictures(files: Sequence[str], kind: str, out: Path | None, ending: str) -> Generator[Printed]:
+    """Yield the path of the picture of each file, in the order of the files.
 
-    ``out``: a path for the picture of one file, a folder for those of several (None: this one).
+    ``out``: the picture's path for one file, else a folder (None: the current one).
     """
-    if len(files) == 1 and out is not None and os.path.splitext(out)[1] and not os.path.isdir(out):
-        places = [out]
+    if out is not None and not is_folder_path(out):
+        places = [str(out)]
     else:
-        names = _own_names(files)
-        suffix = "" if kind in ("draw", "animate") else f"-{kind}"
-        places = [os.path.join(out or "", f"{name}{suffix}.{ending}") for name in names]
+        suffix = f"-{kind}" if kind in ("graph", "directions") else ""
+        places = [str((out or Path()) / f"{name}{suffix}.{ending}") for name in _own_names(files)]
     worker = Worker(modules=(ONE_PICTURE,), fork=can_fork())
     given = Given("", DEFAULT_SECONDS, "auto", Telling.here(False)._replace(ascii_only=ascii_only()))
     try:

@@ -6,6 +6,7 @@ What is answered is what `classify` says too.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from flint import ctx
@@ -13,7 +14,6 @@ from flint import ctx
 from dofkit.base.arguments import description_of, require_one_of, seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
 from dofkit.base.errors import ArgumentError
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.classification.dependence.equivalence import Sameness, compare
@@ -47,11 +47,18 @@ ANSWER = "the answer"
 
 @dataclass(frozen=True)
 class Reply:
-    """What is answered to a question, how sure, and where it is None why.
+    """The answer to one question about a scene.
 
-    ``value``: of ``dof`` a number (-1: the constraints contradict each other), of ``integrability`` whether each
-    constraint is holonomic in the system (None: undecided), by name; of ``redundancy`` the names of what can be
-    dropped together, in the scene's order; of ``equivalence`` whether the answer says the same.
+    Attributes
+    ----------
+    value
+        For ``dof`` a number (-1 if the constraints contradict each other); for ``integrability`` a mapping from each
+        constraint to whether it is holonomic in the system (None: undecided); for ``redundancy`` the names of a maximal
+        redundant set, in the scene's order; for ``equivalence`` whether the two are equivalent. None: undecided.
+    verdict
+        How certain the value is.
+    reason
+        Why there is no value.
     """
 
     value: Any | None
@@ -62,14 +69,34 @@ class Reply:
 def ask(
     scene: SceneLike | System, question: Question, answer: Mapping[str, str] | None = None, budget: float | None = None
 ) -> Reply:
-    """Answer one question about a scene: ``dof``, ``integrability``, ``redundancy`` or ``equivalence``.
+    """Return the answer to one question about a scene, with no more work than that question needs.
 
-    ``scene``: a Scene, a path, a catalog name, a mapping or a System. ``answer``, for ``equivalence`` (of no System):
-    ``{"constraint": NAME, "text": TEXT}``; does the text say the same as that constraint, in the presence of the
-    others? ``budget``: seconds, after which no new part of the work is begun.
-    Returns a `Reply` with the value, its verdict, and the reason where there is none. Raises `SceneError` and
-    `TextError` where something cannot be read, and `ArgumentError` for what is no scene, question, answer or number.
+    Parameters
+    ----------
+    scene
+        A Scene, a path, a catalog name, a mapping or (except for ``equivalence``) a System.
+    question
+        ``"dof"``, ``"integrability"``, ``"redundancy"`` or ``"equivalence"``.
+    answer
+        For ``equivalence``: ``{"constraint": NAME, "text": TEXT}``. Is the text equivalent to that constraint, given
+        the others?
+    budget
+        Seconds, after which no new step begins.
 
+    Returns
+    -------
+    Reply
+        The value, its verdict, and the reason if there is no value.
+
+    Raises
+    ------
+    SceneError, TextError
+        If the scene or the text cannot be read.
+    ArgumentError
+        If an argument is no scene, question, answer or number of seconds.
+
+    Examples
+    --------
     >>> import dofkit
     >>> scene = {"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]}
     >>> dofkit.ask(scene, "dof").value

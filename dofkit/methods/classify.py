@@ -1,15 +1,17 @@
-"""The doors: `classify` tells everything of a scene, `derived_flag` one thing more."""
+"""Entry points: `classify` reports everything about a scene, `derived_flag` the ranks of its derived flag."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
+from typing import overload
 
 from dofkit.base.arguments import require_one_of, seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
-from dofkit.base.errors import ArgumentError
-from dofkit.base.surface import handed_on
+from dofkit.base.errors import ArgumentError, Fault, SceneError
 from dofkit.classification.study import study
 from dofkit.exact.points.balls import precise_for
+from dofkit.methods.certificates import lowering
 from dofkit.methods.in_worker import in_worker
 from dofkit.methods.names import MethodName
 from dofkit.methods.stages import classified
@@ -20,34 +22,91 @@ from dofkit.scene.reading import SceneLike, scene_or_system
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
+#: Several scenes at once.
+Scenes = list[SceneLike | System] | tuple[SceneLike | System, ...]
+
 _UNWATCHED = "No worker process could be started here: the time was watched, but nothing would have been killed."
 
 
+@overload
 def classify(
     scene: SceneLike | System, budget: float | None = None, method: MethodName = "auto", certificate: bool = False
-) -> Report:
-    """How the system of ``scene`` can move: its freedom, labels, integrals and redundancy, each with a verdict.
+) -> Report: ...
 
-    ``scene``: a Scene, a path, a catalog name, a mapping or a System.
-    ``budget``: seconds for the scene; what is not finished then is undecided. The work is then done in a process of
-    its own, which is killed where it does not end by itself (1 s or a quarter of the budget later), or needs too much
-    memory: then everything is undecided, and the reason says so. Without a budget it is done here, and no new part of
-    it is begun after 60 s. ``method``: a name of `METHODS`; one alone leaves open what it cannot answer.
-    ``certificate``: with the evidence of what is proved, for `dofkit.verify`; what that refuses is undecided.
-    ``certificate``: whether evidence is looked for, in a few seconds more; what it contradicts is no longer told as
-    proved, and a warning says so. A System has no scene that could be read again, and gets none.
-    Returns a Report: numbers of freedoms, names and texts, without units. Raises `SceneError` with every fault where
-    the scene cannot be read as mathematics, and `ArgumentError` for what is no scene, no method or no number.
 
+@overload
+def classify(
+    scene: Scenes, budget: float | None = None, method: MethodName = "auto", certificate: bool = False
+) -> list[Report]: ...
+
+
+def classify(
+    scene: SceneLike | System | Scenes,
+    budget: float | None = None,
+    method: MethodName = "auto",
+    certificate: bool = False,
+) -> Report | list[Report]:
+    """Return how a system can move: degrees of freedom, labels, integrals and redundancy, each with a verdict.
+
+    Parameters
+    ----------
+    scene
+        A Scene, a path, a catalog name, a mapping or a System; or a list or tuple of these.
+    budget
+        Seconds for each scene. The work is then done in a process of its own, which is killed if it does not end or
+        needs too much memory; what is not finished is undecided. Without a budget no new step begins after 60 s.
+    method
+        ``"auto"``, or one method on its own, which leaves undecided what it cannot answer.
+    certificate
+        Whether to add the evidence for `verify`; an answer that the evidence contradicts becomes undecided.
+
+    Returns
+    -------
+    Report or list of Report
+        Numbers of freedoms are whole numbers without a unit; equations are texts. A list gives a list, in order.
+
+    Raises
+    ------
+    SceneError
+        If a scene cannot be read. All scenes of a list are read first, and all their faults are raised at once.
+    ArgumentError
+        If an argument is no scene, no method or no number of seconds.
+
+    Examples
+    --------
     >>> import dofkit
     >>> report = dofkit.classify({"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]})
     >>> report.dof, report.constraints[0].integral, report.verdict
     (1, 'x*y = C', 'proved')
+    >>> [report.dof for report in dofkit.classify(["four-bar-linkage", "disc-rolling-on-plane"])]
+    [1, 4]
     """
     require_one_of(method, METHODS, "method")
-    given = scene_or_system(scene)
+    if isinstance(scene, list | tuple):
+        return [_certified(given, budget, method, certificate) for given in _all_read(scene)]
+    return _certified(scene_or_system(scene), budget, method, certificate)
+
+
+def _all_read(scenes: Scenes) -> list[Scene | System]:
+    """Read every scene. Raises one SceneError with the faults of all, each located by the position of its scene."""
+    read: list[Scene | System] = []
+    faults: list[Fault] = []
+    for position, scene in enumerate(scenes):
+        try:
+            read.append(scene_or_system(scene))
+        except SceneError as error:
+            source = f"{error.source}: " if error.source else ""
+            faults += [
+                replace(fault, message=source + fault.message, where=(position, *fault.where)) for fault in error.faults
+            ]
+    if faults:
+        raise SceneError(tuple(faults))
+    return read
+
+
+def _certified(given: Scene | System, budget: float | None, method: MethodName, certificate: bool) -> Report:
     if certificate and isinstance(given, System):
-        raise ArgumentError("a certificate is of a scene: a System has no text that could be read again")
+        raise ArgumentError("a certificate needs a Scene: a System has no text that the checker could read")
     report = _classified(given, budget, method).beside(given)
     return with_certificate(given, report) if certificate and isinstance(given, Scene) else report
 
@@ -58,10 +117,7 @@ def with_certificate(scene: Scene, report: Report) -> Report:
     It is probable where points over GF(p) alone say what the evidence does. What makes certificates is imported where
     one is asked for.
     """
-    homes = {"with_certificate": "dofkit.methods.certificates.lowering"}
-    again = partial(classified, scene, DEFAULT_SECONDS, "field")
-    certified: Report = handed_on(__name__, homes, "with_certificate")(scene, report, again)
-    return certified
+    return lowering.with_certificate(scene, report, partial(classified, scene, DEFAULT_SECONDS, "field"))
 
 
 def _classified(given: Scene | System, budget: float | None, method: MethodName) -> Report:
@@ -76,13 +132,33 @@ def _classified(given: Scene | System, budget: float | None, method: MethodName)
 
 
 def derived_flag(scene: SceneLike | System, budget: float | None = None) -> list[int] | None:
-    """The ranks of the codistribution I, of I', I'', ... down to its largest integrable part, at a generic point.
+    """Return the ranks of I, I', I'', ... at a generic point, down to the largest integrable part.
 
-    I is spanned by the differentials of the finite relations and the Pfaffian forms of ``scene``; I' holds the forms
-    of I whose differential vanishes modulo I. None where that is not certain in the time there is (no new part of the
-    work is begun after it), or a relation is nonlinear in the velocities. Probable: exact arithmetic at random points.
-    ``scene`` and ``budget`` (seconds) are as for `classify`, and so are the errors that are raised.
+    The codistribution I is spanned by the differentials of the holonomic equations and by the Pfaffian forms of the
+    scene; I' consists of the forms w in I with dw = 0 modulo I. The ranks are computed by exact arithmetic at random
+    points (``probable``).
 
+    Parameters
+    ----------
+    scene, budget
+        As for `classify`; no new step begins after ``budget`` seconds.
+
+    Returns
+    -------
+    list of int, or None
+        None if a constraint is nonlinear in the velocities, or the ranks were not decided in time.
+
+    Raises
+    ------
+    SceneError, ArgumentError
+        As for `classify`.
+
+    References
+    ----------
+    G. Frobenius, Ueber das Pfaffsche Problem, 1877: the last I is integrable.
+
+    Examples
+    --------
     >>> import dofkit
     >>> dofkit.derived_flag({"coordinates": ["x", "y", "z"], "constraints": ["dz = y dx"]})
     [1, 0]

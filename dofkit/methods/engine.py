@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import ExitStack
+from dataclasses import dataclass
 
-from dofkit.base.records import dataclass
 from dofkit.exact.engines import BALLS, FIELD, Engines
 from dofkit.exact.points.balls import balls_of
 from dofkit.exact.points.field import primes_of

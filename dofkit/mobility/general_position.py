@@ -8,9 +8,9 @@ generic one, and equal to it but for a chance of degree/p [SchwartzZippel].
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import Verdict
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
@@ -29,9 +29,9 @@ from dofkit.system import System
 
 #: Random points that are tried.
 DRAWS = 40
-DIFFERENTIAL = "differential constraints have no general position, so nothing was counted"
-ANGLES = "texts name the Euler angles of spatial bodies, which have no general position beside joints"
-NOWHERE = "the relations have no value at the random places that were tried"
+DIFFERENTIAL = "differential constraints have no general position, so no generic count is given"
+ANGLES = "equations use the Euler angles of spatial bodies, which have no general position when joints are present"
+NOWHERE = "the equations have no value at the random positions that were tried"
 
 
 @dataclass(frozen=True)

@@ -9,17 +9,16 @@ where it is smaller the loop closes by fewer: all hinges parallel or through one
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from dofkit.base.libraries import nx
-from dofkit.base.records import dataclass
 from dofkit.base.wording import many, verb
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.mobility.placement import Placement
 from dofkit.mobility.twists import TURNS, Located, Member, rows_of
 from dofkit.report import Mobility
-from dofkit.system import GROUND, System
+from dofkit.system import DRIVE, GROUND, System
 
 #: More loops than this are not looked at one by one, and more than these are not told.
 MOST_LOOPS, MOST_TOLD = 60, 4
@@ -52,6 +51,21 @@ def joints_of(system: System, equations: Sequence[int]) -> list[CountedJoint]:
         freedom = whole - equations[c.constraint] + c.driven
         found.append(CountedJoint(c.constraint, first, second, freedom, c.driven))
     return found
+
+
+def without_drives(system: System) -> System | None:
+    """Return the system with every drive of a joint released; None where no joint is driven."""
+    driven = {c.constraint for c in system.connections if c.driven}
+    if not driven:
+        return None
+    return replace(
+        system,
+        constraints=tuple(
+            c._replace(relations=[r for r in c.relations if r.part != DRIVE]) if i in driven else c
+            for i, c in enumerate(system.constraints)
+        ),
+        connections=tuple(c._replace(driven=False) for c in system.connections),
+    )
 
 
 def full(system: System) -> int:
@@ -103,13 +117,13 @@ def _terms(system: System, joints: Sequence[CountedJoint], rest: int) -> list[tu
 def _why(system: System, joints: Sequence[CountedJoint], kutzbach: int, freedom: int, drawn: Drawing) -> str:
     if freedom < kutzbach:
         return (
-            "the equations take more freedom away than their number: at this position, or because what they say of "
-            "velocities integrates, motions that the count allows are none"
+            "the equations remove more degrees of freedom than their number, because of this special configuration or "
+            "because differential constraints integrate"
         )
     placement = drawn()
     said = "" if placement is None else _of_screws(system, joints, freedom, placement)
     more = freedom - kutzbach
-    start = f"{more} of the equations that the count takes as independent {verb(more)} not"
+    start = f"{more} of the equations that the count treats as independent {verb(more)} not"
     return f"{start}: {said}" if said else start
 
 
@@ -126,7 +140,7 @@ def _of_screws(system: System, joints: Sequence[CountedJoint], freedom: int, dra
     if span < whole and alone and count == freedom:
         numbers = f"{span}({bodies + 1} - 1 - {len(joints)}) + {total}{f' - {driven}' if driven else ''} = {count}"
         return (
-            f"the screws of all joints span {many(span, 'dimension')} only, not {whole}; "
+            f"the joint screws form a {span}-system, not a {whole}-system; "
             f"with {span} for {whole} the count is {numbers}"
         )
     told = []
@@ -134,15 +148,19 @@ def _of_screws(system: System, joints: Sequence[CountedJoint], freedom: int, dra
     for loop in loops[:MOST_LOOPS]:
         span = rank_of_rows([s for j in loop for s in screws[j]], drawn.p)
         if span < whole:
-            shown = ", ".join(names[j.constraint] for j in loop)
-            told.append(
-                f"the loop {shown} closes by {many(span, 'condition')} and not {whole}: "
-                "so many dimensions its screws span"
-            )
+            told.append(_closure([names[j.constraint] for j in loop], loop, span, whole))
     more = f"; and {many(len(told) - MOST_TOLD, 'more loop')}" if len(told) > MOST_TOLD else ""
     if told:
         return "; ".join(told[:MOST_TOLD]) + more
-    return "the loops close together by fewer conditions than each for itself" if len(loops) > 1 else ""
+    return "together the loops impose fewer conditions than separately" if len(loops) > 1 else ""
+
+
+def _closure(names: Sequence[str], loop: Sequence[CountedJoint], span: int, whole: int) -> str:
+    """Return what is said of a loop whose screws span fewer dimensions than those of a body."""
+    if len(loop) == 2 and all(j.freedom == span for j in loop):
+        return f"{names[0]} and {names[1]} allow the same bodies the same motions"
+    conditions = many(span, "condition")
+    return f"the loop {', '.join(names)} closes by {conditions}, not {whole}: its screws form a {span}-system"
 
 
 def allowed(found: Located, dimension: int, p: int) -> list[SparseRow]:

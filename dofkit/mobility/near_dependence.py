@@ -44,8 +44,9 @@ def nearly_dependent(placement: Placement, dimension: int, columns: int, rank: i
         return None
     small, large = by_size
     return (
-        f"the relations are nearly dependent at the drawing (singular values of {small:.1e} beside {large:.1e}): if "
-        f"its positions are rounded or measured, `tolerance: {_rounded_up(max(small, 1e-12)):g}` tells what they mean"
+        f"the equations are nearly dependent at the reference configuration (singular values of {small:.1e} "
+        f"beside {large:.1e}): if "
+        f"its positions are rounded or measured, `tolerance: {_rounded_up(max(small, 1e-12)):g}` states their accuracy"
     )
 
 

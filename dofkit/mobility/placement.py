@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Hashable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from dofkit.base.libraries import nx
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.rows import LinearRow
 from dofkit.exact.points.field import field_point

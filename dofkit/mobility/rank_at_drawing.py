@@ -9,8 +9,8 @@ dependent ones need not allow. No relation is looked at.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
-from dofkit.base.records import dataclass
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.independence import doubt

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
-from dofkit.base.records import dataclass
 from dofkit.exact.matrices.sparse import SparseRow
 from dofkit.expressions.tree import Expr
 from dofkit.mobility.placement import Placement, drawn_placement

@@ -7,10 +7,10 @@ a chance of degree/p; of measured numbers (p = 0, lengths in units of the scene'
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
-from dofkit.base.records import dataclass
 from dofkit.exact.matrices.rows import Numbers, cross, spanning
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.expressions.text import to_text
@@ -22,8 +22,7 @@ MOST = 40
 #: Points that a conic passes through, whatever they are.
 CONIC = 5
 _OTHERWISE = (
-    "no parallel or concurrent lines were found to be the cause: a loop of special proportions, symmetric or "
-    "overconstrained"
+    "the cause is not parallel or concurrent lines: a loop has special proportions, or is symmetric or overconstrained"
 )
 
 
@@ -88,7 +87,10 @@ def _of_texts(g: Geometry, members: Sequence[int]) -> Iterator[str]:
     """Equations among joints and links: general position leaves them as they are, and they cease to fit."""
     texts = [g.names[i] for i in members if g.system.constraints[i].facts.written]
     if texts and len(texts) < len(members):
-        yield f"what {_listed(texts)} say{'s' * (len(texts) == 1)} fits the others at the drawing only"
+        yield (
+            f"what {_listed(texts)} say{'s' * (len(texts) == 1)} is consistent with the others at the reference "
+            "configuration only"
+        )
 
 
 def _facts_of_set(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
@@ -200,12 +202,12 @@ def _bars(g: Geometry, own: Sequence[Connection]) -> Iterator[DrawnLine]:
 
 
 def _of_places(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
-    """Hinges of the plane that are drawn at one place and join different pairs of bodies."""
+    """Hinges of the plane that coincide in the reference configuration and join different pairs of bodies."""
     hinges = [c for c in own if c.facts.axial and g.system.dimension == 2]
     for a, b in combinations(hinges[:MOST], 2):
         place, other = (g.placement.located[c.constraint].places[0] for c in (a, b))
         if not set(a.members) & set(b.members) and g.zero(*_less(place, other)):
-            yield f"{g.names[a.constraint]} and {g.names[b.constraint]} are drawn at one place"
+            yield f"{g.names[a.constraint]} and {g.names[b.constraint]} coincide in the reference configuration"
             return
 
 

@@ -1,10 +1,10 @@
-"""f = N d - k and d(d+1)/2, in the lecture's words, and why the count errs where it does."""
+"""The textbook count f = N d - k, with d(d+1)/2 for a rigid body, and why it is off where it is."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from dofkit.base.records import dataclass
 from dofkit.base.wording import many, verb
 from dofkit.report import ConstraintEntry, Count
 from dofkit.system import System
@@ -23,7 +23,7 @@ class CountedFacts:
 
 
 def count(system: System, facts: CountedFacts) -> Count:
-    """Every finite equation that was written, a rigid body as d(d+1)/2 coordinates."""
+    """Return the count of all geometric equations as written, with d(d+1)/2 coordinates for a rigid body."""
     coordinates = len(system.coordinates)
     naive = coordinates - facts.written
     independent = None if facts.dof is None else coordinates - facts.dof
@@ -41,7 +41,7 @@ def count(system: System, facts: CountedFacts) -> Count:
 
 
 def formula(system: System, written: int) -> str:
-    """The count as a line of text, numbers filled in."""
+    """Return the count as a line of text with its numbers."""
     d, terms, numbers = system.dimension, [], []
     if system.particles:
         terms.append("N d")
@@ -58,17 +58,17 @@ def formula(system: System, written: int) -> str:
 
 
 def why(system: System, facts: CountedFacts, naive: int) -> str | None:
-    """Why the count differs from the freedom; None where it does not."""
+    """Return why the count differs from the degrees of freedom, or None where it does not."""
     if facts.consistent is False:
-        return "no motion satisfies all constraints, so there is no freedom to count"
+        return "no motion satisfies all constraints, so there are no degrees of freedom to count"
     if facts.dof is None or facts.dof == naive:
         return None
     reasons = []
     if facts.dof > naive:
         independent = facts.written - facts.dof + naive
         reasons.append(
-            f"of the {many(facts.written, 'finite equation')} only {independent} {verb(independent)} independent here: "
-            "what the others say already takes nothing away"
+            f"only {independent} of the {many(facts.written, 'geometric equation')} {verb(independent)} independent: "
+            "a dependent equation removes no degree of freedom"
         )
         complete = complete_sets(system)
         reasons += complete
@@ -78,26 +78,28 @@ def why(system: System, facts: CountedFacts, naive: int) -> str | None:
 
 
 def _why_fewer(facts: CountedFacts) -> list[str]:
-    """What takes freedom away and is no finite equation as written."""
+    """Return what removes degrees of freedom besides the geometric equations as written."""
     forms = [e for e in facts.entries if e.form in ("pfaffian", "nonlinear")]
     integrable = [e.name for e in forms if e.holonomic]
     found = []
     if integrable:
-        verb = "integrates to a finite relation" if len(integrable) == 1 else "integrate to finite relations"
-        found.append(f"{', '.join(integrable)} {verb}, which the count of finite equations does not see")
+        verb = "integrates to a geometric equation" if len(integrable) == 1 else "integrate to geometric equations"
+        found.append(f"{', '.join(integrable)} {verb}, which the count does not include")
     if facts.hidden:
-        found.append(f"the differential constraints hide {many(facts.hidden, 'finite relation')} that nobody wrote")
+        found.append(
+            f"the differential constraints imply {many(facts.hidden, 'geometric equation')} besides those written"
+        )
     if forms and not found:
-        found.append("a combination of the differential constraints integrates to a finite relation that nobody wrote")
+        found.append("a combination of the differential constraints integrates to a geometric equation")
     if not found:
         found.append(
-            "one equation forces more than one condition over the reals, so it takes more than one freedom away"
+            "over the reals one equation imposes several conditions, so it removes more than one degree of freedom"
         )
     return found
 
 
 def complete_sets(system: System) -> list[str]:
-    """The lecture's caution: with N > d+1 mutually linked particles only N d - d(d+1)/2 links are independent."""
+    """Return the complete sets of N > d+1 linked particles, of whose links only N d - d(d+1)/2 are independent."""
     d = system.dimension
     found = []
     for constraint in system.constraints:

@@ -10,12 +10,11 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import nx
-from dofkit.base.records import dataclass
 from dofkit.exact.matrices.sparse import SparseRow
 from dofkit.exact.points.frames import sparse_frame
 from dofkit.expressions.tree import Expr

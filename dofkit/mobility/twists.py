@@ -8,9 +8,9 @@ coordinates is no singularity here. Numbers are of any kind: integers that stand
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
-from dofkit.base.records import dataclass
 from dofkit.exact.matrices.rows import LinearRow, Numbers, less
 from dofkit.system import Kinematics, TypeFacts
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import xml.sax
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import dataclass, field
 from xml.sax.handler import ContentHandler
 from xml.sax.xmlreader import AttributesImpl, Locator
 
@@ -14,7 +14,6 @@ from defusedxml.common import DefusedXmlException
 from typing_extensions import override
 
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.records import dataclass
 
 #: A longer file is refused; so is one of more elements, or nested deeper.
 MOST_BYTES, MOST_ELEMENTS, DEEPEST = 64_000_000, 500_000, 200

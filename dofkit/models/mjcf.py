@@ -7,11 +7,10 @@ after the joint that moves them, stand between. What MuJoCo welds to the world i
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
 
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.records import dataclass
 from dofkit.models.compiled_by_mujoco import CompiledModel, compiled
 from dofkit.models.joint_relations import OVER, JointSum, bounds, relation, whole_turns
 from dofkit.models.model_document import (

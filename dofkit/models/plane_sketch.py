@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import dataclass, field
 
 import numpy as np
 from typing_extensions import override
 
-from dofkit.base.records import dataclass
 from dofkit.models.joint_relations import figures
 from dofkit.models.model_document import number
 from dofkit.models.sketch_file import Record

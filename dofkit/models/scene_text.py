@@ -23,7 +23,7 @@ def scene_text(value: Mapping[str, Any], remarks: tuple[str, ...] = ()) -> str:
     bodies:
     - {name: a, mass: 1}
     """
-    return "".join(f"{line}\n" for line in (*(f"# {told}" for told in remarks), *_lines(value)))
+    return "".join(f"{line}\n" for line in (*(f"# {' '.join(told.split())}" for told in remarks), *_lines(value)))
 
 
 def _lines(value: Mapping[str, Any]) -> Iterator[str]:

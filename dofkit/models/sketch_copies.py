@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from dofkit.base.records import dataclass
-from dofkit.expressions import to_text
+from dofkit.expressions.text import to_text
 from dofkit.models.model_document import SceneDraft
 from dofkit.models.sketch_file import Record, SketchFile
 from dofkit.models.sketch_space import SpacePlane, SpacePoint, SpaceVector, inner, moving_vector

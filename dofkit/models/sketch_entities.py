@@ -6,10 +6,9 @@ Workplanes stand where their origin is, turned as they are given: fixed, by a qu
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 
-from dofkit.base.records import dataclass
-from dofkit.expressions import Expr, coordinate, sqrt
+from dofkit.expressions.tree import Expr, coordinate, sqrt
 from dofkit.models.model_document import SceneDraft
 from dofkit.models.sketch_copies import MovedCopies
 from dofkit.models.sketch_file import Record, SketchFile

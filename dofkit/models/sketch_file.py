@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.records import dataclass
 from dofkit.models.model_document import ModelFile
 
 #: A file of more records is refused.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from dofkit.expressions import to_text
+from dofkit.expressions.text import to_text
 from dofkit.models.model_document import SceneDraft, vector
 from dofkit.models.sketch_file import Record
 from dofkit.models.sketch_space import (

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from dofkit.expressions import Expr, to_text
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.tree import ZERO
+from dofkit.expressions.text import to_text
+from dofkit.expressions.tree import ZERO, Expr
 from dofkit.models.sketch_relations import Written
 from dofkit.models.sketch_scene import SOLVED
 from dofkit.models.sketch_space import (

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
-from dofkit.base.records import dataclass
 from dofkit.expressions.text.limits import MAX_CHARACTERS
 from dofkit.models.model_document import COARSEST, FINEST, ModelDocument, SceneDraft, listed
 from dofkit.models.sketch_file import Record, SketchFile

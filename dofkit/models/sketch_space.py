@@ -8,8 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dofkit.expressions import Expr, coordinate, mul, num
-from dofkit.expressions.tree import ZERO
+from dofkit.expressions.tree import ZERO, Expr, coordinate, mul, num
 from dofkit.expressions.vectors import Vec, cross, dot, is_zero, minus, plus, scaled, square
 from dofkit.models.model_document import number, vector
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 
-from dofkit.expressions import Expr, mul, sqrt, to_text
-from dofkit.expressions.tree import ONE, ZERO
+from dofkit.expressions.text import to_text
+from dofkit.expressions.tree import ONE, ZERO, Expr, mul, sqrt
 from dofkit.models.joint_relations import figures
 from dofkit.models.model_document import number
 from dofkit.models.sketch_mentions import SpaceKind, SpaceMentions, equal, zero

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
 from typing import TypeVar
 
 from typing_extensions import override
 
-from dofkit.base.records import dataclass
-from dofkit.expressions import Expr, coordinate, to_text
+from dofkit.expressions.text import to_text
+from dofkit.expressions.tree import Expr, coordinate
 from dofkit.models.model_document import number
 from dofkit.models.sketch_entities import SketchEntities
 from dofkit.models.sketch_faces import face

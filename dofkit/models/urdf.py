@@ -6,13 +6,12 @@ The drawing has every joint at 0, one that mimics another at its offset. A link 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from dofkit.base.errors import SceneError
-from dofkit.base.records import dataclass
 from dofkit.models.joint_relations import OVER, JointSum, bounds, relation, whole_turns
 from dofkit.models.model_document import (
     ModelDocument,

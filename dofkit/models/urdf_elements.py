@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.records import dataclass
 from dofkit.base.spelling import nearest
 from dofkit.models.markup import Element, read_markup
 from dofkit.models.model_document import ModelFile, listed

@@ -40,7 +40,7 @@ def _freedom(report: Report) -> Iterator[str]:
     if dof is not None and report.consistent is None:
         yield "if all constraints can hold at once"
     if report.feasible is None and not all(entry.bilateral for entry in report.constraints):
-        yield "if the inequalities can all be met"
+        yield "if the all inequalities can be satisfied"
 
 
 def alternative(scene: Scene, report: Report) -> str:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from dofkit.base.records import dataclass
 from dofkit.methods.classify import classify
 from dofkit.pictures.coordinates import MOST, gauge_sketch, is_bare
 from dofkit.pictures.layout import page_of, standpoint_of
@@ -36,6 +35,9 @@ class Animation:
 
     sketch: Sketch
     clips: tuple[Clip, ...]
+
+    def __repr__(self) -> str:
+        return f"Animation({self.alternative!r}, clips={[clip.name for clip in self.clips]})"
 
     @property
     def alternative(self) -> str:
@@ -70,14 +72,29 @@ class Animation:
 
 
 def animate(scene: SceneLike, report: Report | None = None) -> Animation:
-    """A scene in motion: what `configurations` samples, and each free motion by itself to first order.
+    """Return a moving picture of a scene: a finite motion, or each instantaneous freedom on its own.
 
-    The latter where there are several freedoms, or no finite motion. ``scene``, ``report`` and what is raised are as
-    for `draw`. What nothing moves in is a still picture that says so.
+    Parameters
+    ----------
+    scene, report
+        As for `draw`.
 
+    Returns
+    -------
+    Animation
+        Shown by a notebook with a slider; ``save(path)`` writes html, gif or mp4. A scene that cannot move gives a
+        still picture that says so.
+
+    Raises
+    ------
+    SceneError, ArgumentError, ExtraMissingError
+        As for `draw`.
+
+    Examples
+    --------
     >>> import dofkit
-    >>> [clip.name for clip in dofkit.animate("four-bar-linkage").clips]
-    ['a finite motion']
+    >>> len(dofkit.animate("four-bar-linkage").clips)
+    1
     """
     given = load(scene)
     told = classify(given) if report is None else report
@@ -131,9 +148,9 @@ def _write_still(animation: Animation, path: Path) -> None:
 
 
 _WRITERS: Mapping[str, Callable[[Animation, Path], None]] = {
-    ".html": _write_html,
-    ".gif": _write_gif,
-    ".mp4": _write_mp4,
+    "html": _write_html,
+    "gif": _write_gif,
+    "mp4": _write_mp4,
     ".svg": _write_still,
     ".png": _write_still,
     ".pdf": _write_still,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, pairwise
 
@@ -11,7 +12,6 @@ import networkx as nx
 import numpy as np
 
 from dofkit.base.errors import DofkitError
-from dofkit.base.records import dataclass
 from dofkit.expressions.tree import TIME, Expr, coordinate, parameter
 from dofkit.motion.sampled.configurations import configurations
 from dofkit.pictures.evaluation import derivatives, evaluated, values_at, with_unit_rows

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
-
-from dofkit.base.records import dataclass
 
 Array = np.ndarray[Any, Any]
 Place = tuple[float, float, float]

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 import networkx as nx
 import numpy as np
 
-from dofkit.base.records import dataclass
 from dofkit.pictures.arrangement import EXAMPLES, Arrangement, arrangement_of
 from dofkit.pictures.rates import FreeMotion, free_motions, is_linear, movers
 from dofkit.pictures.shapes import AT_REST, Array, Place, State, Vertex, place

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from html import escape
 from pathlib import Path
@@ -11,9 +11,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from dofkit.base.errors import ArgumentError
-from dofkit.base.records import dataclass
-from dofkit.base.spelling import no_such
+from dofkit.base.endings import format_of_path
 from dofkit.methods.classify import classify
 from dofkit.pictures.constraint_graph import graph_sketch, hover_script
 from dofkit.pictures.coordinates import MOST, coordinate_sketch, is_bare
@@ -47,6 +45,9 @@ class Picture:
 
     sketch: Sketch
     script: str = ""
+
+    def __repr__(self) -> str:
+        return f"Picture({self.alternative!r})"
 
     @property
     def alternative(self) -> str:
@@ -93,10 +94,7 @@ def saved(picture: _Drawn, path: str | Path, writers: Mapping[str, Callable[[_Dr
     Raises ArgumentError for any other ending, and what the writer raises.
     """
     target = Path(path)
-    write = writers.get(target.suffix.lower())
-    if write is None:
-        raise ArgumentError(no_such(target.suffix or str(path), list(writers), "ending"))
-    write(picture, target)
+    writers[format_of_path(target, writers)](picture, target)
     return target
 
 
@@ -122,21 +120,40 @@ def _write_png(picture: Picture, path: Path) -> None:
 
 
 _WRITERS: Mapping[str, Callable[[Picture, Path], None]] = {
-    ".svg": _write_text(Picture.svg),
-    ".png": _write_png,
-    ".pdf": lambda picture, path: write_pdf(picture.page, path),
-    ".html": _write_text(Picture.html),
+    "svg": _write_text(Picture.svg),
+    "png": _write_png,
+    "pdf": lambda picture, path: write_pdf(picture.page, path),
+    "html": _write_text(Picture.html),
 }
 
 
 def draw(scene: SceneLike, report: Report | None = None) -> Picture:
-    """A picture of a scene: ground, bodies, joints by their textbook symbols, what moves, is redundant or contradicts.
+    """Return a picture of a scene: bodies, joints by their textbook symbols, what is redundant or contradictory.
 
-    ``scene``: a Scene, a path, a catalog name or a mapping. ``report``: what `classify` said of it, where it is known.
-    Places that the scene leaves open are chosen, and the picture says so; lengths are in the scene's units. A scene of
-    coordinates alone shows the set that they can reach, or its graph. Raises SceneError and ArgumentError as `load`
-    does, and ExtraMissingError where matplotlib is needed and missing.
+    Positions that the scene does not give are chosen, and the picture says so. A scene of coordinates
+    only shows the set that they can reach, or its constraint graph.
 
+    Parameters
+    ----------
+    scene
+        A Scene, a path, a catalog name or a mapping.
+    report
+        The report of `classify`, if it is known already.
+
+    Returns
+    -------
+    Picture
+        Shown by a notebook; ``save(path)`` writes svg, png, pdf or html. Lengths are in the scene's units.
+
+    Raises
+    ------
+    SceneError, ArgumentError
+        As for `load`.
+    ExtraMissingError
+        If matplotlib is needed and not installed.
+
+    Examples
+    --------
     >>> import dofkit
     >>> dofkit.draw("four-bar-linkage").alternative
     'Planar four-bar linkage: 3 bodies, 4 constraints. 1 degree of freedom (proved).'
@@ -170,14 +187,30 @@ def whole_sketch(stage: StagedScene) -> tuple[Sketch, str]:
 
 
 def graph(scene: SceneLike, report: Report | None = None) -> Picture:
-    """The constraints of a scene and what they hold, as a graph; redundant ones are marked.
+    """Return the constraint graph of a scene, with redundant constraints marked.
 
-    Pointing at a constraint lights the circuit that it belongs to (svg, html, notebooks). ``scene``, ``report`` and
-    what is raised are as for `draw`.
+    Pointing at a constraint highlights the circuit that it belongs to (svg, html, notebooks).
 
+    Parameters
+    ----------
+    scene, report
+        As for `draw`.
+
+    Returns
+    -------
+    Picture
+        As for `draw`.
+
+    Raises
+    ------
+    SceneError, ArgumentError, ExtraMissingError
+        As for `draw`.
+
+    Examples
+    --------
     >>> import dofkit
-    >>> dofkit.graph("five-particles-ten-links").sketch.notes[0].split(" follows")[0]
-    'DF'
+    >>> dofkit.graph("five-particles-ten-links").alternative.split(":")[0]
+    'Five particles rigidly connected, link by link'
     """
     given = load(scene)
     told = classify(given) if report is None else report
@@ -185,15 +218,33 @@ def graph(scene: SceneLike, report: Report | None = None) -> Picture:
 
 
 def phase(scene: SceneLike, report: Report | None = None) -> Picture:
-    """The directions that differential constraints allow, in up to three coordinates, and those that brackets add.
+    """Return a picture of the directions that differential constraints allow, and of those that brackets add.
 
-    A small disc or line at each point is what can be done at once; the arrows are brackets [X1, X2], directions that
-    are reached by going along X1, X2, back and back. ``scene`` and ``report`` are as for `draw`; raises NoFormsError
-    where all constraints are finite.
+    A small disc or line at each point is the distribution D; the arrows are brackets [X1, X2] of its vector fields. At
+    most three coordinates are shown.
 
+    Parameters
+    ----------
+    scene, report
+        As for `draw`.
+
+    Returns
+    -------
+    Picture
+        As for `draw`.
+
+    Raises
+    ------
+    NoFormsError
+        If there is no differential constraint.
+    SceneError, ArgumentError, ExtraMissingError
+        As for `draw`.
+
+    Examples
+    --------
     >>> import dofkit
-    >>> dofkit.phase("disc-rolling-on-plane").sketch.notes[0]
-    'Growth vector (2, 3, 4); shown: x, y, theta. Left out: phi.'
+    >>> dofkit.phase("disc-rolling-on-plane").sketch.notes[0].split(";")[0]
+    'Growth vector (2, 3, 4)'
     """
     given = load(scene)
     told = classify(given) if report is None else report

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from flint import arb
 
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import OPEN, About, ArgumentKey, Claim, Verdict
 from dofkit.exact.matrices.sparse import SparseRow, Supports
 from dofkit.exact.zero.independence import Doubt
@@ -88,7 +87,8 @@ class Answer:
     what is not 0 over GF(p) known not to be 0? ``kind``: the same for blocks that are each other's up to names, whose
     coordinates then correspond place by place; None for one that was not compared. ``parts``: what was answered apart,
     all other rows being independent of each other and of these; None where the whole was looked at together, and only
-    then is there a ``matrix``; ``most``: where the freedom is not known, what it is proved not to exceed.
+    then is there a ``matrix``; ``most``: where the freedom is not known, what it is proved not to exceed;
+    ``separating``: expressions each of which may vanish on every component that is as large, and not on all others.
     """
 
     consistent: bool | None = True
@@ -126,6 +126,7 @@ class Answer:
     size: Size = field(default_factory=Size)
     parts: tuple[AnsweredPart, ...] | None = None
     most: int | None = None
+    separating: tuple[Expr, ...] = ()
 
     @property
     def claim(self) -> Claim:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
 
 from dofkit.base.components import components
-from dofkit.base.records import dataclass
 from dofkit.expressions import tree as ex
 from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.terms import linear_terms

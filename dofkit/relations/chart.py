@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import combinations
 
-from dofkit.base.records import dataclass
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex

@@ -58,7 +58,7 @@ REDUCTIONS: Mapping[ReductionName, Reduction] = {
     "still": Reduction(
         "bodies that do not turn",
         "where relations are followed from a drawing, the angles that a linear relation fixes or ties to other angles",
-        "the set is a graph over the other coordinates, so they are coordinates of it",
+        "the configuration space is a graph over the other coordinates, so they are coordinates of it",
     ),
     "welds": Reduction(
         "welded bodies are one",

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal, NamedTuple
 
-from dofkit.base.records import dataclass
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.expressions.tree import Expr
 from dofkit.relations.reductions import ALL, Reductions

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from dofkit.base.errors import TextError
-from dofkit.base.records import dataclass
 from dofkit.expressions.text import Comparison, Names, UnknownNameError, parse_relations, to_text
 from dofkit.expressions.tree import parameter
 from dofkit.scene.constraints.equations import Equation

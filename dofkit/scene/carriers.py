@@ -1,4 +1,8 @@
-"""Gears whose wheel turns on a moving arm: without ``carrier`` their ratio is one of angles against the ground."""
+"""Warnings about joints that mean something else than they seem to say.
+
+Gears whose wheel turns on a moving arm: without ``carrier`` their ratio is one of angles against the ground. A motor
+that is written as a second joint: its bodies are joined twice.
+"""
 
 from __future__ import annotations
 
@@ -39,6 +43,28 @@ def carrier_warnings(constraints: Sequence[Constraint], connections: Sequence[Co
                     f"'{name}': the wheel '{wheel}' turns on '{arm}', which moves; without `carrier` the ratio is that "
                     f"of the angles against the ground. If '{arm}' carries the gears, write `carrier: {arm}`."
                 )
+
+
+def motor_warnings(constraints: Sequence[Constraint], connections: Sequence[Connection]) -> Iterator[str]:
+    """Yield a warning for each driven joint that repeats another joint of the same bodies, at the same place."""
+    joints = [c for c in connections if c.facts.joint and len(c.members) == 2]
+    for motor in joints:
+        for joint in joints if motor.driven else ():
+            if joint is motor or not _repeats(motor, joint):
+                continue
+            name, other = constraints[motor.constraint].name, constraints[joint.constraint].name
+            yield (
+                f"'{name}' and '{other}' join '{motor.members[0]}' and '{motor.members[1]}' at the same place, so "
+                f"their equations stand here twice. If '{name}' is the motor of '{other}', write its `drive` on "
+                f"'{other}' and remove '{name}'."
+            )
+
+
+def _repeats(motor: Connection, joint: Connection) -> bool:
+    """Return whether two joints of one type connect the same bodies in the same geometry, which is given."""
+    same = (motor.facts, {*motor.members}, motor.places, motor.directions)
+    given = None not in (*motor.places, *motor.directions) and bool(motor.places)
+    return given and same == (joint.facts, {*joint.members}, joint.places, joint.directions)
 
 
 def _held(connections: Sequence[Connection]) -> set[str]:

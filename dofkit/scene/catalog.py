@@ -16,10 +16,15 @@ _TITLE = re.compile(r"^title:[ \t]*(?:\"(?P<double>[^\"\\\n]*)\"|'(?P<single>[^'
 
 
 def catalog_names() -> list[str]:
-    """The names of the catalog's scenes, folder by folder.
+    """Return the names of the catalog's scenes, folder by folder.
 
-    Raises SceneError where the catalog is not installed.
+    Raises
+    ------
+    SceneError
+        If the catalog is not installed.
 
+    Examples
+    --------
     >>> import dofkit
     >>> "four-bar-linkage" in dofkit.catalog_names()
     True
@@ -28,8 +33,20 @@ def catalog_names() -> list[str]:
 
 
 def catalog_text(name: str) -> str:
-    """The YAML of a catalog scene. Raises SceneError with the nearest name where there is none.
+    """Return the YAML text of a catalog scene.
 
+    Parameters
+    ----------
+    name
+        One of `catalog_names`.
+
+    Raises
+    ------
+    SceneError
+        If there is no such scene; the hint is the nearest name.
+
+    Examples
+    --------
     >>> import dofkit
     >>> dofkit.loads(dofkit.catalog_text("four-bar-linkage")).dimension
     2

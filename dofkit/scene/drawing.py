@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 
 from dofkit.base.errors import Fault
-from dofkit.base.records import dataclass
 from dofkit.expressions.enclosures import differs_from_zero
 from dofkit.expressions.tree import ONE, ZERO, Expr, coordinate
 from dofkit.expressions.vectors import Vec

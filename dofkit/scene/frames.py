@@ -7,10 +7,10 @@ between them are polynomial. For every other frame w is 1.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal, NamedTuple
 
-from dofkit.base.records import dataclass
 from dofkit.expressions.tree import MINUS_ONE, ONE, TWO, ZERO, Expr, add, coordinate, fn, mul, velocity
 from dofkit.expressions.vectors import (
     Matrix,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from fractions import Fraction
 
 from dofkit.base.errors import Fault, TextError
@@ -13,7 +13,7 @@ from dofkit.expressions.text.patterns import pattern_of
 from dofkit.expressions.tree import Expr, num, parameter
 from dofkit.expressions.vectors import Vec
 from dofkit.scene.fields import Vector, as_written, suggestion
-from dofkit.system import Sense
+from dofkit.system import Relation, Sense
 
 #: The nearest name is looked for while there are fewer faults than this.
 MOST_HINTS = 100
@@ -62,8 +62,21 @@ class Ledger:
         self.fault(f"there is no {what} '{name}'", *where, hint=hint)
 
 
-#: Relations as expressions and their senses against 0.
-Equations = list[tuple[Expr, Sense]]
+class _RelationTemplate:
+    """A relation, to be written in other names many times over."""
+
+    def __init__(self, relation: Relation) -> None:
+        self._expr, self._sense = Template(relation.expr), relation.sense
+        self._domain = [(Template(e), sense) for e, sense in relation.domain]
+
+    def of(self, names: Mapping[str, str]) -> Relation:
+        """Return the relation with each name replaced."""
+        domain = tuple([(_renamed(template, names), sense) for template, sense in self._domain])
+        return Relation(_renamed(self._expr, names), self._sense, domain=domain)
+
+
+def _renamed(template: Template, names: Mapping[str, str]) -> Expr:
+    return template.of([names[n] for n in template.names])
 
 
 class ParsedTexts:
@@ -72,11 +85,11 @@ class ParsedTexts:
     def __init__(self, names: Names) -> None:
         self.names = names
         self._parsed: dict[str, Expr | TextError] = {}
-        self._patterns: dict[Hashable, tuple[tuple[str, ...], list[tuple[Template, Sense]]]] = {}
+        self._patterns: dict[Hashable, tuple[tuple[str, ...], list[_RelationTemplate]]] = {}
         self._made: dict[Hashable, tuple[list[int], Template]] = {}
 
-    def equations(self, text: str) -> Equations:
-        """The relations of a text that may mention anything, as expressions and their senses against 0.
+    def equations(self, text: str) -> list[Relation]:
+        """The relations of a text that may mention anything.
 
         A text that is one read before up to the names of coordinates is that one in other names. Raises TextError for
         what cannot be read, and for second derivatives and differentials that say nothing where they stand.
@@ -85,13 +98,13 @@ class ParsedTexts:
         known = None if pattern is None else self._patterns.get(pattern.key)
         if pattern is not None and known is not None:
             names = dict(zip(known[0], pattern.names, strict=True))
-            return [(template.of([names[n] for n in template.names]), sense) for template, sense in known[1]]
+            return [template.of(names) for template in known[1]]
         found = _equations(text, self.names)
-        for e, sense in found:
-            linear_in_accelerations(e, sense)
-            in_velocities(e)
+        for relation in found:
+            linear_in_accelerations(relation.expr, relation.sense)
+            in_velocities(relation.expr)
         if pattern is not None:
-            self._patterns[pattern.key] = pattern.names, [(Template(e), sense) for e, sense in found]
+            self._patterns[pattern.key] = pattern.names, [_RelationTemplate(relation) for relation in found]
         return found
 
     def in_names(self, kind: Hashable, symbols: Sequence[Expr], make: Callable[[], Expr]) -> Expr:
@@ -192,7 +205,7 @@ class Texts(Ledger):
         """What ``make`` makes of some symbols; see `ParsedTexts`."""
         return self._reader.in_names(kind, symbols, make)
 
-    def equations(self, text: str, *where: str | int) -> Equations:
+    def equations(self, text: str, *where: str | int) -> list[Relation]:
         """The relations of a text that may mention anything, and what says nothing is a fault; see `ParsedTexts`."""
         try:
             return self._reader.equations(text)
@@ -200,22 +213,22 @@ class Texts(Ledger):
             self.fault(error.message, *where, hint=self.advice(error, text), column=error.column)
             return []
 
-    def relations(self, text: str, *where: str | int, names: Names, allow: frozenset[str]) -> Equations:
-        """The relations of a text in other names, each as an expression and its sense against 0."""
+    def relations(self, text: str, *where: str | int, names: Names, allow: frozenset[str]) -> list[Relation]:
+        """The relations of a text in other names."""
         try:
             found = _equations(text, names)
         except TextError as error:
             self.fault(error.message, *where, hint=self.advice(error, text), column=error.column)
             return []
-        for e, _ in found:
-            self.only(e, allow, *where)
+        for relation in found:
+            self.only(relation.expr, allow, *where)
         return found
 
 
-def _equations(text: str, names: Names) -> Equations:
-    told: Equations = []
+def _equations(text: str, names: Names) -> list[Relation]:
+    told: list[Relation] = []
     for comparison in parse_relations(text, names):
         sense, swap = _SENSES[comparison.relation]
         e = comparison.right - comparison.left if swap else comparison.left - comparison.right
-        told.append((e, sense))
+        told.append(Relation(e, sense, domain=comparison.domain))
     return told

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple, Protocol
 
 from dofkit.base.errors import Fault
-from dofkit.base.records import dataclass
 from dofkit.base.spelling import nearest
 from dofkit.expressions.text import Names, spelled, valid_name
 from dofkit.expressions.tree import Expr, num, parameter
@@ -65,11 +66,35 @@ def coordinate_table(scene: Declared) -> NameTable:
         told = ("x", "y", "angle") if planar and len(roles) == 3 else roles
         for owner in owners:
             given, name = owner.coordinates, owner.name
-            names = given if given and len(given) == len(roles) else tuple([f"{r}_{name}" for r in roles])
+            names = given if given and len(given) == len(roles) else tuple([f"{r}_{subscript(name)}" for r in roles])
             owned[name] = names
             coordinates += [Coordinate(q, name, role) for q, role in zip(names, told, strict=True)]
     coordinates += [Coordinate(name) for name in scene.coordinates]
     return NameTable(tuple(coordinates), particles, bodies)
+
+
+def subscript(name: str) -> str:
+    """Return the name of a particle or body as it stands in the names of its coordinates: `_` for each hyphen.
+
+    >>> subscript("k-1_0")
+    'k_1_0'
+    """
+    return name.replace("-", "_")
+
+
+def readable_name(name: str) -> str:
+    """Return the nearest name that a text can mention: `_` for what is no letter, digit or `_`.
+
+    >>> readable_name("k-1_0"), readable_name("left link"), readable_name("9 mm")
+    ('k_1_0', 'left_link', 'n9_mm')
+    """
+    plain = re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_") or "q"
+    return plain if plain[0].isalpha() else f"n{plain}"
+
+
+def _renaming_hint(name: str) -> str:
+    plain = readable_name(name)
+    return f"write `{plain}`" if plain != name and valid_name(plain) is None else "choose another name"
 
 
 @dataclass(frozen=True)
@@ -174,7 +199,7 @@ def name_faults(scene: Declared, table: NameTable) -> tuple[Fault, ...]:
         else:
             why = valid_name(name)
             if why is not None:
-                ledger.fault(f"{why} ({what})", *where, hint="choose another name")
+                ledger.fault(f"{why} ({what})", *where, hint=_renaming_hint(name))
     _check_derived(entries, seen, ledger)
     for name, arguments in scene.functions.items():
         for i, argument in enumerate(arguments):
@@ -197,8 +222,8 @@ def _check_owners(scene: Declared, ledger: Ledger) -> None:
             if name in RESERVED:
                 told = "time" if name == "t" else "the fixed world"
                 ledger.fault(f"'{name}' is {told}, and never declared", key, i, "name", hint="choose another name")
-            elif valid_name(f"x_{name}") is not None:
-                hint = "a name is letters, digits and _: its coordinates are x_NAME and so on"
+            elif not _is_owner_name(name):
+                hint = f"write `{readable_name(name)}`: a name has letters, digits, `_` and hyphens"
                 ledger.fault(f"'{name}' cannot be the name of a {one}", key, i, "name", hint=hint)
             if name in seen:
                 ledger.fault(
@@ -214,6 +239,11 @@ def _check_owners(scene: Declared, ledger: Ledger) -> None:
                 ledger.fault(message, key, i, "coordinates", hint=f"name them in the order {', '.join(roles)}")
 
 
+def _is_owner_name(name: str) -> bool:
+    """Return whether the coordinates of a particle or body of this name have names that texts can mention."""
+    return valid_name(f"x_{subscript(name)}") is None
+
+
 def _owned(scene: Declared, table: NameTable) -> Iterator[Entry]:
     told: set[str] = set()
     both: tuple[tuple[str, str, Owners, Mapping[str, tuple[str, ...]]], ...] = (
@@ -226,6 +256,8 @@ def _owned(scene: Declared, table: NameTable) -> Iterator[Entry]:
                 continue
             told.add(owner.name)
             renamed = owner.coordinates is not None and owner.coordinates == owned[owner.name]
+            if not renamed and not _is_owner_name(owner.name):
+                continue
             what = f"a coordinate of {one} '{owner.name}'"
             for j, name in enumerate(owned[owner.name]):
                 yield name, what, (key, i, "coordinates", j) if renamed else (key, i, "name")

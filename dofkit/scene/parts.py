@@ -65,7 +65,7 @@ def show_vector(vector: Vector) -> str:
 class Particle(WrittenModel):
     """A point mass with d coordinates."""
 
-    name: str = Field(description="its name; its coordinates are x_NAME, y_NAME, z_NAME")
+    name: str = Field(description="its name; its coordinates are x_NAME, y_NAME, z_NAME (_ for a hyphen)")
     coordinates: tuple[str, ...] | None = Field(None, description="other names for its coordinates, in order")
     at: Vector | None = Field(None, description="its position in the reference configuration")
     mass: Value | None = Field(None, description="its mass: it never constrains")
@@ -74,7 +74,7 @@ class Particle(WrittenModel):
 class Body(WrittenModel):
     """A rigid body with d(d+1)/2 coordinates: its origin, then its angle or z-x-z Euler angles."""
 
-    name: str = Field(description="its name; its coordinates are x_NAME, y_NAME, theta_NAME and so on")
+    name: str = Field(description="its name; its coordinates are x_NAME, y_NAME, theta_NAME, ... (_ for a hyphen)")
     coordinates: tuple[str, ...] | None = Field(None, description="other names for its coordinates, in order")
     mass: Value | None = Field(None, description="its mass: it never constrains")
     inertia: Values | None = Field(None, description="its moment of inertia, or principal moments, or matrix rows")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,7 +17,6 @@ from dofkit.base.documents import Document, read_document
 from dofkit.base.documents.fast_flow import DEEPEST
 from dofkit.base.errors import ArgumentError, Fault, SceneError
 from dofkit.base.memory import undisturbed
-from dofkit.base.records import dataclass
 from dofkit.models.formats import is_model, read_model
 from dofkit.models.model_document import ModelFile
 from dofkit.scene.constraints.equations import as_equation
@@ -43,13 +42,32 @@ SceneLike = Scene | str | os.PathLike[str] | Mapping[str, Any]
 
 @undisturbed()
 def load(source: SceneLike, *, name: str | None = None, limits: bool = False) -> Scene:
-    """The scene of a YAML or JSON file, of the catalog, or of a mapping; a Scene is returned as it is.
+    """Return the scene of a YAML or JSON file, of the catalog, of a model or of a mapping.
 
-    ``source``: a path (a text or an ``os.PathLike``), a catalog name, or a mapping with a scene's keys. ``name``
-    stands where the scene itself gives none: by default the file's stem. A path may lead to a model too (MJCF, URDF,
-    a SolveSpace sketch); with ``limits`` the ranges of its joints become inequalities. Raises SceneError with every
-    fault at once, each with its line and column, and ArgumentError for a ``source`` of any other kind.
+    Parameters
+    ----------
+    source
+        A path, a catalog name, a mapping with the keys of a scene, or a Scene, which is returned unchanged. A path may
+        lead to a model: MJCF, URDF or a SolveSpace sketch.
+    name
+        The scene's name if it gives none; by default the file's stem.
+    limits
+        Whether the joint limits of a model become inequalities.
 
+    Returns
+    -------
+    Scene
+        Its texts and its geometry are checked.
+
+    Raises
+    ------
+    SceneError
+        If it is not a scene: with every fault at once, each with its location.
+    ArgumentError
+        If ``source`` is of another kind.
+
+    Examples
+    --------
     >>> import dofkit
     >>> dofkit.load({"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1"]}).dimension
     3
@@ -68,10 +86,29 @@ def load(source: SceneLike, *, name: str | None = None, limits: bool = False) ->
 
 @undisturbed()
 def loads(data: bytes | str, name: str = "scene") -> Scene:
-    """The scene of a YAML or JSON text (or its bytes in UTF-8), which is called ``name`` unless it says otherwise.
+    """Return the scene of a YAML or JSON text, or of its bytes in UTF-8.
 
-    Raises SceneError with every fault at once, each with its line and column, and ArgumentError for what is no text.
+    Parameters
+    ----------
+    data
+        The text of a scene or of a model.
+    name
+        The scene's name if it gives none.
 
+    Returns
+    -------
+    Scene
+        Its texts and its geometry are checked.
+
+    Raises
+    ------
+    SceneError
+        If it is not a scene: with every fault at once, each with line and column.
+    ArgumentError
+        If ``data`` is no text.
+
+    Examples
+    --------
     >>> import dofkit
     >>> dofkit.loads("coordinates: [x, y]", "plane").name
     'plane'

@@ -7,7 +7,7 @@ texts: names that are not declared, joints without their axis, lengths that cont
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr, WrapValidator
 
@@ -103,17 +103,20 @@ _AnyConstraint = Annotated[
 
 
 class Scene(Displayed, WrittenModel):
-    """A mechanical system: what it is made of and what holds it.
+    """A mechanical system as it is written: its fields are the keys of a scene's file.
 
-    Its fields are the keys of a scene's file, numbers exact and in the units of whoever wrote it. It is frozen;
-    ``model_copy(update=...)`` makes another. `dofkit.load` says what is wrong with a scene in better words than
-    ``Scene(...)``, which raises pydantic.ValidationError and looks at neither texts nor geometry.
+    Numbers are exact, in the units of the file. A scene is frozen; ``model_copy(update=...)`` returns a changed one.
+    Use `dofkit.load` rather than ``Scene(...)``, which checks neither texts nor geometry.
 
+    Examples
+    --------
     >>> import dofkit
     >>> scene = dofkit.load({"particles": ["A", "B"], "constraints": [{"type": "link", "between": ["A", "B"]}]})
     >>> scene.dimension, [p.name for p in scene.particles], scene.constraints[0].in_words
     (3, ['A', 'B'], 'link A-B')
     """
+
+    _in_brief: ClassVar[tuple[str, ...]] = ("name", "title")
 
     name: str = Field("scene", min_length=1, description="a short name, used in reports; by default the file's stem")
     title: str | None = Field(None, description="one line about it")

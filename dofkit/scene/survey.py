@@ -7,16 +7,16 @@ from __future__ import annotations
 
 import weakref
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from itertools import chain
 from typing import Any, Protocol
 
 from dofkit.base.errors import Fault
 from dofkit.base.memory import unhurried
-from dofkit.base.records import dataclass
 from dofkit.expressions.text import Names
 from dofkit.expressions.tree import Expr
 from dofkit.report import Report
-from dofkit.scene.carriers import carrier_warnings
+from dofkit.scene.carriers import carrier_warnings, motor_warnings
 from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.constraints.equations import LETTERS
 from dofkit.scene.drawing import Drawing, drawing_of
@@ -111,7 +111,11 @@ def _whole(drawing: Drawing, read: tuple[Elaboration, ...], forces: list[Finding
         distances={i: e.findings.distances for i, e in enumerate(read) if e.findings.distances},
         special=any(f.special or not drawn.isdisjoint(f.special_of) for f in findings),
         size=size,
-        warnings=(*(w for f in findings for w in f.warnings), *carrier_warnings(constraints, connections)),
+        warnings=(
+            *(w for f in findings for w in f.warnings),
+            *carrier_warnings(constraints, connections),
+            *motor_warnings(constraints, connections),
+        ),
         faults=(*faults, *(m.fault for m in misfits if not within(m.distance, drawing.tolerance, size))),
     )
 

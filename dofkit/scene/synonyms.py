@@ -12,6 +12,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from dofkit.expressions.text.characters import GREEK_LETTERS, SUBSCRIPTS
+from dofkit.expressions.text.latex import without_latex
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.constraints.equations import Equation
 
@@ -26,6 +27,9 @@ SAID = frozenset({"title", "source", "notes", "left_out"})
 _NAME = re.compile(
     rf"[A-Za-z{GREEK_LETTERS}][A-Za-z0-9_{GREEK_LETTERS}]*[{''.join(SUBSCRIPTS)}][A-Za-z0-9_{GREEK_LETTERS}{''.join(SUBSCRIPTS)}]*"
 )
+_PLAIN_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*", re.ASCII)
+#: Signs without which a name is as it should be.
+_DECORATION = re.compile(rf"[\\{{$\x00-\x1f{''.join(SUBSCRIPTS)}]")
 _BELOW = re.compile(f"_?([{''.join(SUBSCRIPTS)}]+)")
 
 
@@ -52,7 +56,7 @@ def standard_words(value: Mapping[str, Any]) -> StandardWords:
     """
     places: dict[Path, Path] = {}
     found = dict(value)
-    if _subscripted(value):
+    if _has_decorated_names(value):
         found = {key: part if key in SAID else _named(part, (key,), places) for key, part in value.items()}
     if "joints" in found:
         found = _one_section(found, places)
@@ -151,13 +155,13 @@ def _vector(axis: Any, dimension: int) -> Any:
     return [sign if letter == match[2] else 0 for letter in "xyz"[:dimension]]
 
 
-def _subscripted(value: Any) -> bool:
-    """Does a subscript digit stand anywhere in a document?"""
+def _has_decorated_names(value: Any) -> bool:
+    """Return whether a subscript digit or a sign of LaTeX stands anywhere in a document."""
     left = [value]
     while left:
         part = left.pop()
         if isinstance(part, str):
-            if not part.isascii() and not SUBSCRIPTS.keys().isdisjoint(part):
+            if _DECORATION.search(part):
                 return True
         elif isinstance(part, (list, tuple)):
             left += part
@@ -168,9 +172,12 @@ def _subscripted(value: Any) -> bool:
 
 
 def _named(value: Any, here: Path, places: dict[Path, Path]) -> Any:
-    """A value in which ``x₁`` as a whole name, and as a key, is ``x_1``; the very value where there is none."""
+    """Return the value with ``x₁`` and ``\\theta`` as whole names, keys among them, in plain letters.
+
+    The very value is returned where nothing changes.
+    """
     if isinstance(value, str):
-        return value if value.isascii() else standard_name(value)
+        return standard_name(value)
     if isinstance(value, Mapping):
         found = {}
         for key, part in value.items():
@@ -189,12 +196,17 @@ def _named(value: Any, here: Path, places: dict[Path, Path]) -> Any:
 
 
 def standard_name(name: str) -> str:
-    """A name with its subscript digits as ``_1``; any other text as it is.
+    r"""Return a name with its subscripts as ``_1`` and its LaTeX in plain letters; any other text as it is.
 
-    >>> standard_name("θ₁₂"), standard_name("x₁ + 1")
-    ('θ_12', 'x₁ + 1')
+    >>> standard_name("θ₁₂"), standard_name(r"\theta_{1}"), standard_name("x₁ + 1")
+    ('θ_12', 'theta_1', 'x₁ + 1')
     """
-    return with_plain_subscripts(name) if not name.isascii() and _NAME.fullmatch(name) else name
+    if not _DECORATION.search(name):
+        return name
+    if not name.isascii() and _NAME.fullmatch(name):
+        return with_plain_subscripts(name)
+    plain = without_latex(name)
+    return plain if plain is not None and _PLAIN_NAME.fullmatch(plain) else name
 
 
 def with_plain_subscripts(text: str) -> str:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from pydantic import ValidationError, ValidatorFunctionWrapHandler
 
-from dofkit.base.records import dataclass
 from dofkit.scene.fields import fault_at, fault_error, retold, suggestion
 
 

@@ -9,13 +9,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence, Set
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain
 from typing import NamedTuple
 
 from dofkit.base.errors import Fault, TextError
-from dofkit.base.records import dataclass
 from dofkit.base.spelling import nearest
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate, differs_from_zero

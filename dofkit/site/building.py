@@ -23,16 +23,16 @@ from dofkit.site.constraint_pages import constraint_pages
 from dofkit.site.gallery_pages import FOLDER as GALLERY
 from dofkit.site.gallery_pages import gallery_pages
 from dofkit.site.markdown import SitePage
-from dofkit.site.readme_pages import readme_pages
-from dofkit.site.report_pages import report_pages
+from dofkit.site.readme_pages import readme_page
+from dofkit.site.report_pages import GLOSSARY, report_pages
 from dofkit.site.shown_scenes import ShownScene, catalog_scenes
 
 ROOT = Path(__file__).parents[2]
 WRITTEN = Path(__file__).parent / "pages"
 SETTINGS = Path(__file__).parent / "mkdocs.yml"
 CHARTS = ROOT / "tests" / "charts"
-#: In the settings: where the list of constraint types, and of the gallery's pages, is put.
-TYPES_HERE, GALLERY_HERE = "every constraint type", "every folder of the catalog"
+#: In the settings: where the constraint types, the pages of the gallery and the folder of the package are filled in.
+TYPES_HERE, GALLERY_HERE, PACKAGE_HERE = "every constraint type", "every folder of the catalog", "PACKAGE"
 
 
 class SiteError(DofkitError):
@@ -44,8 +44,8 @@ def build(out: Path, kept: Path | None = None) -> None:
 
     Raises SiteError where MkDocs is missing, or finds a broken link.
     """
-    if importlib.util.find_spec("material") is None:
-        raise SiteError("the site is built by mkdocs-material: pip install '.[docs]'")
+    if not all(map(importlib.util.find_spec, ("material", "mkdocstrings"))):
+        raise SiteError("mkdocs-material or mkdocstrings is missing: run pip install '.[docs]' in a clone")
     beside = out.parent / f"{out.name}-sources"
     sources(beside, kept or out.parent / f"{out.name}-answers")
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "-f", str(beside / "mkdocs.yml")]
@@ -69,10 +69,10 @@ def sources(folder: Path, kept: Path) -> None:
 
 
 def generated(catalog: Sequence[ShownScene]) -> Iterator[SitePage]:
-    """Every page and picture that is told by the package itself."""
-    yield from readme_pages((ROOT / "README.md").read_text(encoding="utf-8"))
+    """Return every page and picture that is generated from the package."""
+    yield readme_page((ROOT / "README.md").read_text(encoding="utf-8"))
     yield from constraint_pages(catalog)
-    yield from report_pages()
+    yield from report_pages((WRITTEN / GLOSSARY).read_text(encoding="utf-8"))
     yield from command_pages()
     yield from gallery_pages(catalog, folders())
 
@@ -92,13 +92,13 @@ def settings(catalog: Sequence[ShownScene]) -> Any:
     types = [f"{TYPE_FOLDER}/index.md", *({kind: f"{TYPE_FOLDER}/{kind}.md"} for kind in TYPES)]
     shelves = dict.fromkeys(scene.folder for scene in catalog)
     gallery = [f"{GALLERY}/index.md", *({known.get(name, name): f"{GALLERY}/{name}.md"} for name in shelves)]
-    found["nav"] = _filled(found["nav"], {TYPES_HERE: types, GALLERY_HERE: gallery})
-    return found
+    lists = {TYPES_HERE: types, GALLERY_HERE: gallery, PACKAGE_HERE: str(ROOT)}
+    return {key: _filled(value, lists) for key, value in found.items()}
 
 
-def _filled(entry: Any, lists: dict[str, list[Any]]) -> Any:
+def _filled(entry: Any, lists: dict[str, Any]) -> Any:
     if isinstance(entry, str):
         return lists.get(entry, entry)
     if isinstance(entry, dict):
         return {key: _filled(value, lists) for key, value in entry.items()}
-    return [_filled(part, lists) for part in entry]
+    return [_filled(part, lists) for part in entry] if isinstance(entry, list) else entry

@@ -1,4 +1,4 @@
-"""The command line, told by the commands themselves."""
+"""The page of commands, generated from their help."""
 
 from __future__ import annotations
 
@@ -8,13 +8,14 @@ from typing import Any
 import typer.main
 
 from dofkit.interface.cli import app
+from dofkit.interface.help_panels import metavar_of
 from dofkit.site.markdown import SitePage, code, page, prose, table
 
 
 def command_pages() -> Iterator[SitePage]:
     """One page with every command, its arguments and its options."""
     parts = [part for path, command in commands() for part in _told(path, command)]
-    lead = "Every command takes `--help`. [Examples](../guide/commands.md) show what one does with them."
+    lead = "Every command has the option `--help`. The [guide](../guide/commands.md) shows examples."
     yield SitePage("reference/commands.md", page("Commands", lead, *parts))
 
 
@@ -33,18 +34,14 @@ def _below(path: str, command: Any) -> Iterator[tuple[str, Any]]:
 def _told(path: str, command: Any) -> Iterator[str]:
     arguments = [p for p in command.params if p.param_type_name == "argument"]
     choices = [p for p in command.params if p.param_type_name == "option"]
-    usage = " ".join([path, *(_metavar(p) for p in arguments), *(["[OPTIONS]"] if choices else [])])
+    usage = " ".join([path, *(metavar_of(p) for p in arguments), *(["[OPTIONS]"] if choices else [])])
     yield f"## {path}"
     yield prose(command.help or "")
     yield f"`{usage}`"
-    rows = [(code(_metavar(p)), prose(p.help or "")) for p in arguments]
+    rows = [(code(metavar_of(p)), prose(p.help or "")) for p in arguments]
     rows += [(_option(p), prose(p.help or "") + _default(p)) for p in choices]
     if rows:
         yield table(("argument or option", "meaning"), rows)
-
-
-def _metavar(parameter: Any) -> str:
-    return str(parameter.metavar or parameter.name.upper())
 
 
 def _option(parameter: Any) -> str:

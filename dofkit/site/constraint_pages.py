@@ -15,7 +15,7 @@ from dofkit.site.shown_scenes import ShownScene, shown
 
 FOLDER = "reference/types"
 #: The names that an example may mention, by the section that declares them.
-DECLARED = {"particles": ("A", "B", "C"), "bodies": ("crank", "rod"), "coordinates": ("x", "y")}
+DECLARED = {"particles": ("A", "B", "C"), "bodies": ("crank", "rod", "wheel"), "coordinates": ("x", "y")}
 #: A longer equation is counted and not shown.
 LONGEST = 240
 #: Scenes of the catalog that are named.
@@ -33,9 +33,9 @@ def constraint_pages(catalog: Sequence[ShownScene]) -> Iterator[SitePage]:
         f"{FOLDER}/index.md",
         page(
             "Constraint types",
-            "A plain text is an equation. Otherwise a constraint is a mapping with a `type`, an optional `name`, and "
-            "the fields of its type. Each page shows the equations, the fields, and a scene that works as it stands.",
-            table(("type", "what it is", "where"), rows),
+            "A plain text is an equation. Any other constraint is a mapping with a `type`, an optional `name`, and the "
+            "fields of its type. Each page shows the equations, the fields, and a complete scene.",
+            table(("type", "meaning", "defined"), rows),
         ),
     )
 
@@ -56,11 +56,11 @@ def _pages_of(kind: str, cls: type[ConstraintBase], known: Sequence[ShownScene])
             "## A scene",
             fence("yaml", written, f"{kind}.yaml"),
             picture(f"{kind}.svg", scene.alternative),
-            f"The answer: {prose(scene.answer)}.",
-            folded("The whole report", fence("text", scene.report)),
+            f"Answer: {prose(scene.answer)}.",
+            folded("The full report", fence("text", scene.report)),
             folded("Its scalar equations", fence("text", "\n".join(equations_of(written)))),
             "## Fields",
-            table(("field", "needed", "meaning"), _fields(cls)),
+            table(("field", "required", "meaning"), _fields(cls)),
             *_other_words(cls),
             *_in_the_catalog(known),
         ),
@@ -124,12 +124,12 @@ def _fields(cls: type[ConstraintBase]) -> Iterator[tuple[str, str, str]]:
 def _other_words(cls: type[ConstraintBase]) -> Iterator[str]:
     told = []
     if cls.synonyms:
-        told.append(f"{', '.join(map(code, cls.synonyms))} may stand for `{cls.kind()}`.")
-    told += [f"{code(word)} may stand for {code(key)}." for word, key in cls.other_keys.items()]
+        told.append(f"{', '.join(map(code, cls.synonyms))} can be written instead of `{cls.kind()}`.")
+    told += [f"{code(word)} can be written instead of {code(key)}." for word, key in cls.other_keys.items()]
     if cls.understood:
-        told.append(f"For {', '.join(map(code, cls.understood))} the hint leads here.")
+        told.append(f"For {', '.join(map(code, cls.understood))} the error message suggests this type.")
     if told:
-        yield "## Other words"
+        yield "## Synonyms"
         yield " ".join(told)
 
 

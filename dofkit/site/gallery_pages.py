@@ -30,8 +30,9 @@ def gallery_pages(catalog: Sequence[ShownScene], sources: dict[str, str]) -> Ite
         f"{FOLDER}/index.md",
         page(
             "Gallery",
-            f"All {len(catalog)} scenes that come with dofkit, with what it says of them. A name stands wherever a "
-            "scene's file does: `dofkit classify NAME`. A picture leads to the scene's text and its whole report.",
+            f"The {len(catalog)} scenes of the catalog, with their answers: f is the number of degrees of freedom. The "
+            "name of a scene can be used wherever a file is expected: `dofkit classify NAME`. Click on a picture to "
+            "see the text of the scene and the full report.",
             *told,
         ),
     )

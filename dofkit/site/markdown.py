@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from typing import NamedTuple
 
-_SPECIAL = re.compile(r"([\\*_<>\[\]|#])")
+_SPECIAL = re.compile(r"([\\*_\[\]|#])")
 _CODE = re.compile(r"(`+[^`]+`+)")
 
 
@@ -25,7 +25,11 @@ def prose(text: str) -> str:
     '`x_1` is \\\\|a\\\\_1\\\\|'
     """
     parts = _CODE.split(" ".join(text.split()))
-    return "".join(code(p.strip("`")) if p.startswith("`") else _SPECIAL.sub(r"\\\1", p) for p in parts)
+    return "".join(code(p.strip("`")) if p.startswith("`") else _escaped(p) for p in parts)
+
+
+def _escaped(text: str) -> str:
+    return _SPECIAL.sub(r"\\\1", text).replace("<", "&lt;").replace(">", "&gt;")
 
 
 def code(text: str) -> str:

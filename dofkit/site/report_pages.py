@@ -1,4 +1,4 @@
-"""What reports say: every field, verdict, argument and code of feedback, told by the package's own tables."""
+"""The glossary (terms, fields, verdicts, arguments, feedback codes) and the theorems, from the package's own tables."""
 
 from __future__ import annotations
 
@@ -11,44 +11,46 @@ from dofkit.homework.key.codes import CODES
 from dofkit.interface.explanations import all_explanations
 from dofkit.interface.field_meanings import OF_CONSTRAINT, OF_REPORT
 from dofkit.interface.show.assurance import VERDICT_MEANS
-from dofkit.site.markdown import SitePage, anchor, code, page, prose, table
+from dofkit.site.markdown import SitePage, anchor, code, prose, table
 
-THEOREMS = "about/theorems.md"
+THEOREMS, GLOSSARY = "about/theorems.md", "reference/glossary.md"
+#: Where the written part of the glossary has the tables of the package.
+TABLES_HERE = "<!-- the tables of the package -->"
 #: The lines of its tables: the two above, and one a theorem.
 _HEAD = re.compile(r"^\| key .*\n\|[-| ]+\|\n", re.MULTILINE)
 _ROW = re.compile(r"^\| `(\w+)` \|([^|]+)\|([^|]+)\|(.+)\|([^|]+)\|$", re.MULTILINE)
 
 
-def report_pages() -> Iterator[SitePage]:
-    """The reference of reports, words, arguments and codes, and the theorems."""
-    yield SitePage("reference/report.md", _report())
-    yield SitePage("reference/arguments.md", _arguments())
-    yield SitePage("reference/words.md", _words())
-    yield SitePage("reference/feedback.md", _feedback())
+def report_pages(written: str) -> Iterator[SitePage]:
+    """Return the glossary, which completes its ``written`` part by the package's own tables, and the theorems."""
+    before, after = written.split(TABLES_HERE)
+    yield SitePage(GLOSSARY, before + "\n\n".join(_tables()) + after)
     yield SitePage(THEOREMS, theorems((resources.files("dofkit") / "THEOREMS.md").read_text(encoding="utf-8")))
 
 
-def _report() -> str:
-    return page(
-        "Report fields and verdicts",
-        "`report.NAME` in Python, the keys of `dofkit classify --json`, and what `dofkit explain NAME` says. "
-        "[What the answers mean](../guide/answers.md) tells how they hang together.",
-        "## Of a report",
-        _fields(OF_REPORT),
-        "## Of a constraint",
-        "Each entry of `constraints`:",
-        _fields(OF_CONSTRAINT),
-        "## Verdicts",
-        "From the surest to the least sure; that of a report is the weakest in it.",
-        table(("verdict", "how sure"), [(code(name), prose(told)) for name, told in VERDICT_MEANS.items()]),
-        "`about` tells of which points a claim speaks: the part of the configurations near the `reference`, the "
-        "`component` that holds the `witness`, or `everywhere`.",
-    )
+def _tables() -> Iterator[str]:
+    yield "## Terms"
+    words = sorted(((w.word, w.meaning) for w in all_explanations() if w.kind == "word"), key=lambda row: row[0])
+    yield table(("term", "meaning"), [(prose(word), prose(meaning)) for word, meaning in words])
+    yield "## Fields of a report"
+    yield "`report.NAME` in Python, the keys of `dofkit classify --json`, and what `dofkit explain NAME` prints."
+    yield _fields(OF_REPORT)
+    yield "## Fields of a constraint"
+    yield "Each entry of `constraints` in a report has these fields."
+    yield _fields(OF_CONSTRAINT)
+    yield "## Verdicts"
+    yield "From the most to the least certain; the verdict of a report is the weakest in it."
+    yield table(("verdict", "meaning"), [(code(name), prose(meaning)) for name, meaning in VERDICT_MEANS.items()])
+    yield "## Arguments"
+    yield "Every answer that is not undecided names the argument that it rests on (`verdicts.FIELD.argument`)."
+    yield _arguments()
+    yield "## Feedback codes"
+    yield "Every mistake in homework that dofkit recognizes has a code, so that it can be counted over a class."
+    yield table(("code", "meaning"), [(code(name), prose(meaning)) for name, meaning in CODES.items()])
 
 
 def _fields(meanings: Mapping[str, str]) -> str:
-    rows = [(code(name), prose(told)) for name, told in meanings.items()]
-    return table(("field", "meaning"), rows)
+    return table(("field", "meaning"), [(code(name), prose(meaning)) for name, meaning in meanings.items()])
 
 
 def _arguments() -> str:
@@ -56,25 +58,7 @@ def _arguments() -> str:
     for key, row in TABLE.items():
         theorem = f"[{row.theorem}](../{THEOREMS}#{anchor(row.theorem)})" if row.theorem else ""
         rows.append((prose(key), prose(row.claims), prose(row.hypotheses), theorem))
-    return page(
-        "Arguments",
-        "Every sure answer names the argument by which it was found (`verdicts.FIELD.argument`): what it shows, from "
-        "which hypotheses, which are checked each time, and the theorem behind it.",
-        table(("argument", "it shows", "it holds because", "theorem"), rows),
-    )
-
-
-def _words() -> str:
-    words = [told for told in all_explanations() if told.kind == "word"]
-    return page("Words", table(("word", "meaning"), [(prose(w.word), prose(w.meaning)) for w in words]))
-
-
-def _feedback() -> str:
-    return page(
-        "Codes of feedback",
-        "What is wrong with an answer of homework has a stable code, so that it can be counted over a class.",
-        table(("code", "what it says"), [(code(name), prose(told)) for name, told in CODES.items()]),
-    )
+    return table(("argument", "what it shows", "hypotheses", "theorem"), rows)
 
 
 def theorems(text: str) -> str:

@@ -83,12 +83,12 @@ def shown(name: str, folder: str, written: str) -> ShownScene:
 
 
 def in_a_line(report: Report) -> str:
-    """The freedom, the velocities, the system's labels, and how sure."""
+    """Return the freedom, the velocity freedom, the labels of the system and the verdict, in one line."""
     if report.consistent is False:
         return f"inconsistent: {', '.join(report.conflicting or ())} ({report.verdict})"
-    parts = [f"f = {'open' if report.dof is None else report.dof}"]
+    parts = [f"f = {'undecided' if report.dof is None else report.dof}"]
     if report.velocity_dof is not None and report.velocity_dof != report.dof:
-        parts.append(f"{report.velocity_dof} velocities")
+        parts.append(f"velocity freedom {report.velocity_dof}")
     for told, yes, no in (
         (report.holonomic, "holonomic", "non-holonomic"),
         (report.scleronomic, "scleronomic", "rheonomic"),

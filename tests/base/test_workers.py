@@ -23,8 +23,9 @@ from shared.late import LONG, let_time_run_out
 from shared.work import counted
 
 import dofkit
-from dofkit.base.workers import Job, Pool, Worker
+from dofkit.base.workers import Job, Worker
 from dofkit.base.workers.limits import SPARE
+from dofkit.base.workers.pool import Pool
 
 HERE = Path(__file__).parents[1]
 SMALL = 1 << 29
@@ -241,7 +242,8 @@ def test_whoever_stops_early_leaves_nothing_running(tmp_path: Path) -> None:
 LEFT = """
 import os, sys
 from shared import worker_jobs
-from dofkit.base.workers import Job, Pool, Worker
+from dofkit.base.workers import Job, Worker
+from dofkit.base.workers.pool import Pool
 pool = Pool(2)
 worker = Worker()
 pids = [worker.run(Job(worker_jobs.process, None, 30)).value]

@@ -14,8 +14,8 @@ import pytest
 from shared import chart_methods
 from typer.testing import CliRunner
 
-from dofkit.base.workers import Pool
 from dofkit.base.workers.crews import Threads
+from dofkit.base.workers.pool import Pool
 from dofkit.benchmark import command, figures, runner, statistics, storing, table, tasks
 from dofkit.benchmark.judging import outcome_of
 from dofkit.benchmark.record import AUTO, Data, Outcome, Ran, ReductionCost, Score, TrialLine

@@ -40,8 +40,8 @@ SWEEPS = [
 
 def test_sentences_by_hand() -> None:
     told = sentences(summary(replace(DATA, sweeps=SWEEPS)))
-    assert told["trials"].endswith("of the answers of `auto` none is wrong and 0 % are left open.")
-    assert told["count"] == "`count` is wrong on 25 % and leaves 50 % open."
+    assert told["trials"].endswith("of the answers of `auto` none is wrong and 0 % are undecided.")
+    assert told["count"] == "`count` is wrong on 25 % and undecided on 50 %."
     assert told["tolerance"] == (
         "With the tolerance equal to the rounding dofkit finds what was rounded in 75 % of the trials and is wrong in "
         "0 %; singular values with that tolerance find it in 25 %, and with the best one for all drawings in 50 %."

@@ -7,13 +7,14 @@ from fractions import Fraction
 
 import pytest
 from checker.values import of_engine, of_tree
+from flint import arb
 
 from dofkit.base.errors import TextError
 from dofkit.checker.grammar import EULER, PI, KnownNames, parse, parse_relations
 from dofkit.checker.trees import FUNCTIONS as HEADS
-from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, add, call, negative, number, power, symbol, times
-from dofkit.checker.values import derivative
-from dofkit.expressions.text import Names, parse_expression
+from dofkit.checker.trees import ONE, ZERO, CheckError, Effort, Tree, add, call, negative, number, power, symbol, times
+from dofkit.checker.values import derivative, evaluated
+from dofkit.expressions.text import AmbiguousError, Names, parse_expression
 from dofkit.expressions.tree import num, parameter
 
 FUNCTIONS_OF_ONE = [name for name in HEADS if name != "atan2"]
@@ -175,6 +176,7 @@ MISTAKEN = (
 )
 #: What no contract names, so that it need not be read: other signs, names of other forms, derivatives by time.
 FOREIGN = (
+    *("$x$", "δx", "δ x", r"\mathbf{x}", "\theta", "x = 1, y = 2", "x = const"),
     *("½ x", "x⁻¹", "x₁", "x_1", "|x|", "√x", "x_{1}", "x(t)", "x (t)", "x'(t)", "xddot", "x''", "ẍ", "d^2x/dt^2"),
     *("dh", "dh/dt", "hdot", "diff(w(x, t), t)", "diff(x^2, t)", "sin 2 x", "sin2x", "log sin x", "sqrt3"),
 )
@@ -196,6 +198,58 @@ HOSTILE = (
 def test_what_cannot_be_read_in_one_way_is_an_error(text: str) -> None:
     with pytest.raises(CheckError):
         parse_relations(text, NAMES)
+
+
+#: Quotients and what follows them, at x = 2, y = 3, R = 5, L = 7, m = 11, g = 13: None where the text asks which is
+#: meant. A space before what follows makes it a factor of the whole quotient, read from the left.
+QUOTIENTS: dict[str, Fraction | None] = {
+    "1/2 m x^2": Fraction(22),  # (1/2) 11 4
+    "m/2 x": Fraction(11),  # (11/2) 2
+    "1/2 m x/R": Fraction(11, 5),  # ((1/2) 11 2)/5
+    "g/L (x + y)": Fraction(65, 7),  # (13/7) 5
+    "g/L abs(x)": Fraction(26, 7),  # (13/7) 2
+    "x/y R/L": Fraction(10, 21),  # ((2/3) 5)/7
+    "x/y R^2": Fraction(50, 3),  # (2/3) 25
+    "-x/y R": Fraction(-10, 3),  # -((2/3) 5)
+    "y^2/2 x R": Fraction(45),  # (9/2) 2 5
+    "1/x^2 y": Fraction(3, 4),  # (1/4) 3
+    "1/2 xy": Fraction(3),  # (1/2) 2 3
+    "1/2 x(y + 1)": Fraction(4),  # (1/2) 2 4
+    "x/(2 y) R": Fraction(5, 3),  # (2/6) 5
+    "x/(2y) R": Fraction(5, 3),
+    "1 / 2 x": Fraction(1),
+    "1/2*x y": Fraction(3),  # (1/2) 2 3
+    "x/2 + 1/2 y": Fraction(5, 2),  # 1 + 3/2
+    "1/2m": None,
+    "g/2L": None,
+    "1/2x": None,
+    "1/ 2x": None,
+    "1/xy": None,
+    "x/y(R + L)": None,
+    "x/(2y)R": None,
+    "g/L(x + y)": None,
+    "m/2x^2": None,
+    "1/2 x/yR": None,
+    "1/2sin(x)": None,
+}
+
+
+@pytest.mark.parametrize("text", QUOTIENTS)
+def test_a_space_decides_how_a_quotient_reads_in_both_grammars(text: str) -> None:
+    expected = QUOTIENTS[text]
+    if expected is None:
+        with pytest.raises(CheckError, match="unclear"):
+            parse(text, NAMES)
+        with pytest.raises(AmbiguousError) as caught:
+            parse_expression(text, ENGINES)
+        assert len(caught.value.readings) == 2
+        assert all(f"`{reading}`" in str(caught.value.hint) for reading in caught.value.readings)
+        return
+    values = {"x": 2.0, "y": 3.0, "R": 5.0, "L": 7.0, "m": 11.0, "g": 13.0}
+    kinds = {name: "coordinate" if name in "xy" else "parameter" for name in values}
+    theirs = {(kinds[name], name): value for name, value in values.items()}
+    assert of_tree(parse(text, NAMES), values) == pytest.approx(float(expected))
+    assert of_engine(parse_expression(text, ENGINES), theirs) == pytest.approx(float(expected))
 
 
 def test_letters_together_need_one_reading() -> None:
@@ -369,3 +423,10 @@ def test_derivatives_are_slopes(name: str) -> None:
     step, at = 1e-6, 0.6
     slope = (of_tree(tree, {"x": at + step}) - of_tree(tree, {"x": at - step})) / (2 * step)
     assert of_tree(derivative(tree, "x"), {"x": at}) == pytest.approx(slope, rel=1e-6)
+
+
+@pytest.mark.parametrize("text", ["0*log(-1 - x^2)", "0*sqrt(-1 - x^2)", "0/x", "log(-1 - x^2)^0", "x/x", "1/x - 1/x"])
+def test_what_is_cancelled_keeps_its_domain(text: str) -> None:
+    """None of these has a value at x = 0."""
+    with pytest.raises(CheckError):
+        evaluated(parse(text, KnownNames(frozenset("x"))), {"x": arb(0)}, Effort())

@@ -215,7 +215,6 @@ def test_time():
         assert not accepted(scene, [{**dropped, "path": "/constraints/c6/scleronomic"}], **{**on, "relations": steps})
     good = [
         about("c4", "scleronomic", True, "timeless"),
-        about("c2", "scleronomic", False, "turns", relation="c2", at="P"),
         about("c2", "catastatic", False, "turns", relation="c2", at="P"),
         about("c6", "scleronomic", False, "turns", relation="c6", at="P", pair=["x", "y"]),
         about("c6", "catastatic", True, "timeless"),
@@ -223,7 +222,11 @@ def test_time():
         about("c7", "scleronomic", False, "turns", relation="c7", at="P"),
     ]
     assert all(accepted(scene, [claim], **on) for claim in good)
+    moved = about("c2", "scleronomic", False, "turns", relation="c2", at="P")
+    assert accepted(scene, [about("c2", "holonomic_alone", True, "wedge"), moved], **on)  # x = v t + C
     bad = [
+        moved,
+        about("c2", "scleronomic", True, "timeless"),
         about("c3", "scleronomic", True, "timeless", steps=["g"]),
         about("c3", "scleronomic", True, "timeless"),
         about("c3", "scleronomic", False, "turns", relation="c3", at="P", pair=["x", "y"]),
@@ -242,6 +245,42 @@ def test_time():
     assert not any(accepted(scene, [claim], **on) for claim in bad)
     assert not accepted(scene, [good[-2]], **parts)
     assert not accepted(scene, [good[-1]], **parts)
+
+
+def test_a_form_that_does_not_integrate_is_scleronomic_without_t():
+    """dz - y dx - dt: its wedge with its derivative, dy ^ dx, has the part dt dx dy, that is not 0."""
+    scene = {"coordinates": ["x", "y", "z"], "constraints": ["zdot = y xdot + 1", "zdot = y xdot + t"]}
+    point = {"id": "P", "values": {"x": "0", "y": "0", "z": "0", "t": "1"}}
+    fields = [
+        {"id": "A", "components": {"x": "1", "z": "y"}},
+        {"id": "B", "components": {"y": "1"}},
+        {"id": "T", "components": {"t": "1", "z": "1"}},
+    ]
+    apart = about("c1", "holonomic", False, "bracket", at="P", fields=["A", "B", "T"], rows=["c1"], pairs="c1")
+    still = about("c1", "scleronomic", True, "timeless")
+    alone = {**scene, "constraints": scene["constraints"][:1]}
+    parts = {"points": [point], "fields": fields}
+    assert accepted(alone, [{**apart, "word": ["A", "B"]}, still], **parts)
+    assert not accepted(alone, [still], **parts)
+    enters = about("c2", "scleronomic", False, "turns", relation="c2", at="P", pair=["z", "t"])
+    assert accepted(scene, [enters], **parts)
+    assert not accepted(alone, [{**enters, "path": "/constraints/c1/scleronomic", "relation": "c1"}], **parts)
+
+
+def test_a_circle_of_velocities_is_not_catastatic():
+    scene = {
+        "coordinates": ["x", "y"],
+        "constraints": ["xdot^2 + ydot^2 = 1", "xdot^2 = ydot^2", "(t - 1) (x - y) = 0"],
+    }
+    values = {"x": "0", "y": "1", "t": "1", "xdot": "1", "ydot": "0"}
+    claim = about("c1", "catastatic", False, "turns", relation="c1", at="P")
+    assert accepted(scene, [claim], points=[{"id": "P", "values": values}])
+    assert not accepted(scene, [claim], points=[{"id": "P", "values": {**values, "ydot": "1"}}])
+    other = about("c2", "catastatic", False, "turns", relation="c2", at="P")
+    assert not accepted(scene, [other], points=[{"id": "P", "values": {**values, "ydot": "1"}}])
+    assert accepted(scene, [about("c2", "catastatic", True, "timeless")])
+    instant = about("c3", "scleronomic", False, "turns", relation="c3", at="P")
+    assert not accepted(scene, [instant], points=[{"id": "P", "values": values}])
 
 
 def test_inequalities_are_not_holonomic():

@@ -16,25 +16,40 @@ from dofkit.report import Redundancy, Report
 SCENE = {"coordinates": ["x", "y", "z", "w"], "constraints": ["x = y", "z dw + w dz = 0", "2 x = 2 y"]}
 #: What breaks a law: other values of fields of the report, and of the entry of c3.
 BREAKS: dict[str, tuple[Mapping[str, Any], Mapping[str, Any]]] = {
-    "velocities are no more than freedoms": ({"velocity_dof": 3}, {}),
-    "freedoms are no more than coordinates": ({"dof": 5}, {}),
-    "velocities of motions are velocities to first order": ({"instantaneous_dof": 1}, {}),
-    "singular is where the first order has other velocities": ({"instantaneous_dof": 3, "singular": False}, {}),
-    "equations too many are equations less (coordinates less velocities)": ({"redundant_equations": 2}, {}),
-    "as many equations follow as are too many": ({}, {"independent": 1}),
-    "groups hold what is too many": ({"redundancies": []}, {}),
-    "groups hold the equations that follow": ({"redundancies": [Redundancy(nullity=0, members=["c1", "c3"])]}, {}),
-    "what can be dropped stands in groups": ({"redundant": ["c2"]}, {}),
-    "a circuit is of what can be dropped, and was written before": ({"redundant": []}, {}),
-    "as many equations are named as follow": ({}, {"redundant_equations": []}),
-    "as many coordinates are chosen as are free": ({"generalized_coordinates": ["x"]}, {}),
-    "growth begins with the velocities and ends with the freedom": ({"growth_vector": [2, 3]}, {}),
-    "the system is holonomic where all constraints are": ({"holonomic": False}, {}),
-    "the system is scleronomic where all constraints are": ({}, {"scleronomic": False}),
-    "a holonomic system has as many velocities as freedoms": ({"velocity_dof": 1}, {}),
-    "what is inconsistent has no freedom": ({"consistent": False}, {}),
-    "what conflicts is inconsistent": ({"conflicting": ["c1"]}, {}),
-    "what is not known makes the whole undecided": ({"redundant": None}, {}),
+    "the velocity freedom does not exceed the degrees of freedom": ({"velocity_dof": 3}, {}),
+    "the degrees of freedom do not exceed the number of coordinates": ({"dof": 5}, {}),
+    "the velocity freedom does not exceed the instantaneous freedom": ({"instantaneous_dof": 1}, {}),
+    "a configuration is singular where the instantaneous freedom differs from the velocity freedom": (
+        {"instantaneous_dof": 3, "singular": False},
+        {},
+    ),
+    "the redundant equations are the equations minus (coordinates minus velocity freedom)": (
+        {"redundant_equations": 2},
+        {},
+    ),
+    "the number of implied equations is the number of redundant equations": ({}, {"independent": 1}),
+    "the nullities of the groups add up to the number of redundant equations": ({"redundancies": []}, {}),
+    "the groups contain the implied equations": ({"redundancies": [Redundancy(nullity=0, members=["c1", "c3"])]}, {}),
+    "a redundant constraint belongs to a group": ({"redundant": ["c2"]}, {}),
+    "a circuit belongs to a redundant constraint and consists of constraints written before it": (
+        {"redundant": []},
+        {},
+    ),
+    "the number of named equations is the number of implied equations": ({}, {"redundant_equations": []}),
+    "the number of generalized coordinates is the number of degrees of freedom": (
+        {"generalized_coordinates": ["x"]},
+        {},
+    ),
+    "the growth vector begins with the velocity freedom and ends with the degrees of freedom": (
+        {"growth_vector": [2, 3]},
+        {},
+    ),
+    "the system is holonomic if and only if all constraints are": ({"holonomic": False}, {}),
+    "the system is scleronomic if and only if all constraints are": ({}, {"scleronomic": False}),
+    "a holonomic system has as many independent velocities as degrees of freedom": ({"velocity_dof": 1}, {}),
+    "an inconsistent system has no degrees of freedom": ({"consistent": False}, {}),
+    "a system with conflicting constraints is inconsistent": ({"conflicting": ["c1"]}, {}),
+    "an undecided field makes the report undecided": ({"redundant": None}, {}),
 }
 
 
@@ -78,3 +93,50 @@ def test_a_broken_law_is_seen_and_logged_and_its_fields_are_not_told(
         else:
             assert left[name] in (None, [])
     assert any(law in line for line in left["warnings"])
+
+
+def on(*curve: str) -> dict[str, Any]:
+    return {"type": "on", "members": ["A"], "curve": [*curve]}
+
+
+#: Equations of a particle (x, y, z) and of u, v: how many are independent of each constraint, and what can be dropped.
+COUNTED: dict[str, tuple[list[Any], list[int], list[str], list[int]]] = {
+    "2 x = 0 follows from x = 0, and u^2 + v^2 = 0 takes two freedoms": (
+        [on("x = 0", "2 x = 0"), "u^2 + v^2 = 0"], [1, 1], [], [1]
+    ),
+    "x = y = 0 is stated twice, and implies the product that is written first": (
+        ["x - y = 0", "x^2 = 0", on("x y z = 0", "x^2 = 0", "y = 0")], [1, 1, 0], ["c1", "c2"], [3]
+    ),
+    "x = abs(x) takes no freedom away": ([on("x abs(x) - y = 0", "x - abs(x) = 0"), "dx = 0"], [1, 1], [], [1]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", COUNTED)
+def test_groups_hold_the_equations_that_are_not_independent(case: str, caplog: pytest.LogCaptureFixture) -> None:
+    constraints, independent, redundant, nullities = COUNTED[case]
+    report = classified(constraints)
+    assert [entry.independent for entry in report.constraints] == independent
+    assert report.redundant == redundant
+    assert [group.nullity for group in report.redundancies] == nullities
+    assert not caplog.records
+
+
+def test_an_equation_of_a_whole_region_contradicts_nothing(caplog: pytest.LogCaptureFixture) -> None:
+    report = classified(["abs(x + abs(x)) = 0"])
+    assert (report.dof, report.redundant_equations, report.redundant) == (5, 1, [])
+    assert not caplog.records
+
+
+def test_an_equation_that_is_an_inequality_has_no_gradient_at_the_reference() -> None:
+    """abs(xdot) = xdot is xdot >= 0; at the crossing of x = 0 and z = 0 the others leave zdot, udot and vdot."""
+    report = classified(["abs(xdot) = xdot", "x z = 0", "xdot^2 + ydot^2 = 0"], dict.fromkeys("xyzuv", 0))
+    assert report.instantaneous_dof == 3
+
+
+def classified(constraints: list[Any], configuration: dict[str, int] | None = None) -> dofkit.Report:
+    scene = {
+        "particles": [{"name": "A", "coordinates": ["x", "y", "z"]}],
+        "coordinates": ["u", "v"],
+        "constraints": constraints,
+    }
+    return dofkit.classify(scene if configuration is None else {**scene, "configuration": configuration})

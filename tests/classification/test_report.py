@@ -55,7 +55,7 @@ def test_what_shows_an_answer_is_no_warning() -> None:
 def test_one_coordinate_and_one_equation_are_singular() -> None:
     report = dofkit.classify({"coordinates": ["x"], "constraints": ["x = 1", "2 x = 2"]})
     assert "1 coordinate in 1 independent part" in report.modelled
-    assert "only 1 is independent here" in (report.count.errs or "")
+    assert "only 1 of the 2 geometric equations is independent" in (report.count.errs or "")
 
 
 def test_a_witness_satisfies_the_relations_of_every_block() -> None:

@@ -103,6 +103,16 @@ LOCI: list[tuple[str, dict[str, Any], list[Case]]] = [
         ],
     ),
     (
+        "three planes through one line, which each two of them share",
+        scene("z (x + y) (x + y + z) = 0"),
+        [("y = -x and z = 0", "two branches of c1 meet there", ONE, "proved")],
+    ),
+    (
+        "two planes meet in a line, which holds the point that is the third branch",
+        scene("z (x + y + z) (x^2 + y^2 + z^2) = 0"),
+        [("y = -x and z = 0", "two branches of c1 meet there", ONE, "proved")],
+    ),
+    (
         "dt = 0 where y = 0",
         scene("y dx = dt", coordinates=["x", "y"]),
         [("y = 0", "no velocity satisfies the constraints there", ONE, "proved")],
@@ -235,23 +245,23 @@ PARAMETERS: list[tuple[str, dict[str, Any], list[Case]]] = [
     (
         "two values for x",
         scene("x = a", "x = b", coordinates=["x", "y"], parameters=["a", "b"]),
-        [("a = b", "c1 and c2 together can hold: dof 1", ("c1", "c2"), "proved")],
+        [("a = b", "c1 and c2 together can be satisfied: dof 1", ("c1", "c2"), "proved")],
     ),
     (
         "two speeds",
         scene("dx = a dt", "dx = b dt", coordinates=["x", "y"], parameters=["a", "b"]),
-        [("a = b", "c1 and c2 together can hold: dof 1", ("c1", "c2"), "proved")],
+        [("a = b", "c1 and c2 together can be satisfied: dof 1", ("c1", "c2"), "proved")],
     ),
     (
         "parallel lines",
         scene("a x + y = 1", "x + y = 2", coordinates=["x", "y"], parameters=["a"]),
-        [("a = 1", "c1 and c2 together cannot hold", ("c1", "c2"), "proved")],
+        [("a = 1", "c1 and c2 together cannot be satisfied", ("c1", "c2"), "proved")],
     ),
     (
         "a x = b",
         scene("a x = b", coordinates=["x", "y"], parameters=["a", "b"]),
         [
-            ("a = 0", "c1 cannot hold", ONE, "proved"),
+            ("a = 0", "c1 cannot be satisfied", ONE, "proved"),
             ("a = 0 and b = 0", "c1 always holds; dof and velocity_dof 2 instead of 1", ONE, "proved"),
         ],
     ),

@@ -102,6 +102,11 @@ DOUBTFUL: dict[str, tuple[int, str, str]] = {
     "1/2x": (4, "`1/2x`", "`(1/2)*x` or `1/(2*x)`"),
     "1/2x y": (4, "two ways", "`(1/2)*x` or `1/(2*x)`"),
     "x/2y": (4, "two ways", "`(x/2)*y` or `x/(2*y)`"),
+    "L/2a": (4, "`L/2a`", "`(L/2)*a` or `L/(2*a)`"),
+    "1/ 2x": (5, "two ways", "`(1/2)*x` or `1/(2*x)`"),
+    "1/(2a)x": (7, "two ways", "`(1/(2a))*x` or `1/((2a)*x)`"),
+    "x^2/a^2y": (8, "two ways", "`(x^2/a^2)*y` or `x^2/(a^2*y)`"),
+    "1/2sin(x)": (4, "two ways", "`(1/2)*sin(x)` or `1/(2*sin(x))`"),
     "a/b c": (5, "`c`", "declared"),
     "a/b(x+y)": (4, "two ways", "`(a/b)*(x+y)`"),
     "2 30°": (3, "side by side", "sign"),
@@ -163,8 +168,8 @@ MISTAKEN: dict[str, tuple[int, str, str]] = {
     "True": (1, "`True`", ""),
     "None": (1, "`None`", ""),
     "'abc'": (1, "quote", ""),
-    "...": (1, "dots", ""),
-    "x and y": (3, "`and`", "one relation"),
+    "...": (1, "ellipsis", "dots"),
+    "x and y": (3, "`and`", "its own text"),
     "x if y else z": (3, "`if`", ""),
     "x # y": (3, "comment", ""),
     "x ≠ y": (3, "≠", "<="),
@@ -183,8 +188,8 @@ MISTAKEN: dict[str, tuple[int, str, str]] = {
     "1,5": (2, "comma", "point"),
     "x''": (1, "acceleration", ""),
     "x'''": (2, "second", ""),
-    "L'": (2, "no coordinate", ""),
-    "t'": (2, "no coordinate", ""),
+    "L'": (2, "not a coordinate", ""),
+    "t'": (2, "not a coordinate", ""),
     "хy": (1, "Cyrillic", "`x`"),
     "y + Α": (5, "Greek", "`A`"),
     "ｘ": (1, "Fullwidth", "`x`"),
@@ -192,8 +197,8 @@ MISTAKEN: dict[str, tuple[int, str, str]] = {
     "x°": (2, "after a number", "pi/180"),
     "30°°": (4, "after a number", "pi/180"),
     "deg": (1, "after a number", "60°"),
-    "x + 50 cm": (8, "no number has a unit", "write `50`"),
-    "2 rad": (3, "no number has a unit", "write `2`"),
+    "x + 50 cm": (8, "without units", "write `50`"),
+    "2 rad": (3, "without units", "write `2`"),
     "x ± y": (3, "±", ""),
     "∂h": (1, "∂", "diff"),
     "½x ≤ ∞": (6, "infinity", ""),
@@ -203,7 +208,16 @@ MISTAKEN: dict[str, tuple[int, str, str]] = {
     r"\theta + \foo": (10, r"\foo", ""),
     r"\dot{xy}": (1, "single letter", "xdot"),
     r"\sqrt[3]{x}": (1, "index", "1/3"),
-    "$x$": (1, "$", ""),
+    "$x": (1, "$", "around the whole text"),
+    "$x$ = $y$": (1, "$", "around the whole text"),
+    "$$x$": (1, "$", "around the whole text"),
+    "x + y = const": (9, "`const` is not declared", "`parameters: {C: real}`"),
+    "x = 1, y = 2": (6, "two relations", "`x = 1` and `y = 2`"),
+    "x = 1,5": (6, "comma", "decimals with a point"),
+    r"\begin{aligned} x &= 1 \\ y &= 2 \end{aligned}": (1, "several equations", "each line its own text"),
+    r"x = 1 \\ y = 2": (7, "several equations", "each line its own text"),
+    "δL": (1, "`δL`", ""),
+    "δ x_B": (1, "`δ`", ""),
     "x_{A,1}": (2, "subscript", ""),
 }
 
@@ -240,7 +254,7 @@ def test_only_text_is_read(value: Any) -> None:
 
 
 def test_a_value_holds_no_relation() -> None:
-    with pytest.raises(TextError, match="value is asked for") as caught:
+    with pytest.raises(TextError, match="value is needed") as caught:
         parse_expression("L = 2", NAMES)
     assert caught.value.column == 3
 

@@ -646,8 +646,8 @@ def test_the_commands(sheet: Path, tmp_path: Path) -> None:
     tests = runner.invoke(app, ["export", "otter", str(sheet), "--out", str(tmp_path / "otter")])
     names = [Path(line).name for line in tests.stdout.split()]
     assert names == ["assignment.ipynb", "names.json", "assignment.json"]
-    for command in ("gradescope", "otter"):
-        refused = runner.invoke(app, ["export", command, str(tmp_path / "none.yaml"), "--out", str(tmp_path / "no")])
+    for command, out in (("gradescope", "no.zip"), ("otter", "no")):
+        refused = runner.invoke(app, ["export", command, str(tmp_path / "none.yaml"), "--out", str(tmp_path / out)])
         assert refused.exit_code == 2
         assert "there is no file" in refused.stderr
     for what in ("scene", "assignment", "submission", "result", "report"):

@@ -31,6 +31,7 @@ from dofkit.homework.runs.journal import Journal
 from dofkit.homework.runs.keeper import Keeper
 from dofkit.homework.runs.repeats import HandedIn
 from dofkit.interface import cli
+from dofkit.methods.classify import classify
 
 POINT = {"coordinates": ["x", "y"], "constraints": [{"name": "circle", "type": "equation", "text": "x^2 + y^2 = 1"}]}
 QUESTIONS = [
@@ -297,10 +298,33 @@ def test_results_within_the_folder_are_no_submissions(
     assert length(tmp_path / "a.jsonl") == 1
 
 
-def test_nothing_that_is_read_is_overwritten(assignment: str, capsys: pytest.CaptureFixture[str]) -> None:
-    before = Path(assignment).read_bytes()
-    status, _, err = lines_of(capsys, "grade", assignment, assignment, "--out", assignment)
-    assert (status, Path(assignment).read_bytes()) == (2, before)
+@pytest.mark.parametrize(
+    ("form", "out", "said"),
+    [
+        ("native", "g.csv", "choose --format prairielearn or canvas or moodle"),
+        ("native", "g.html", "the endings are .jsonl"),
+        ("canvas", "g.json", "--format canvas does not write"),
+        ("moodle", "grades", "has no ending: name a file that ends in .csv"),
+        ("html", "g.html", "name one without an ending"),
+    ],
+)
+def test_an_ending_that_does_not_fit_is_an_error(
+    form: str, out: str, said: str, assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "z.csv").write_text("student,p.f\nana,1\n")
+    table, target = str(tmp_path / "z.csv"), tmp_path / out
+    status, _, err = lines_of(capsys, "grade", assignment, table, "--format", form, "--out", str(target))
+    assert (status, target.exists()) == (2, False)
+    assert said in err
+
+
+def test_nothing_that_is_read_is_overwritten(
+    assignment: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lines = tmp_path / "answers.jsonl"
+    lines.write_text('{"student": "ana", "answers": {"p": {"f": 1}}}\n')
+    status, _, err = lines_of(capsys, "grade", assignment, str(lines), "--out", str(lines))
+    assert (status, "ana" in lines.read_text()) == (2, True)
     assert "--out would overwrite" in err
 
 
@@ -494,6 +518,7 @@ WAITING = """
 import signal, sys
 from dofkit.homework.runs.journal import Journal
 from dofkit.interface import cli
+from dofkit.methods.classify import classify
 real, left = Journal.write, int(sys.argv.pop(1))
 def write(journal, one, lines):
     global left
@@ -631,3 +656,39 @@ def test_what_is_doubtful_is_told_on_standard_error(
     status, told, err = lines_of(capsys, *given)
     assert (status, told) == (2, [])
     assert "tells nobody apart" in err
+
+
+def _breaks(*_: object, **__: object) -> Any:
+    raise KeyError("x")
+
+
+def test_a_scene_on_which_dofkit_fails_costs_nobody_the_other_problems(monkeypatch: pytest.MonkeyPatch) -> None:
+    def classified(scene: Any) -> Any:
+        return _breaks() if scene.name == "broken" else classify(scene)
+
+    monkeypatch.setattr("dofkit.homework.key.key.classify", classified)
+    made = [{"id": one, "scene": {**POINT, "name": one}, "questions": QUESTIONS} for one in ("broken", "whole")]
+    for feedback in ("hint", "full"):
+        prepared = dofkit.load_assignment({"title": "One", "feedback": feedback, "problems": made})
+        answers = {"f": "1", "label": "rheonomic", "eq": "x^2 + y^2 = 1"}
+        result = dofkit.grade(prepared, {"student": "Ana", "answers": {"broken": answers, "whole": answers}})
+        assert [item.status for item in result.items] == [
+            "needs_review",
+            "needs_review",
+            *["right"] * 2,
+            "wrong",
+            "right",
+        ]
+        assert result.items[0].feedback.endswith("(KeyError).")
+
+
+def test_what_fails_outside_an_answer_is_the_error_of_that_submission(monkeypatch: pytest.MonkeyPatch) -> None:
+    prepared = dofkit.load_assignment(
+        {"title": "One", "problems": [{"id": "p", "scene": POINT, "questions": QUESTIONS}]}
+    )
+    grader = Grader(prepared)
+    whole = Grader._decision
+    monkeypatch.setattr(Grader, "_decision", lambda self, *a: _breaks() if a[2] == "7" else whole(self, *a))
+    results = [grader.grade(of_value({"student": n, "answers": {"p": {"f": n}}}, n)) for n in ("1", "7", "1")]
+    assert [r.error is None for r in results] == [True, False, True]
+    assert (results[1].student, results[1].error) == ("7", "dofkit failed on this submission (KeyError)")

@@ -255,4 +255,10 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert capsys.readouterr().out.splitlines() == [str(made.with_suffix(f".{form}")) for form in FORMATS]
     with pytest.raises(SystemExit):
         cli.app(["assignment", "handout", str(made), "--format", "docx"])
+    for wrong in (["--out", "sheet.pdf", "--format", "html"], ["--out", "sheet.docx"], ["--out", "sheet"]):
+        with pytest.raises(SystemExit, match="2"):
+            cli.app(["assignment", "handout", str(made), *wrong])
+    sheet = made.with_name("sheet.md")
+    cli.app(["assignment", "handout", str(made), "--out", str(sheet)], standalone_mode=False)
+    assert sheet.read_text(encoding="utf-8").startswith("#")
     assert "docx" in capsys.readouterr().err

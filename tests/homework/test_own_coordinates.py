@@ -9,6 +9,10 @@ import pytest
 
 from dofkit.homework.assignment import AssignmentError, load_assignment
 from dofkit.homework.grading import grade
+from dofkit.homework.key.key import Key
+from dofkit.homework.key.polar_angles import polar_angles
+from dofkit.homework.starting import starting
+from dofkit.scene.reading import load
 
 SCENE: dict[str, Any] = {
     "parameters": {"m": "positive", "l": "positive", "g": "positive"},
@@ -78,3 +82,90 @@ def test_the_column_of_what_could_not_be_read_is_that_of_the_text() -> None:
 def test_what_cannot_be_offered(also: dict[str, str], told: str) -> None:
     with pytest.raises(AssignmentError, match=re.escape(told)):
         sheet(also, ask="dof")
+
+
+PENDULUM: dict[str, Any] = {
+    "dimension": 2,
+    "parameters": {"m": "positive", "l": "positive", "g": "positive"},
+    "particles": ["A"],
+    "constraints": [{"name": "rod", "type": "link", "between": [[0, 0], "A"], "length": "l"}],
+    "energies": {"kinetic": "m (xdot_A^2 + ydot_A^2)/2", "potential": "m g y_A"},
+}
+
+
+def pendulum(also: dict[str, str], **question: Any) -> Any:
+    problem = {"id": "p", "scene": PENDULUM, "also": also, "questions": [{"id": "q", **question}]}
+    return load_assignment({"title": "One", "problems": [problem]})
+
+
+@pytest.mark.parametrize(
+    "speed",
+    ["thetadot", "theta_dot", "theta'", "θ̇", "θ'", "θdot", "\\dot\\theta", "\\dot{\\theta}", "(dtheta/dt)", "(dθ/dt)",
+     "\\frac{d\\theta}{dt}", "\\left(\\frac{d \\theta}{d t}\\right)"],
+)  # fmt: skip
+def test_an_offered_coordinate_is_read_in_every_notation(speed: str) -> None:
+    asked = pendulum({"theta": "atan2(x_A, -y_A)"}, ask="lagrangian")
+    found = item(asked, f"1/2 m l^2 {speed}^2 + m g l cos(theta)")
+    assert (found.status, found.read_as) == ("right", "m*l^2*thetadot^2/2 + m*g*l*cos(theta)"), found.feedback
+
+
+@pytest.mark.parametrize("answer", ["θ̈ = -(g/l) sin θ", "θ'' = -(g/l) sin θ", "\\ddot\\theta = -(g/l) \\sin\\theta"])
+def test_an_offered_acceleration_is_read_in_every_notation(answer: str) -> None:
+    assert item(pendulum({"theta": "atan2(x_A, -y_A)"}, ask="motion"), answer).status == "right"
+
+
+def test_a_coordinate_that_an_answer_defines_may_have_dots() -> None:
+    answer = "L = m l² θ̇²/2 + m g l cos θ, x_A = l sin θ, y_A = -l cos θ"
+    assert item(pendulum({}, ask="lagrangian"), answer).status == "right"
+
+
+def test_the_definition_of_an_answer_goes_before_the_offered_one() -> None:
+    asked = pendulum({"theta": "atan2(x_A, -y_A)"}, ask="lagrangian")
+    upwards = "L = m l² θ̇²/2 - m g l cos θ, x_A = l sin θ, y_A = l cos θ"
+    assert item(asked, upwards).status == "right"
+
+
+def test_offered_names_are_listed_with_the_declared_ones() -> None:
+    for answer, ask in (
+        ("m ww^2 + 3", {"ask": "lagrangian"}),
+        ("x_A = ww^2", {"ask": "equation", "constraint": "rod"}),
+    ):
+        found = item(pendulum({"theta": "atan2(x_A, -y_A)"}, **ask), answer)
+        assert "theta, x_A, y_A" in found.feedback, found.feedback
+
+
+def test_an_equation_in_an_offered_coordinate_is_never_wrong_unseen() -> None:
+    asked = pendulum({"theta": "atan2(x_A, -y_A)"}, ask="equation", constraint="rod")
+    assert item(asked, "x_A = l sin θ, y_A = -l cos θ").status == "right"
+    assert item(asked, "x_A = l sin θ").status == "needs_review"
+    assert item(asked, "θ = 3").status == "needs_review"
+
+
+def of_particles(names: list[str], *links: Any, dimension: int = 2, **more: Any) -> Key:
+    made = [{"type": "link", "between": [a, b], "length": length} for a, b, length in links]
+    parameters = {"l": "positive", "k": "positive"}
+    scene = {"dimension": dimension, "particles": names, "parameters": parameters, "constraints": made, **more}
+    return Key(load(scene))
+
+
+@pytest.mark.parametrize(
+    ("key", "angles"),
+    [
+        (of_particles(["A"], ([0, 0], "A", "l")), {"theta": "atan2(x_A, -y_A)"}),
+        (of_particles(["A"], ([1, 2], "A", 2)), {"theta": "atan2(x_A - 1, -y_A + 2)"}),
+        (of_particles(["B", "A"], ([0, 0], "A", "l"), ("A", "B", "k")),
+         {"theta_A": "atan2(x_A, -y_A)", "theta_B": "atan2(x_B - x_A, -y_B + y_A)"}),
+        (of_particles(["A"], ([0, 0], "A", "l"), coordinates=["theta"]), {"theta_A": "atan2(x_A, -y_A)"}),
+        (of_particles(["A"], ([0, 0, 0], "A", "l"), dimension=3),
+         {"theta": "atan2(sqrt(x_A^2 + y_A^2), -z_A)", "phi": "atan2(y_A, x_A)"}),
+        # on a line, and free
+        (of_particles(["A"], dimension=2), {}),
+        (of_particles(["A"], dimension=3), {}),
+    ],
+)  # fmt: skip
+def test_angles_are_proposed_for_points_on_circles_and_spheres(key: Key, angles: dict[str, str]) -> None:
+    assert polar_angles(key) == angles
+
+
+def test_a_first_assignment_offers_the_angle_of_a_pendulum() -> None:
+    assert "also:\n    theta: atan2(x_P, -y_P)" in starting(["simple-pendulum-link"])

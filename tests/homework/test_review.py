@@ -210,7 +210,7 @@ def test_a_row_for_each_different_answer(course: Course) -> None:
         ("p", "rod", UNREAD, "2", "bo; cy"),
         ("p", "rod", "x_A^2 + y_A^2 = l^2 haha lol", "1", "di"),
     ]
-    assert rows[2]["why"] == "column 1: 'x_B' is not declared (declared are: x_A, y_A, l)"
+    assert rows[2]["why"] == "column 1: 'x_B' is not declared (the declared names are x_A, y_A, l)"
     assert (rows[3]["readings"], rows[3]["would_earn"], rows[3]["max_points"]) == ("x_A^2 + y_A^2 = l^2", "4", "4")
     assert (rows[0]["readings"], rows[0]["would_earn"]) == ("'2 | 3", "0 | 0")
     assert {(r["points"], r["remark"], r["decided_by"]) for r in rows} == {("", "", "")}

@@ -332,8 +332,8 @@ def test_every_type_can_be_stretched(kind: str) -> None:
         d = dimension or 2
         constraint: Any = read_document(line.encode(), "example").value
         scene = load(
-            {"dimension": d, "bodies": ["crank", "rod"], "particles": ["A", "B", "C"], "coordinates": ["x", "y"],
-             "constraints": [*beside(cls, d), constraint]}
+            {"dimension": d, "bodies": ["crank", "rod", "wheel"], "particles": ["A", "B", "C"],
+             "coordinates": ["x", "y"], "constraints": [*beside(cls, d), constraint]}
         )  # fmt: skip
         written = written_scene(scene)
         found = stretched(scene, written, Stretch((Fraction(3, 2),) * d, Fraction(3, 2), {}))
@@ -348,7 +348,12 @@ def test_what_may_replace_a_type_is_a_scene(kind: str) -> None:
     cls = TYPES[kind]
     for dimension, line in cls.examples.items():
         d = dimension or 2
-        base = {"dimension": d, "bodies": ["crank", "rod"], "particles": ["A", "B", "C"], "coordinates": ["x", "y"]}
+        base = {
+            "dimension": d,
+            "bodies": ["crank", "rod", "wheel"],
+            "particles": ["A", "B", "C"],
+            "coordinates": ["x", "y"],
+        }
         scene = load({**base, "constraints": [*beside(cls, d), read_document(line.encode(), "example").value]})
         for other in scene.constraints[-1].replacements(names_at_hand(scene)):
             more = {"constraints": [*beside(cls, d), other.fields], "parameters": dict(other.parameters)}

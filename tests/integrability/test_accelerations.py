@@ -67,7 +67,7 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
     (
         "zdot - y xdot = C: the contact form less C dt",
         scene("x y z", "zddot = ydot xdot + y xddot"),
-        {"dof": 3, "velocity_dof": 2, "holonomic": False, "scleronomic": False},
+        {"dof": 3, "velocity_dof": 2, "holonomic": False, "scleronomic": True, "c1_catastatic": False},
     ),
     (
         "the same with C = 0 written too",
@@ -121,7 +121,7 @@ def test_what_integrates_once(made: dict[str, Any], expected: dict[str, Any]) ->
 
 def test_what_was_integrated_is_said() -> None:
     report = dofkit.classify(dofkit.load(scene("x y", "x yddot + xdot ydot = 0")))
-    said = "ntegrated once: x*ydot = C; the constant is set by the initial state"
+    said = "ntegrated once: x*ydot = C; the constant is determined by the initial conditions"
     assert said in report.constraints[0].reason
     assert any(said in warning for warning in report.warnings)
     assert any("C = 0 is a special case" in warning for warning in report.warnings)
@@ -141,7 +141,7 @@ def test_what_does_not_integrate_is_refused(text: str, why: str) -> None:
     with pytest.raises(dofkit.SceneError) as caught:
         dofkit.classify(dofkit.load(scene("x y", text)))
     (fault,) = caught.value.faults
-    assert "not the rate" in fault.message
+    assert "not the time derivative" in fault.message
     assert "by hand" in (fault.hint or "")
 
 
@@ -184,3 +184,10 @@ def test_a_rate_is_integrated_back(text: str) -> None:
 def test_the_reason_of_a_refusal_is_an_error_of_the_text() -> None:
     with pytest.raises(TextError):
         integrated_once(parse_expression("xddot + x", NAMES), frozenset())
+
+
+def test_a_constant_of_an_earlier_integration_is_no_integral_of_its_own() -> None:
+    """theta'' = 3 says thetadot = 3 t + C and then theta = 3 t^2/2 + C t + C1: one relation for one coordinate."""
+    part = dofkit.classify(scene("theta", "theta'' = 3")).integrable_part
+    assert part is not None
+    assert (part.rank, part.basis) == (1, ["theta - 3*t^2/2 - C*t = C1"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -163,7 +164,10 @@ def test_version_and_help(capsys: pytest.CaptureFixture[str]) -> None:
     assert called(capsys, "--version")[1].strip() == dofkit.__version__
     status, out, _ = called(capsys, "--help")
     assert status == 0
-    assert all(command in out for command in ("classify", "catalog", "schema"))
+    first, more = out[out.index("Commands:") :].split("More commands:")
+    assert re.findall(r"^  (\w+) ", first, re.M) == ["classify", "draw", "animate", "lagrange", "grade"]
+    assert all(f"  {command} " in more for command in ("new", "catalog", "schema", "assignment"))
+    assert "..." not in first + more
 
 
 @pytest.mark.parametrize(

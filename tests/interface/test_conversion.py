@@ -32,10 +32,24 @@ def test_a_model_becomes_a_file_with_the_same_answer(robot: Path, tmp_path: Path
     told = CliRunner().invoke(app, ["convert", str(robot), "--out", str(out)])
     assert (told.exit_code, told.stdout.strip()) == (0, str(out))
     text = out.read_text()
-    assert text.startswith("# Made from arms.urdf by dofkit")
+    first, second, *_ = text.splitlines()
+    assert first == "# yaml-language-server: $schema=.dofkit-schema.json"
+    assert second.startswith("# Made from arms.urdf by dofkit")
+    assert json.loads((tmp_path / ".dofkit-schema.json").read_text())["additionalProperties"] is False
     assert 'name: "hip: left"' in text
     assert dofkit.load(out).model_dump() == dofkit.load(robot).model_dump()
     assert dofkit.classify(out).dof == dofkit.classify(robot).dof == 1
+
+
+def test_a_first_scene_is_written_once_and_is_a_scene(tmp_path: Path) -> None:
+    """Two particles in the plane have 4 coordinates; the rail and the rod leave 2."""
+    out = tmp_path / "pendulum.yaml"
+    assert CliRunner().invoke(app, ["new", str(out)]).exit_code == 0
+    assert dofkit.classify(out).dof == 2
+    again = CliRunner().invoke(app, ["new", str(out)])
+    assert (again.exit_code, "exists" in again.stderr) == (2, True)
+    assert dofkit.loads(CliRunner().invoke(app, ["new"]).stdout).title == dofkit.load(out).title
+    assert "the endings are .yaml, .yml" in CliRunner().invoke(app, ["new", "pendulum.txt"]).stderr
 
 
 def test_without_a_path_it_is_printed(robot: Path) -> None:
@@ -49,7 +63,7 @@ def test_what_is_no_model_is_said(tmp_path: Path) -> None:
     scene.write_text("coordinates: [x]")
     told = CliRunner().invoke(app, ["convert", str(scene)])
     assert told.exit_code == 2
-    assert "read as a scene as it is" in told.stderr
+    assert "is not a model" in told.stderr
 
 
 def test_classify_reads_a_model_and_tells_its_faults_by_line(robot: Path, tmp_path: Path) -> None:

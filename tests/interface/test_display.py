@@ -65,9 +65,40 @@ def test_a_report_is_the_same_with_and_without_what_it_is_about() -> None:
 def test_what_a_notebook_offers_of_a_report_are_its_fields() -> None:
     report = dofkit.classify(DISC)
     offered = {name for name in dir(report) if not name.startswith("_")}
-    own = {"beside", "text", "model_copy", "model_dump", "model_dump_json", "model_validate", "model_validate_json"}
+    own = {"beside", "table", "text", "to_dict"}
+    own |= {"model_copy", "model_dump", "model_dump_json", "model_validate", "model_validate_json"}
     assert offered == {*Report.model_fields, *own}
     assert {"constraints", "title", "parse_raw"} - set(dir(dofkit.load(DISC))) == {"parse_raw"}
+
+
+def test_reprs_are_short_and_name_the_answer() -> None:
+    report = dofkit.classify(DISC)
+    assert repr(report) == f"Report(scene={DISC!r}, dof=4, velocity_dof=2, verdict='proved')"
+    assert repr(report.constraints[0]).startswith("ConstraintEntry(name=")
+    for value in (dofkit.load(DISC), report.constraints[0], dofkit.draw(DISC), dofkit.animate(DISC)):
+        assert len(repr(value)) < 400
+
+
+def test_a_report_as_a_mapping_and_as_a_table() -> None:
+    report = dofkit.classify("five-particles-ten-links")
+    assert Report.model_validate(report.to_dict()) == report
+    rows = report.table()
+    assert [row["name"] for row in rows] == [entry.name for entry in report.constraints]
+    assert {type(value) for row in rows for value in row.values()} <= {str, int, bool, type(None)}
+    (redundant,) = [row for row in rows if row["circuit"]]
+    assert (redundant["name"], redundant["scene"]) == ("DF", "five-particles-ten-links")
+
+
+def test_an_error_in_a_notebook_is_one_panel_with_the_location() -> None:
+    with pytest.raises(dofkit.SceneError) as caught:
+        dofkit.classify({"coordinates": ["x"], "constraints": ["dz = 0"]})
+    lines = caught.value._render_traceback_()
+    assert lines[0].endswith("SceneError")
+    assert lines[1] == '│ in  dofkit.classify({"coordinates": ["x"], "constraints": ["dz = 0"]})'
+    assert lines[2] == "│ constraints[0]: `dz` is not declared"
+    assert lines[3].startswith("│     hint: ")
+    assert len(lines) == 5
+    assert dofkit.TextError("a term is missing")._render_traceback_()[1] == "│ a term is missing"
 
 
 def test_a_report_in_a_notebook() -> None:

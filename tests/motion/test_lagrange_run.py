@@ -346,7 +346,7 @@ def test_the_command_line(capsys: pytest.CaptureFixture[str], monkeypatch: pytes
     assert status == 2
     assert told[0]["coordinates"] == ["r", "theta"]
     assert told[1]["scene"] == "particle-in-space"
-    assert "nothing to derive motion from" in told[1]["error"]["message"]
+    assert "no equations of motion can be derived" in told[1]["error"]["message"]
     status, out = run("lagrange", "trolley-pendulum", "--linearize")
     assert status == 0
     assert "Equations of motion" in out

@@ -11,7 +11,7 @@ from checker.certified import certificate
 
 import dofkit
 from dofkit.checker import verify
-from dofkit.methods.certificates import certificate_of_motion
+from dofkit.methods.certificates.motion_evidence import certificate_of_motion
 from dofkit.motion_checker import MOTION_RULES
 
 Parts = dict[str, Any]

@@ -27,15 +27,26 @@ def test_each_command_names_its_files(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    for command in ("draw", "graph", "animate"):
-        assert called(capsys, command, "four-bar-linkage")[0] == 0
-    assert called(capsys, "phase", "disc-rolling-on-plane", "--format", "html")[0] == 0
+    for command in (["draw"], ["draw", "--as", "graph"], ["animate"]):
+        assert called(capsys, *command, "four-bar-linkage")[0] == 0
+    assert called(capsys, "draw", "--as", "directions", "disc-rolling-on-plane", "--format", "html")[0] == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == [
-        "disc-rolling-on-plane-phase.html",
+        "disc-rolling-on-plane-directions.html",
         "four-bar-linkage-graph.svg",
         "four-bar-linkage.html",
         "four-bar-linkage.svg",
     ]
+
+
+def test_the_ending_decides_the_format(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    one = ("draw", "four-bar-linkage", "--out", str(tmp_path / "a.svg"))
+    status, _, err = called(capsys, *one, "--format", "pdf")
+    assert status == 2
+    assert "ends in .svg, but --format asks for pdf" in err
+    status, _, err = called(capsys, *one, "slider-crank")
+    assert status == 2
+    assert "is one file, and 2 scenes are drawn: name a folder" in err
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.sweep
@@ -43,7 +54,7 @@ def test_what_is_no_picture_is_told(capsys: pytest.CaptureFixture[str], tmp_path
     status, _, err = called(capsys, "draw", "four-bar-linkage", "--out", str(tmp_path / "a.jpg"))
     assert status == 2
     assert "there is no ending '.jpg'" in err
-    status, _, err = called(capsys, "phase", "four-bar-linkage", "--out", str(tmp_path / "a.svg"))
+    status, _, err = called(capsys, "draw", "--as", "directions", "four-bar-linkage", "--out", str(tmp_path / "a.svg"))
     assert status == 2
     assert "needs differential constraints" in err
     assert called(capsys, "animate", "four-bar-linkage", "--format", "svg")[0] == 2

@@ -13,7 +13,7 @@ import pytest
 
 import dofkit
 from dofkit.base.errors import ArgumentError
-from dofkit.pictures import stage, svg
+from dofkit.pictures import stage
 from dofkit.pictures.arrangement import SCHEMATIC
 from dofkit.pictures.coordinates import POINT
 from dofkit.pictures.layout import page_of
@@ -22,7 +22,7 @@ from dofkit.pictures.mechanism import FREE_PLACES
 from dofkit.pictures.paper import HIGH, Page, width_of
 from dofkit.pictures.raster import ExtraMissingError
 from dofkit.pictures.shapes import Role, Shape, State
-from dofkit.pictures.still import Picture
+from dofkit.pictures.still import Picture, svg
 from dofkit.report import FieldVerdict
 
 DOOR: dict[str, Any] = {

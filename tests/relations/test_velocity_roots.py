@@ -33,7 +33,7 @@ def test_a_root_that_is_real_nowhere_is_left_out() -> None:
     """tanh(xdot) = y says exp(xdot)^2 = (1 + y)/(1 - y): of the two roots for exp(xdot) one is below 0."""
     report = dofkit.classify({"coordinates": ["x", "y"], "constraints": ["tanh(xdot) = y"]})
     assert not any("branches" in warning for warning in report.warnings)
-    assert report.scleronomic is False
+    assert (report.scleronomic, report.constraints[0].catastatic) == (True, False)
 
 
 #: Relations in x, y, z whose terms cancel, what they say, dof and velocity_dof.

@@ -88,6 +88,14 @@ def test_roles() -> None:
     assert [q.role for q in system(bodies=["B"]).coordinates] == ["x", "y", "z", "phi", "theta", "psi"]
 
 
+def test_hyphens_of_particles_and_bodies_are_underscores_in_their_coordinates() -> None:
+    found = system(dimension=2, particles=["k-1_0"], bodies=["left-link"], constraints=["x_k_1_0 = theta_left_link"])
+    assert found.particles == ("k-1_0",)
+    assert found.bodies == ("left-link",)
+    names = ["x_k_1_0", "y_k_1_0", "x_left_link", "y_left_link", "theta_left_link"]
+    assert [q.name for q in found.coordinates] == names
+
+
 def test_coordinates_may_be_renamed() -> None:
     scene = {"dimension": 2, "bodies": [{"name": "B", "coordinates": ["X", "Y", "a"]}], "constraints": ["X = cos(a)"]}
     found = system(**scene)
@@ -253,6 +261,11 @@ BAD: list[tuple[Any, tuple[str | int, ...], int | None, str, str]] = [
     ({"particles": ["A", "A"]}, ("particles", 1, "name"), None, "'A' is given twice", "particle"),
     ({"particles": ["A"], "bodies": ["A"]}, ("bodies", 0, "name"), None, "'A' is given twice", "particle"),
     ({"particles": ["A"], "coordinates": ["x_A"]}, ("coordinates", 0), None, "coordinate of particle 'A'", "rename"),
+    ({"particles": ["A 1"]}, ("particles", 0, "name"), None, "cannot be the name of a particle", "`A_1`"),
+    ({"bodies": ["left.link"]}, ("bodies", 0, "name"), None, "cannot be the name of a body", "`left_link`"),
+    ({"coordinates": ["s-1"]}, ("coordinates", 0), None, "the character '-'", "write `s_1`"),
+    ({"parameters": ["k-1_0"]}, ("parameters", "k-1_0"), None, "the character '-'", "write `k_1_0`"),
+    ({"particles": ["A-1"], "coordinates": ["x_A_1"]}, ("coordinates", 0), None, "of particle 'A-1'", "rename"),
     ({"coordinates": ["x", "x"]}, ("coordinates", 1), None, "'x' is given twice", "rename"),
     ({"coordinates": ["theta", "θ"]}, ("coordinates", 1), None, "given twice", "rename"),
     ({"coordinates": ["t"]}, ("coordinates", 0), None, "time", "another name"),

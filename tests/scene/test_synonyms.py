@@ -57,6 +57,10 @@ PAIRS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
         {"joints": [{"type": "ball", "between": ["a", "b"]}], **SPACE, "constraints": ["x_a = 0"]},
         {**SPACE, "constraints": [{"type": "spherical", "between": ["a", "b"]}, "x_a = 0"]},
     ),
+    "names in LaTeX": (
+        {**PLANE, "coordinates": [r"\theta", "$s$", "\theta_{1}"], "parameters": {r"\omega_0": 2, "x_{A}": 1}},
+        {**PLANE, "coordinates": ["theta", "s", "theta_1"], "parameters": {"omega_0": 2, "x_A": 1}},
+    ),
     "a text without a type": (
         {"name": "s", "coordinates": ["x"], "constraints": [{"name": "spin", "text": "x = 1"}]},
         {"name": "s", "coordinates": ["x"], "constraints": [{"name": "spin", "type": "equation", "text": "x = 1"}]},
@@ -165,7 +169,7 @@ SHOWN: dict[str, tuple[str, str]] = {
     "a particle for a body": ("{B}[{type: weld, between: [a, A]}]", "`{type: fixed, point: A}`"),
     "no list": ("coordinates: x", "`coordinates: [x, y]`"),
     "a misspelt key": ("configuraton: {x: 1}", "`configuration: {theta: 0}`"),
-    "no radius": ("{A}[{type: roll, body: a}]", "`{type: roll, body: crank, radius: 1}`"),
+    "no radius": ("{A}[{type: roll, body: a}]", "`{type: roll, body: wheel, radius: 1}`"),
     "two words for one thing": (
         "{A}[{type: hinge, between: [ground, a], at: [0, 0, 0], axis: x, direction: y}]",
         "`direction` is another word for `axis`",
@@ -200,8 +204,8 @@ def test_the_example_of_a_type_is_a_scene(kind: str) -> None:
     for d in TYPES[kind].dimensions:
         line = TYPES[kind].example(d)
         scene = dofkit.loads(
-            f"dimension: {d}\nbodies: [crank, rod]\nparticles: [A, B, C]\ncoordinates: [x, y]\nconstraints:\n- {line}\n"
-            + "".join(f"- {other}\n" for other in TYPES[kind].beside.get(d, ()))
+            f"dimension: {d}\nbodies: [crank, rod, wheel]\nparticles: [A, B, C]\ncoordinates: [x, y]\n"
+            f"constraints:\n- {line}\n" + "".join(f"- {other}\n" for other in TYPES[kind].beside.get(d, ()))
         )
         assert scene.constraints[0].kind() == kind
 

@@ -21,15 +21,15 @@ CHROMIUM = next(
 SCREENS = ((1280, "light"), (390, "dark"))
 SHOWN = (
     "index.html", "tutorial.html", "gallery/index.html", "gallery/joints.html", "reference/types/index.html",
-    "reference/types/on.html", "reference/report.html", "reference/commands.html", "about/theorems.html",
-    "about/methods.html", "guide/answers.html",
+    "reference/types/on.html", "reference/glossary.html", "reference/python.html", "reference/commands.html",
+    "about/theorems.html", "about/methods.html", "guide/answers.html",
 )  # fmt: skip
 
 pytestmark = [
     pytest.mark.sweep,
     pytest.mark.xdist_group("site"),
     pytest.mark.skipif(
-        find_spec("material") is None, reason="mkdocs-material builds the site: pip install 'dofkit[docs]'"
+        find_spec("mkdocstrings") is None, reason="the site needs the extra `docs`: pip install '.[docs]'"
     ),
 ]
 
@@ -98,4 +98,4 @@ def test_words_are_found_in_pages_that_are_opened_as_files(site: Path, reader: R
     reader.page.keyboard.type("growth_vector")
     reader.page.wait_for_selector(".md-search-result__link", state="attached", timeout=20_000)
     links = reader.page.eval_on_selector_all(".md-search-result__link", "found => found.map(one => one.href)")
-    assert any("reference/report.html" in link for link in links)
+    assert any("reference/glossary.html" in link for link in links)

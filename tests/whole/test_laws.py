@@ -249,6 +249,55 @@ def test_the_order_of_coordinates_means_nothing(path: Path) -> None:
     assert other.redundant == report.redundant
 
 
+# Another clock
+
+
+RATE = re.compile(r"\bd?t\b|\b\w+dot\b")
+#: Keys under which a text may hold time.
+TIMED = ("text", "surface", "curve", "length")
+#: Of what is written so, time is no part that a word shows: derivatives of functions, accelerations, quotients of dt.
+OF_TIME = re.compile(r"diff\(|'|/\s*dt|ddot")
+
+
+def later(value: Any, key: str = "") -> Any:
+    """What stands under a key of a scene, with 2 t + 3 for t."""
+    if isinstance(value, list):
+        return [later(item, key) for item in value]
+    if isinstance(value, dict):
+        return {k: later(v, k) for k, v in value.items()}
+    return RATE.sub(clocked, value) if isinstance(value, str) and key in TIMED else value
+
+
+def clocked(match: re.Match[str]) -> str:
+    """Time, its differential or a velocity by the other clock."""
+    return {"t": "(2 t + 3)", "dt": "(2 dt)"}.get(match[0], f"({match[0]}/2)")
+
+
+def has_time(path: Path) -> bool:
+    """Does a scene move in time, and is it drawn nowhere? A drawing is one at t = 0."""
+    scene = scene_of(path)
+    texts = [str(value) for c in scene.constraints for key in TIMED if (value := getattr(c, key, None))]
+    moves = any(RATE.search(text) for text in texts) and not any(OF_TIME.search(text) for text in texts)
+    return moves and not scene.bodies and not scene.configuration and all(p.at is None for p in scene.particles)
+
+
+TIMED_SCENES = [path for path in VARIED if has_time(path)]
+
+
+@on("another clock", TIMED_SCENES)
+def test_another_clock_changes_nothing(path: Path) -> None:
+    document, report = document_of(path), report_of(path)
+    other = classified({**document, "constraints": [later(c) for c in document["constraints"]]})
+    assert numbers(other) == numbers(report)
+    assert other.growth_vector == report.growth_vector
+    assert all_labels(other) == all_labels(report)
+    assert other.redundant == report.redundant
+    assert other.conflicting == report.conflicting
+    assert [(e.independent, e.circuit) for e in other.constraints] == [
+        (e.independent, e.circuit) for e in report.constraints
+    ]
+
+
 # Twice the same constraint
 
 

@@ -11,7 +11,7 @@ import dofkit
 
 TEXT = README.read_text(encoding="utf-8")
 #: Lines that a newcomer reads.
-LONGEST = 240
+LONGEST = 120
 
 
 def test_the_two_commands_are_one_line_each_and_are_what_is_run() -> None:

@@ -5,15 +5,14 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Callable
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from dofkit.base.documents import yaml
 from dofkit.base.documents.fast_block import BlockReader
 from dofkit.base.documents.fast_flow import FlowReader, Path, Places, UnusualError
+from dofkit.base.documents.yaml.events import Composer
 from dofkit.base.errors import Fault
-from dofkit.base.records import dataclass
 
 #: A longer input is refused.
 MOST_BYTES = 64_000_000
@@ -145,7 +144,7 @@ def _from_yaml(name: str, text: str) -> Document:
         hint = "write the scene as JSON, or each list entry on one line in brackets and without anchors"
         fault = Fault(f"more than {MOST_SLOW // 10**6} MB that are not in plain YAML or JSON", hint=hint)
         return _document(name, text, None, [(0, fault)])
-    composer = yaml.Composer()
+    composer = Composer()
     value = composer.read(text)
     return _document(name, text, value, composer.faults, lambda places: places.update(composer.places))
 

@@ -1,6 +1,7 @@
 """Work in processes of their own, which can be killed and replaced: a job never hangs, crashes or starves its caller.
 
->>> from dofkit.base.workers import Job, Pool
+>>> from dofkit.base.workers.job import Job
+>>> from dofkit.base.workers.pool import Pool
 >>> with Pool(1) as pool:
 ...     pool.run(Job("operator:neg", 7, seconds=10.0)).value
 -7
@@ -11,17 +12,7 @@ guard; it takes jobs over a pipe and bounds its own memory and processor time. I
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
-from dofkit.base.surface import handed_on
 from dofkit.base.workers.job import Ended, Job, JobOutcome, Json
 from dofkit.base.workers.worker import MEMORY, Worker
 
-if TYPE_CHECKING:
-    from dofkit.base.workers.pool import Pool
-
-__all__ = ["MEMORY", "Ended", "Job", "JobOutcome", "Json", "Pool", "Worker"]
-
-
-def __getattr__(name: str) -> Any:
-    return handed_on(__name__, {"Pool": "dofkit.base.workers.pool"}, name)
+__all__ = ["MEMORY", "Ended", "Job", "JobOutcome", "Json", "Worker"]

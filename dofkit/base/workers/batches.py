@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future
+from dataclasses import dataclass
 from typing import Generic, NamedTuple, Protocol, TypeVar
 
-from dofkit.base.records import dataclass
 from dofkit.base.workers.crews import Crew
 
 #: Seconds that a batch should take, and the most things and bytes in one.

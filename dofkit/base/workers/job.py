@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, Literal
-
-from dofkit.base.records import dataclass
 
 #: What json can write: the only thing that comes back from a worker.
 Json = Any

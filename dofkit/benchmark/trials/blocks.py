@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
-from dofkit.base.records import dataclass
 from dofkit.benchmark.trials.construction import Construction, scene
 
 

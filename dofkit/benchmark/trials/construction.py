@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
 
-from dofkit.base.records import dataclass
 from dofkit.benchmark.trials.trial import Trial, Truth
 from dofkit.methods.names import Question
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
-from dofkit.base.records import dataclass
 from dofkit.benchmark.trials.construction import Construction, scene
 
 #: What is done to ``u = 0`` (``{u}``, ``{q}`` a coordinate in it): is it the same, the trait, why.

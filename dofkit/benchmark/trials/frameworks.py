@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
 from typing import Any
@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 from flint import fmpq, fmpq_mat, nmod_mat
 
-from dofkit.base.records import dataclass
 from dofkit.mobility.graph.answers import redundant_links
 
 Position = tuple[Fraction, ...]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import random
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.base.records import dataclass
 from dofkit.benchmark.trials.frameworks import Framework, Position
 
 Vector = tuple[Fraction, Fraction, Fraction]

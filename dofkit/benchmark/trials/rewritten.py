@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any
 
 import sympy as sp
 
-from dofkit.base.records import dataclass
 from dofkit.benchmark.trials.construction import KnownTruth, scene
 
 x, y, z, w, theta, phi, psi, r, a = sp.symbols("x y z w theta phi psi r a", real=True)

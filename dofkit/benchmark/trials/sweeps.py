@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from dofkit.base.records import dataclass
 from dofkit.benchmark.trials.construction import KnownTruth
 from dofkit.benchmark.trials.frameworks import Framework, Position, framework, written
 

@@ -7,7 +7,7 @@ parameters.
 
 from __future__ import annotations
 
-from dofkit.base.records import dataclass
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True)

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
 
-from dofkit.base.records import dataclass
 from dofkit.methods.names import Question
 
 #: ``dof``: a number (-1: the constraints contradict each other); ``integrability``: whether each constraint is

@@ -7,11 +7,10 @@ from what is left: the set may lose a part and keep its dimension.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 from dofkit.base.deadline import OutOfTimeError, check, limited
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.dependence.by_implication import LEAVING_SECONDS
 from dofkit.classification.dependence.circuits import Redundancies

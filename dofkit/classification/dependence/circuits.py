@@ -9,12 +9,11 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 from dofkit.base.components import components
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import About, Verdict
 from dofkit.classification.dependence.sufficient_sets import Implication, SufficientSets
 from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing
@@ -51,6 +50,10 @@ class Redundancies:
     def needed(self) -> set[int]:
         """The constraints that were looked at and cannot go, as far as is known."""
         return {*self.independent, *self.undecided, *self.uncounted} - {*self.redundant}
+
+    def has_dependent_equations(self, sizes: Sequence[int]) -> bool:
+        """Return whether an equation is known to follow from others; ``sizes``: the equations of each constraint."""
+        return bool(self.uncounted) or any(count < sizes[i] for i, count in self.independent.items())
 
     def without(self, needed: set[int]) -> Redundancies:
         """The same where some constraints cannot go, because of other equations of theirs."""

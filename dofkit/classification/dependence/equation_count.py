@@ -13,14 +13,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import groupby
 from typing import NamedTuple
 
 from dofkit.base.components import components
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 from dofkit.classification.dependence.implications import NearDrawing
 from dofkit.classification.dependence.sufficient_sets import SufficientSets
 from dofkit.classification.freedom.block import answer

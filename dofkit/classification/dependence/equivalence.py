@@ -8,12 +8,11 @@ branch, weaker, stronger, different, empty, differentiated, integrated with or w
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
 
 from dofkit.base.deadline import part, unless_late
-from dofkit.base.records import dataclass
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.dependence.inequalities import same_side
 from dofkit.classification.dependence.multiples import power_of, same_up_to_numbers

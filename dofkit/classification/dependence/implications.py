@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
-from dofkit.base.records import dataclass
 from dofkit.classification.dependence.implication import follows
 from dofkit.configuration.drawing.implied_relations import ImpliedRelations
 from dofkit.exact.matrices.sparse import echelon

@@ -6,15 +6,14 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
 
 from dofkit.base.components import components
 from dofkit.base.deadline import unless_late
-from dofkit.base.libraries import LateLibrary
+from dofkit.classification.dependence import by_leaving_out, implications
 from dofkit.classification.dependence.by_implication import MAX_CHOICES, implied
 from dofkit.classification.dependence.by_rank import analysed, at_a_point, holds_where, joined_parts, without_hidden
 from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse, left_open
-from dofkit.classification.dependence.regions import is_region, of_regions
+from dofkit.classification.dependence.regions import is_conditional, is_region, of_regions
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.through_reference import through_reference
 from dofkit.relations.answer import Answer
@@ -23,12 +22,6 @@ from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
-
-if TYPE_CHECKING:
-    from dofkit.classification.dependence import by_leaving_out, implications
-else:
-    by_leaving_out = LateLibrary("dofkit.classification.dependence.by_leaving_out")
-    implications = LateLibrary("dofkit.classification.dependence.implications")
 
 #: The blocks that hold rows of a constraint, with their answers, by its number.
 BlocksOf = dict[int, list[tuple[Block, Answer]]]
@@ -39,7 +32,7 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
 
     Where there is no time or no way to tell, the constraints concerned are left open.
     """
-    found = [_void(reduced)]
+    found = _void(reduced)
     if not outcome.consistent:
         return found
     found += copied(reduced, outcome)
@@ -112,7 +105,7 @@ def _of_relations(
     if _each_takes_one(reduced, numbers, blocks):
         return [_independent({i: reduced[i].equations for i in numbers})]
     if not _measured_by_rank(reduced, setting, numbers, blocks):
-        return [_as_free(implied(reduced, setting, numbers), blocks)]
+        return [_as_free(implied(reduced, setting, numbers), reduced, blocks)]
     numbered = _numbered(reduced[i] for i in numbers)
     answered = [
         a for block in blocks if block[1].velocity_dof is not None for a in _of_block(*block, setting, numbered)
@@ -124,11 +117,11 @@ def _of_relations(
         for group in joined_parts([a for a in answered if isinstance(a, OwnedRows)])
     ]
     if any(_conditional(reduced[i]) for r in by_rank for i in r.redundant):
-        return [*settled, _as_free(implied(reduced, setting, numbers), blocks)]
+        return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
     straight = all(a.linear for _, a in blocks)
     where = "everywhere" if straight else unless_late(partial(holds_where, reduced, setting, numbers, by_rank), None)
     if where is False:
-        return [*settled, _as_free(implied(reduced, setting, numbers), blocks)]
+        return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
     if where is None:
         known = partial(at_a_point, reduced=reduced, setting=setting, numbers=numbers)
         return _agreed([*settled, *map(known, by_rank)])
@@ -140,25 +133,35 @@ def _conditional(r: Reduced) -> bool:
     return any(isinstance(p, DomainCondition) for n in r.normals for b in n.branches for p in b)
 
 
-def _as_free(found: Redundancies, blocks: Sequence[tuple[Block, Answer]]) -> Redundancies:
-    """What was counted, where no more equations are independent than take freedom away.
+def _as_free(found: Redundancies, reduced: Sequence[Reduced], blocks: Sequence[tuple[Block, Answer]]) -> Redundancies:
+    """Return what was counted, where it agrees with the freedom that the equations take away.
 
-    Else they are those whose rows are, at the points where the freedom was told: none of what holds on a whole region;
-    of x z = 0 and z = 0 one, though neither follows from those before it.
+    No more equations are independent than take freedom away, and the groups hold all others. Where the order in which
+    equations imply each other says otherwise, their rows are counted, at the points where the freedom was determined:
+    none of what is satisfied on a whole region; of x z = 0 and z = 0 one, though neither follows from those before it.
     """
     if found.undecided or any(a.velocity_dof is None for _, a in blocks):
         return found
     taken = sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
-    if sum(found.independent.values()) <= taken:
+    equations = sum(reduced[i].equations for i in found.independent)
+    if sum(found.independent.values()) <= taken and _hold_the_others(found, equations):
         return found
     parts = [OwnedRows(a.matrix, by_leaving_out.owners_of(b), _finite_rows(b), a.modulus) for b, a in blocks]
     known = all(len(part.matrix) == len(part.owners) for part in parts)
     by_rank = analyse(parts) if known else Redundancies({}, [], [], {})
-    members = {i for _, group in by_rank.groups for i in group}
-    if sum(by_rank.independent.values()) != taken or not members >= {*found.redundant}:
-        return replace(found, independent={}, uncounted=tuple(found.independent))
+    with_rows = {owner for part in parts for owner in part.owners}
+    idle = [(reduced[i].equations, [i]) for i in found.independent if i not in with_rows]
     independent = {i: by_rank.independent.get(i, 0) for i in found.independent}
-    return replace(found, independent=independent, groups=by_rank.groups, equations={})
+    counted = replace(found, independent=independent, groups=[*by_rank.groups, *idle], equations={})
+    members = {i for _, group in counted.groups for i in group}
+    if sum(independent.values()) == taken and members >= {*found.redundant} and _hold_the_others(counted, equations):
+        return counted
+    return replace(found, independent={}, uncounted=tuple(found.independent))
+
+
+def _hold_the_others(found: Redundancies, equations: int) -> bool:
+    """Return whether the groups hold as many equations as are not independent."""
+    return sum(nullity for nullity, _ in found.groups) >= equations - sum(found.independent.values())
 
 
 def _finite_rows(block: Block) -> list[bool]:
@@ -253,18 +256,19 @@ def merged(found: Sequence[Redundancies]) -> list[tuple[int, list[int]]]:
     return sorted(merged, key=lambda g: g[1])
 
 
-def _void(reduced: Sequence[Reduced]) -> Redundancies:
-    """Relations that hold always (0 = 0) are redundant by themselves."""
-    independent, redundant, groups = {}, [], []
-    equations = {}
+def _void(reduced: Sequence[Reduced]) -> list[Redundancies]:
+    """Relations that are always satisfied (0 = 0) are redundant by themselves.
+
+    What only holds on a region takes no freedom away either; where it is a part of a constraint it is counted here.
+    """
+    found = []
     for i, r in enumerate(reduced):
         void = tuple(k for k, normal in enumerate(r.normals) if normal.branches == ((),))
-        empty = len(void)
-        if not empty:
-            continue
-        equations[i] = void
-        independent[i] = 0
-        groups.append((empty, [i]))
-        if empty == r.equations:
-            redundant.append(i)
-    return Redundancies(independent, redundant, groups, {i: [] for i in redundant}, equations=equations)
+        partly = () if is_region(r) else tuple(k for k, normal in enumerate(r.normals) if is_conditional(normal))
+        if void or partly:
+            idle = len(void) + len(partly)
+            redundant = [i] if len(void) == r.equations else []
+            circuits: dict[int, list[int]] = {i: [] for i in redundant}
+            named = {} if partly else {i: void}
+            found.append(Redundancies({i: 0}, redundant, [(idle, [i])], circuits, equations=named))
+    return found

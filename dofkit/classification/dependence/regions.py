@@ -20,7 +20,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.pieces import Finite, Piece
+from dofkit.relations.normal.pieces import Finite, Normal, Piece
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 
@@ -29,17 +29,13 @@ POINTS = 2
 
 
 def is_region(r: Reduced) -> bool:
-    """Do all equations of a constraint say only where they hold?"""
-    branches = 0
-    for n in r.normals:
-        for b in n.branches:
-            branches += 1
-            if not b:
-                return False
-            for p in b:
-                if not isinstance(p, DomainCondition):
-                    return False
-    return branches > 0
+    """Return whether all equations of a constraint only state where they are satisfied."""
+    return bool(r.normals) and all(map(is_conditional, r.normals))
+
+
+def is_conditional(n: Normal) -> bool:
+    """Return whether an equation only states where it is satisfied, on all its branches."""
+    return bool(n.branches) and all(b and all(isinstance(p, DomainCondition) for p in b) for b in n.branches)
 
 
 def of_regions(

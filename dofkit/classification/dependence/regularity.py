@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import chain
 from itertools import product as cartesian
 
 from flint import arb
 
-from dofkit.base.records import dataclass
 from dofkit.configuration.generic_points import field_jacobian
 from dofkit.configuration.search import find
 from dofkit.exact.errors import NoValueError

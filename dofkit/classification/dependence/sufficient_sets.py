@@ -9,10 +9,10 @@ else takes up more of the independent rows, those first that share a coordinate 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import Protocol
 
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 
 #: Rows that are taken into all questions about one block; what is open then is left open.
 WORK = 1500

@@ -7,11 +7,10 @@ configuration is given; time and parameters may be as they like, so that what is
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 from dofkit.base.deadline import limited, unless_late
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.feasibility.parts import Part, parts_of
 from dofkit.classification.feasibility.refutation import contradictory, refuted
@@ -34,13 +33,15 @@ SECONDS, LEAVING_SECONDS = 6.0, 6.0
 FEW = 8
 #: So many constraints are named in a reason.
 MOST_NAMES = 8
-OPEN = "whether the inequalities can all be met together with the constraints was not decided"
-NOT_MINIMAL = "what is named infeasible cannot all be met; whether that needs {names} was not decided"
+OPEN = "whether all inequalities can be satisfied together with the constraints was not decided"
+NOT_MINIMAL = (
+    "the constraints named as infeasible cannot all be satisfied; whether {names} are needed for this was not decided"
+)
 
 
 @dataclass(frozen=True)
 class Feasibility:
-    """Whether the inequalities can all be met together with the constraints, and how sure that is.
+    """Whether the all inequalities can be satisfied together with the constraints, and how sure that is.
 
     ``at``: where they are, values of the symbols that are coupled to them; ``infeasible``: where they cannot, the
     numbers of constraints that cannot all be met, none of which can be left out unless ``reasons`` say so.

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import product as cartesian
 from math import prod
 
 from dofkit.base.components import components
-from dofkit.base.records import dataclass
 from dofkit.classification.feasibility.refutation import SignClaim
 from dofkit.expressions.differentials import accelerations_of
 from dofkit.expressions.tree import Expr

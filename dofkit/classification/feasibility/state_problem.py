@@ -9,12 +9,11 @@ are linear in v by their differentials are independent: there v is a smooth func
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations
 
-from dofkit.base.records import dataclass
 from dofkit.exact.zero.identity import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from flint import arb
 
-from dofkit.base.libraries import LateLibrary
 from dofkit.base.verdicts import ArgumentKey, Claim, weakest
+from dofkit.classification.feasibility import feasibility
+from dofkit.classification.feasibility.feasibility import Feasibility
+from dofkit.classification.feasibility.witness import Values
 from dofkit.classification.study import Study
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
@@ -16,13 +18,6 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, GAP
 from dofkit.report import FieldVerdict
 from dofkit.system import System
-
-if TYPE_CHECKING:
-    from dofkit.classification.feasibility import feasibility
-    from dofkit.classification.feasibility.feasibility import Feasibility
-    from dofkit.classification.feasibility.witness import Values
-else:
-    feasibility = LateLibrary("dofkit.classification.feasibility.feasibility")
 
 #: Decimals of a number that is known as a ball.
 DIGITS = 15

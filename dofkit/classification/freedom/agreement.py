@@ -13,8 +13,8 @@ from dofkit.base.verdicts import weakest
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.relations.answer import Answer
 
-DIFFER = "functions or numbers that occur are related in a way that exact arithmetic modulo primes does not show"
-OPEN = "functions or numbers that occur may be related in a way that exact arithmetic modulo primes does not show"
+DIFFER = "the functions or numbers that occur satisfy an identity that exact arithmetic modulo primes does not detect"
+OPEN = "the functions or numbers that occur may satisfy an identity that exact arithmetic modulo primes does not detect"
 
 
 def agreed(field: Answer, balls: Answer) -> Answer:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-from dofkit.base.libraries import LateLibrary
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.agreement import agreed, numeric
 from dofkit.classification.freedom.bridged_blocks import bridged_answer
+from dofkit.configuration import distance_geometry
 from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.drawing.at_reference import at_reference
 from dofkit.configuration.drawing.measured_blocks import is_measured
@@ -25,6 +24,7 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.zero.independence import doubt, independent_generators
 from dofkit.expressions.tree import Expr
+from dofkit.integrability import measured_forms
 from dofkit.integrability.labels_by_balls import ball_labels
 from dofkit.integrability.labels_by_field import field_labels
 from dofkit.integrability.lie_algebra_at_points import SampledSpan, on_the_same_part, span_at
@@ -37,25 +37,21 @@ from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.setting import Setting
 
-if TYPE_CHECKING:
-    from dofkit.configuration import distance_geometry
-    from dofkit.integrability import measured_forms
-else:
-    distance_geometry = LateLibrary("dofkit.configuration.distance_geometry")
-    measured_forms = LateLibrary("dofkit.integrability.measured_forms")
-
 #: Rounds of prolongation: each finds one hidden finite relation.
 MAX_ROUNDS = 12
 #: Branches of one hidden relation that are followed.
 MAX_HIDDEN_BRANCHES = 12
-MANY_BRANCHES = f"hidden relations have more than {MAX_HIDDEN_BRANCHES} branches: which is the largest is not known"
-
-IRREGULAR = (
-    "the reference is no regular point of the forms, and other configurations may lie on another part of the set that "
-    "the finite relations leave"
+MANY_BRANCHES = (
+    f"hidden relations have more than {MAX_HIDDEN_BRANCHES} branches, so the branch of largest dimension is not known"
 )
 
-APART = "real configurations were found on other parts of the set only than the points over GF(p)"
+IRREGULAR = (
+    "the reference configuration is not a regular point of the forms, and other configurations may lie "
+    "on another component of the set that "
+    "the geometric equations define"
+)
+
+APART = "real configurations were found only on components other than those of the points over GF(p)"
 
 
 def answer(block: Block, setting: Setting) -> Answer:
@@ -149,7 +145,7 @@ def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[E
         if not outcome:
             result.consistent, result.verdict, result.hidden = False, "probable", extra
             result.argument = "time fixed"
-            result.reasons.append("the constraints leave no motion through an interval of time")
+            result.reasons.append("the constraints allow no motion through an interval of time")
             return result
         if len(outcome) > 1 and len(extra) < MAX_ROUNDS:
             ways = [_prolonged(block, setting, Answer(), [*extra, *branch]) for branch in outcome]
@@ -159,7 +155,7 @@ def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[E
             break
         extra += fresh
     result.verdict, result.consistent = "undecided", None
-    result.reasons.append("motion is confined to a locus that could not be written down")
+    result.reasons.append("the motion is confined to a locus for which no equations could be written")
     return result
 
 
@@ -194,6 +190,7 @@ def _largest(a: Answer) -> tuple[int, int, int]:
 def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list[Expr], setting: Setting) -> Answer:
     result = Answer(True, hidden=extra, reasons=list(found.reasons), verdict=found.verdict, about=found.about)
     result.argument, result.gap, result.witness = found.argument, found.gap, of_real_point(forms.chart, found.real)
+    result.separating = found.separating
     if found.about == "reference" and setting.reference is not None:
         result.witness = of_reference(forms.chart.symbols, setting.reference)
     if block.nonlinear and found.about == "reference":
@@ -215,7 +212,7 @@ def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list
         set_velocity_freedom(block, setting, result)
         return result
     result.verdict, result.consistent = "undecided", None
-    result.reasons.append("no regular point was found to look at the differential constraints")
+    result.reasons.append("no regular point was found at which the differential constraints could be analysed")
     return result
 
 

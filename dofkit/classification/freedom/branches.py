@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product as cartesian
 from math import prod
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
-from dofkit.base.records import dataclass
 from dofkit.classification.freedom.block import answer
+from dofkit.classification.freedom.common_point import at_one_point
 from dofkit.classification.freedom.copies import copies
 from dofkit.classification.freedom.domain import restricted_to_domain
 from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses
@@ -24,6 +24,7 @@ from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.relations.blocks import Block, Row, blocks_of, split, with_boundaries
 from dofkit.relations.integration_constants import names_in, with_rows
 from dofkit.relations.joint_equations import JointEquation
+from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.one_sided import holds_somewhere
 from dofkit.relations.normal.pieces import Inequality, Normal, Still
 from dofkit.relations.reduced import Reduced
@@ -32,7 +33,9 @@ from dofkit.system import System
 
 #: Choices of branches that are looked at.
 MAX_CHOICES = 16
-_LEFT_OUT = f"of more than {MAX_CHOICES} choices of branches not all were looked at, so the largest is not known"
+_LEFT_OUT = (
+    f"of more than {MAX_CHOICES} combinations of branches, not all were examined, so the largest dimension is not known"
+)
 
 
 @dataclass
@@ -42,7 +45,7 @@ class Outcome:
     ``reduced``: what was written nonlinear in the velocities and is not so beside the other rows; ``impossible``:
     constraints that hold nowhere, ``unsettled``: inequalities of which that is not known. ``crossing``: a relation has
     several branches at the reference, or none there; then ``first_order`` is what its gradient allows. ``divided``: to
-    reduce a relation, what may vanish was divided by.
+    reduce a relation, what may vanish was divided by. ``witness``: of coordinates that only domains mention.
     """
 
     rows: list[Row]
@@ -57,6 +60,7 @@ class Outcome:
     reduced: tuple[RewrittenRow, ...] = ()
     unsettled: list[int] = field(default_factory=list)
     divided: bool = False
+    witness: Mapping[Expr, str] = field(default_factory=dict)
 
     @property
     def consistent(self) -> bool | None:
@@ -138,6 +142,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     copied = copies(reduced) if "copies" in setting.reductions else {}
     outcomes, why = list[Outcome](), None
     known = AnsweredBlocks(system)
+    domain = [(i, c) for i, r in enumerate(reduced) for c in r.domain if c.expr.op != "num"]
     constants = {c: Row(i, Still(c)) for i, r in enumerate(reduced) for c in r.constants}
     for number, choice in enumerate(cartesian(*options)):
         if number == MAX_CHOICES:
@@ -153,14 +158,14 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
         why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
         for way in ways_through_reference(ways, setting):
             names = [*(c.name for c in system.coordinates), *names_in(way.rows, constants)]
-            outcome = _answered(names, way.rows, impossible, setting, known)
+            outcome = _answered(names, way.rows, impossible, domain, setting, known)
             outcome.reduced, outcome.divided = way.reduced, way.divided
             outcomes.append(outcome)
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], [c.name for c in system.coordinates])
     if len(outcomes) == 1:
         best.answers = _confirmed(best, setting)
     best.copies = copied if outcomes else {}
-    best.unsettled = unsettled
+    best.unsettled = [*unsettled, *best.unsettled]
     if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
         best.first_order, best.crossing = _first_order(system, reduced, normals, setting, constants), True
         best.kinked = any(normal.kinked for _, normal in normals)
@@ -224,7 +229,7 @@ def _first_order(
     Of a relation between velocities they are those that it allows at the reference, the most that one of its branches
     does. None where the reference is on no branch of a relation, or allows none.
     """
-    written = [q.expr for r in reduced for q in r.constraint.relations if q.sense == "="]
+    written = [relation.expr for r in reduced for relation in r.written]
     options: list[tuple[tuple[Row, ...], ...]] = []
     for (i, n), e in zip(normals, written, strict=True):
         crossing = crossing_at(n, e, setting)
@@ -244,10 +249,19 @@ def _first_order(
 
 
 def _answered(
-    names: Sequence[str], rows: list[Row], impossible: list[int], setting: Setting, known: AnsweredBlocks
+    names: Sequence[str],
+    rows: list[Row],
+    impossible: list[int],
+    domain: Sequence[tuple[int, DomainCondition]],
+    setting: Setting,
+    known: AnsweredBlocks,
 ) -> Outcome:
     blocks, untouched = blocks_of(names, rows, setting.reductions)
-    return Outcome(rows, blocks, known.answers(blocks, setting), untouched, impossible)
+    found = at_one_point(blocks, known.answers(blocks, setting), domain, setting, partial(in_time, setting=setting))
+    never = [*impossible, *found.nowhere]
+    return Outcome(
+        rows, found.blocks, found.answers, untouched, never, unsettled=[*found.unsettled], witness=found.witness
+    )
 
 
 class AnsweredBlocks:

@@ -40,12 +40,11 @@ from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.normal.domain import DomainCondition, holds_at
 from dofkit.relations.normal.edges import given_by
 from dofkit.relations.normal.half_lines import scaled
-from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 
-#: Searches for a point, each from other starts.
-SEEDS = 6
+#: Searches for a point, each from other starts and, but for the first, at a time later or earlier by such a factor.
+SEEDS, LATER = 6, 4.0
 
 
 def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answer:
@@ -154,8 +153,7 @@ def _somewhere(block: Block, result: Answer, setting: Setting) -> Answer:
     if inside is not None and _witness_within(block, result):
         strict = [c for _, c in left]
         return result if _is_within(result, strict) else replace(result, witness=of_real_point(chart, inside))
-    wanted = [c.expr for c in block.conditions if c.sense != "!="]
-    if no_solution(relations, setting.positive, wanted):
+    if none_holds(relations, block.conditions, setting.positive):
         return _nowhere(result, block.conditions, "proved")
     return _open(result, block.conditions)
 
@@ -192,8 +190,9 @@ def _point_within(chart: Chart, left: Sequence[tuple[int, DomainCondition]], dof
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
     points = []
     for seed in range(SEEDS):
+        moment = {ex.TIME: (-1.0) ** seed * LATER ** (seed // 2)} if seed else {}
         try:
-            point = search.search(seed)
+            point = search.search(seed, moment)
         except (OverflowError, ValueError, NoValueError):
             continue
         if point is not None and point.certified and point.consistent:
@@ -232,13 +231,15 @@ def _conditions_text(conditions: Sequence[DomainCondition]) -> str:
 
 
 def _nowhere(result: Answer, conditions: Sequence[DomainCondition], verdict: Literal["proved", "probable"]) -> Answer:
-    why = f"as written the relations ask for {_conditions_text(conditions)}, which holds nowhere where they do"
+    why = f"as written, the equations require {_conditions_text(conditions)}, which holds nowhere where they do"
     return Answer(
         False, verdict=verdict, argument="outside the domain", hidden=result.hidden, reasons=[*result.reasons, why]
     )
 
 
 def _open(result: Answer, conditions: Sequence[DomainCondition]) -> Answer:
-    why = f"no configuration was found at which the relations hold and, as they ask, {_conditions_text(conditions)}"
+    why = (
+        f"no configuration was found that satisfies the equations and, as they require, {_conditions_text(conditions)}"
+    )
     most = result.dof if result.verdict == "proved" and result.about != "component" else None
     return Answer(None, verdict="undecided", hidden=result.hidden, reasons=[*result.reasons, why], most=most)

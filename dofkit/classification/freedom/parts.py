@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from dofkit.base.records import dataclass
 from dofkit.classification.freedom.block import answer
 from dofkit.exact.engines import BOTH
 from dofkit.expressions.tree import Expr

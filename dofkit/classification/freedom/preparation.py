@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator
 from itertools import chain, count
-from typing import TYPE_CHECKING
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import Fault, SceneError, TextError
-from dofkit.base.libraries import LateLibrary
+from dofkit.exact.zero.analyticity import is_analytic
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.renaming import kinds_in, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.unwritten import Unwritten
+from dofkit.integrability import accelerations
 from dofkit.mobility.bridges import Bridges, bridges
 from dofkit.mobility.rows_at_drawing import RowsAtDrawing
 from dofkit.relations.joint_equations import unwritten
 from dofkit.relations.normal.normal_form import normalise
+from dofkit.relations.normal.notes import INSTANT_NOTE
 from dofkit.relations.normal.pieces import Finite, Inequality, Normal, Piece
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
 from dofkit.relations.piece_shapes import NormalTemplate
@@ -26,14 +27,8 @@ from dofkit.relations.reductions import ALL, Reductions
 from dofkit.relations.setting import Setting, TurnedBody
 from dofkit.system import System
 
-if TYPE_CHECKING:
-    from dofkit.integrability import accelerations
-else:
-    accelerations = LateLibrary("dofkit.integrability.accelerations")
-
 #: The kinds of symbols that no finite relation holds.
 RATES = frozenset({"velocity", "acceleration", "differential", "dt"})
-INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
 
 
 def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced], Setting]:
@@ -116,9 +111,9 @@ def reduce_all(system: System, positive: frozenset[Expr], apart: frozenset[int] 
     read = _Normals(system, positive)
     for i, constraint in enumerate(system.constraints):
         if i in apart and isinstance(constraint.relations, Unwritten):
-            found.append(Reduced(constraint, unwritten(constraint.relations), ()))
+            found.append(Reduced(constraint, unwritten(constraint.relations), (), constraint.relations))
             continue
-        normals, inequalities = [], []
+        normals, inequalities, written = [], [], []
         for relation in constraint.relations:
             check()
             if relation.sense != "=":
@@ -128,10 +123,12 @@ def reduce_all(system: System, positive: frozenset[Expr], apart: frozenset[int] 
                 normal = read.normal(relation.expr, constraint.facts.written)
                 only = one_sided(normal)
                 inequalities += only
-                normals += [] if only else [normal]
+                if not only:
+                    normals.append(normal)
+                    written.append(relation)
             except TextError as error:
                 faults.append(Fault(f"'{constraint.name}': {error.message}", ("constraints", i), hint=error.hint))
-        found.append(Reduced(constraint, tuple(normals), tuple(inequalities)))
+        found.append(Reduced(constraint, tuple(normals), tuple(inequalities), tuple(written)))
     if faults:
         raise SceneError(tuple(faults), system.name)
     return found
@@ -160,12 +157,12 @@ class _Normals:
         if "acceleration" in kinds:
             return accelerations.without_accelerations(e, self._positive, self._fresh)
         if not written:
-            return without_instants(normalise(e, self._positive, written))
+            return without_instants(normalise(e, self._positive, written), self._positive)
         shape = shape_of(e)
         key = (shape.skeleton, shape.order)
         if key in self._known:
             return self._known[key].of(shape.names)
-        found = without_instants(normalise(e, self._positive, written))
+        found = without_instants(normalise(e, self._positive, written), self._positive)
         self._known[key] = NormalTemplate(found, shape.names)
         return found
 
@@ -176,17 +173,17 @@ def _fresh(system: System) -> Iterator[str]:
     return (name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in taken)
 
 
-def without_instants(normal: Normal) -> Normal:
+def without_instants(normal: Normal, positive: frozenset[Expr]) -> Normal:
     """A product's branch that only fixes the time (t = 0 of ``t (x - y) = 0``) is no branch of motion: left out."""
-    kept = tuple(b for b in normal.branches if not any(_instant(p) for p in b))
+    kept = tuple(b for b in normal.branches if not any(_fixes_time(p, positive) for p in b))
     if not kept or len(kept) == len(normal.branches):
         return normal
     return Normal(kept, (*(n for n in normal.notes if n != PRODUCT_NOTE), INSTANT_NOTE))
 
 
-def _instant(piece: Piece) -> bool:
-    return (
-        isinstance(piece, Finite)
-        and bool(piece.expr.symbols)
-        and all(s.args[0] in ("time", "parameter") for s in piece.expr.symbols)
-    )
+def _fixes_time(piece: Piece, positive: frozenset[Expr]) -> bool:
+    """Return whether a piece is a relation of time and parameters alone that is satisfied at isolated values only."""
+    if not isinstance(piece, Finite) or not piece.expr.symbols:
+        return False
+    alone = all(s.args[0] in ("time", "parameter") for s in piece.expr.symbols)
+    return alone and is_analytic(piece.expr, piece.expr.symbols, positive)

@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from itertools import chain, count, islice
-from typing import TYPE_CHECKING
 
 from dofkit.base.deadline import OutOfTimeError, check
-from dofkit.base.libraries import LateLibrary
-from dofkit.base.records import dataclass
 from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.expressions.text import to_text
+from dofkit.expressions.tree import TIME
+from dofkit.integrability import first_integrals
+from dofkit.integrability.first_integrals import FirstIntegral
 from dofkit.integrability.pfaffian_system import codistribution
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Row, split
-from dofkit.relations.normal.pieces import Pfaffian
-
-if TYPE_CHECKING:
-    from dofkit.integrability import first_integrals
-    from dofkit.integrability.first_integrals import FirstIntegral
-else:
-    first_integrals = LateLibrary("dofkit.integrability.first_integrals")
+from dofkit.relations.blocks import Block, Row, split, uses_time
+from dofkit.relations.integration_constants import about_constants
+from dofkit.relations.normal.pieces import Pfaffian, Still
 
 #: Blocks up to this many constraints and coordinates are searched for companions and integrals.
 MAX_CONSTRAINTS, MAX_COORDINATES = 10, 12
@@ -31,12 +26,14 @@ MAX_CONSTRAINTS, MAX_COORDINATES = 10, 12
 class Together:
     """``companions``: a minimal set of other constraints with which a form integrates; None where it was not sought.
 
-    ``integral``: what it then says, as text; ``identically`` tells that this was proved in the canonical ring.
+    ``integral``: what it then says, as text; ``identically`` tells that this was proved in the canonical ring, and
+    ``timed`` that t occurs in it.
     """
 
     companions: tuple[int, ...] | None = None
     integral: str | None = None
     identically: bool = True
+    timed: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -70,7 +67,8 @@ class Companionship:
         companions = tuple(o for o in kept if o != constraint)
         if integral is None:
             return Together(companions)
-        return Together(companions, equation(integral, block), integral.identically)
+        timed = _timed(integral, constraint, block, a)
+        return Together(companions, equation(integral, block), integral.identically, timed)
 
     def modulo(self, constraint: int, block: Block, a: Answer) -> Together:
         """For a constraint that is not: a finite relation that it says in the presence of all the others."""
@@ -124,12 +122,14 @@ class Companionship:
         return self._integrals_of(block, owners).by_row.get(own[0]) if len(own) == 1 else None
 
     def basis(self, block: Block) -> list[str]:
-        """Independent integrals of all the block's rows together, as text."""
+        """Return independent integrals of all the block's rows together, as text, less those between constants."""
         owners = list(dict.fromkeys(r.constraint for r in block.rows))
         if len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES or block.nonlinear:
             return []
         try:
-            integrals = self._integrals_of(block, owners).integrals
+            constants = [c for r in block.rows if isinstance(r.piece, Still) for c in r.piece.coefficients]
+            every = self._integrals_of(block, owners).integrals
+            integrals = [f for f in every if not about_constants(f.expr, constants)]
         except (OutOfTimeError, ArithmeticError):
             return []
         return [equation(f, block, i if len(integrals) > 1 else None) for i, f in enumerate(integrals)]
@@ -153,6 +153,17 @@ class Companionship:
         shift = forms.finite - len(part.finite)
         by_row = first_integrals.integral_by_row(forms, integrals)
         return CompanionIntegrals({numbers[row - shift]: f for row, f in by_row.items()}, integrals)
+
+
+def _timed(f: FirstIntegral, constraint: int, block: Block, a: Answer) -> bool | None:
+    """Return whether t occurs in what a form with a dt term integrates to; None if that depends on how it is written.
+
+    That is so if other constraints hold t, and may hold it so that the dt term is 0.
+    """
+    others = Block(block.coordinates, tuple(r for r in block.rows if r.constraint != constraint))
+    if not uses_time(others):
+        return TIME in f.expr.symbols
+    return None if others.finite or a.hidden else True
 
 
 def _forms_of(constraint: int, block: Block) -> list[int]:

@@ -30,9 +30,11 @@ from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict
 
 #: What is said of dependence that is open, or not on what was written before.
-OPEN = "Whether it follows from the others was not decided."
-UNCOUNTED = "How many of its equations are independent of those before was not decided."
-REDUNDANT = "It can be left out: the others, those written after it among them, leave the same motions."
+OPEN = "Whether it is implied by the others was not decided."
+UNCOUNTED = "The number of its equations that are independent of the preceding ones was not decided."
+REDUNDANT = "It is redundant: the other constraints, including those written after it, allow the same motions."
+#: What is added where this is stated for one component of the configuration space.
+ON_COMPONENT = "This is stated for the component of the configuration space that holds the witness."
 
 
 def entries_of(
@@ -76,7 +78,8 @@ def entries_of(
 
 class _Dependence(NamedTuple):
     """What is known of all constraints, by number: independent equations, circuits that were written before, what can
-    go and how surely, what is open, which equations follow, and of which constraints that was seen in numbers.
+    go and how surely, what is open, which equations follow, of which constraints that was seen in numbers, and which
+    can go on the component of the witness.
     """
 
     independent: Mapping[int, int]
@@ -85,6 +88,7 @@ class _Dependence(NamedTuple):
     open: Mapping[int, str]
     following: Mapping[int, set[int]]
     seen: frozenset[int]
+    on_component: frozenset[int]
 
     def says_more_of(self, i: int) -> bool:
         """Is anything known of a constraint beyond how many of its equations are independent: all of them?"""
@@ -105,6 +109,7 @@ def _dependence(dependent: Sequence[Redundancies], outcome: Outcome) -> _Depende
         dict.fromkeys(uncounted, UNCOUNTED) | {i: OPEN for found in dependent for i in found.undecided},
         _following(dependent),
         frozenset(i for found in dependent for i in found.seen),
+        frozenset(i for found in dependent if found.about == "component" for i in found.redundant),
     )
 
 
@@ -112,6 +117,7 @@ def _with_dependence(made: ConstraintEntry, i: int, r: Reduced, known: _Dependen
     """An entry with what it says of dependence, where it can be left out or that is open."""
     if i in known.gone:
         reason = made.reason if i in known.circuits else f"{made.reason} {REDUNDANT}"
+        reason = f"{reason} {ON_COMPONENT}" if i in known.on_component else reason
         made = made.model_copy(update={"verdict": weakest(made.verdict, known.gone[i]), "reason": reason})
     if i in known.seen and made.verdict != "undecided":
         claim = FieldVerdict.of(Claim("numeric", "leaving out", gap=GAP, about="reference"))
@@ -162,9 +168,11 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
     names = [in_words(written[k], r.constraint.text) for k in sorted(following)]
     reason = made.reason
     if names and made.equations > 1:
-        few = f"Of its {made.equations} equations {len(names)} {verb(len(names), 'follows', 'follow')}"
-        told = few if made.independent else f"All its {made.equations} equations follow"
-        reason += f" {told} from those before: {'; '.join(names)}."
+        implied = f"{len(names)} of its" if made.independent else "All of its"
+        number = len(names) if made.independent else made.equations
+        reason += (
+            f" {implied} {made.equations} equations {verb(number)} implied by the preceding ones: {'; '.join(names)}."
+        )
     return made.model_copy(update={"redundant_equations": names, "reason": reason})
 
 
@@ -183,7 +191,7 @@ def _with_others(
         return Others()
     found = (company.of if in_system else company.modulo)(i, only.block, only.answer)
     companions = None if found.companions is None else tuple(f"'{names[k]}'" for k in found.companions)
-    return Others(companions, found.integral, found.identically)
+    return Others(companions, found.integral, found.identically, found.timed)
 
 
 def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list[LabelledRow]]:

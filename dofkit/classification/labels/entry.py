@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import OPEN, VERDICTS, Claim, Verdict, weakest
 from dofkit.classification.labels.entry_claims import FoundLabels, Ground, claim_of_dependence, claims_of_labels
 from dofkit.classification.labels.reasons import Labels, Others, joined, reason_of
+from dofkit.classification.labels.time_labels import (
+    EntryLabels,
+    EntryTraits,
+    branches_of_time,
+    declared_functions,
+    reason_of_time,
+    timed_in_system,
+    traits_together,
+)
 from dofkit.exact.engines import BOTH
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -74,9 +83,15 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     own_forms = [p for f in forms if isinstance(p := with_constants(f, own_constants), Pfaffian)]
     proofs = _proofs(form, own_forms, evidence.by_itself, setting)
     labels = _labels_of(reduced, evidence, form, proofs, forms, consistent)
-    traits = _traits_together([evidence.traits_of(p) for p in shown], form == "pfaffian")
     integrals = _integrals_of(form, labels, proofs, evidence, bool(consistent))
+    own_traits = _traits_of(pieces, shown, normals, evidence)
+    single = evidence.rows[0] if len(evidence.rows) == len(shown) == 1 else None
+    timed = timed_in_system(shown[0], single.block, single.answer, integrals.others, setting) if single else None
+    every = _of_every_form(labels, evidence.rows, normals)
+    traits = traits_together([*own_traits, *branches_of_time(normals, bool(consistent))], form, every, timed)
     reasons = _labels(labels.in_system, labels.alone, evidence.rows)
+    sentences = reason_of(form, reasons, proofs, evidence.circuit, integrals.others)
+    reason = _once(normals) + sentences + reason_of_time(traits)
     claims = _claims(form, labels, traits, integrals, evidence, bool(proofs) and all(p.proved for p in proofs))
     return ConstraintEntry(
         name=constraint.name,
@@ -96,8 +111,16 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
         independent=None if evidence.independent is None else min(evidence.independent, reduced.equations),
         verdict=weakest(*(c.verdict for c in claims.values()), *(t.answer.verdict for t in evidence.rows)),
         verdicts={name: FieldVerdict.of(claim) for name, claim in claims.items()},
-        reason=_once(normals) + reason_of(form, reasons, proofs, evidence.circuit, integrals.others),
+        reason=reason,
     )
+
+
+def _traits_of(
+    pieces: Sequence[Piece], shown: Sequence[Piece], normals: Sequence[Normal], evidence: Evidence
+) -> list[Traits]:
+    """Return the traits of the equations of a constraint, without those that only declare an unknown function."""
+    generic = declared_functions(normals)
+    return [evidence.traits_of(q) for p, q in zip(pieces, shown, strict=True) if p not in generic]
 
 
 def _integrable_forms(normals: Sequence[Normal], rows: Sequence[LabelledRow]) -> list[Pfaffian]:
@@ -122,14 +145,6 @@ def _forms(branches: Sequence[Sequence[Piece]]) -> list[Pfaffian]:
     return [p for b in branches for p in b if isinstance(p, Pfaffian)]
 
 
-class _EntryLabels(NamedTuple):
-    """Holonomic in the system and alone, and how sure each is."""
-
-    in_system: bool | None
-    alone: bool | None
-    verdicts: tuple[Verdict, Verdict]
-
-
 def _labels_of(
     reduced: Reduced,
     evidence: Evidence,
@@ -137,43 +152,32 @@ def _labels_of(
     proofs: Sequence[Integrability],
     forms: Sequence[Pfaffian],
     consistent: bool | None,
-) -> _EntryLabels:
+) -> EntryLabels:
     in_system, sure = label_in_system(evidence.rows, reduced.inequalities, proofs, forms)
     own, sure_own = _alone(form, evidence.by_itself, proofs, forms, reduced.inequalities)
     if consistent is False and in_system is None:
         in_system, sure = own, sure_own
-    return _EntryLabels(in_system, own, (sure, sure_own))
+    return EntryLabels(in_system, own, (sure, sure_own))
 
 
-class _EntryTraits(NamedTuple):
-    """What all pieces of a constraint carry by themselves, and how sure each label is."""
+def _of_every_form(labels: EntryLabels, rows: Sequence[LabelledRow], normals: Sequence[Normal]) -> EntryLabels:
+    """Return the labels, undecided in the system if one of several forms may integrate and another does not.
 
-    scleronomic: bool | None
-    catastatic: bool | None
-    exact: bool | None
-    verdicts: Mapping[str, Verdict]
-
-
-def _traits_together(traits: Sequence[Traits], pfaffian: bool) -> _EntryTraits:
-    times = [t.scleronomic for t in traits]
-    still = [t.catastatic for t in traits if t.catastatic is not None and pfaffian]
-    closed = [t.exact for t in traits if t.exact is not None and pfaffian]
-    return _EntryTraits(
-        _together([t for t, _ in times]),
-        _together([c for c, _ in still]) if pfaffian else None,
-        _together([c for c, _ in closed]) if pfaffian else None,
-        {
-            "scleronomic": weakest(*(v for _, v in times)),
-            "catastatic": weakest(*(v for _, v in still)),
-            "exact": weakest(*(v for _, v in closed)),
-        },
-    )
+    Branches with an equation between numbers that differ do not count.
+    """
+    branches = [
+        b for n in normals for b in n.branches if not any(isinstance(p, Finite) and p.expr.op == "num" for p in b)
+    ]
+    forms = [p for b in branches for p in b if isinstance(p, (Pfaffian, Nonlinear))]
+    apart = [r for r in rows if r.label is not None and r.label.holonomic is False]
+    every = len(forms) == 1 or len(forms) == len(apart)
+    return labels if every or labels.in_system is not False else labels._replace(in_system=None)
 
 
 def _claims(
     form: Form,
-    labels: _EntryLabels,
-    traits: _EntryTraits,
+    labels: EntryLabels,
+    traits: EntryTraits,
     integrals: _EntryIntegrals,
     evidence: Evidence,
     by_themselves: bool,
@@ -185,14 +189,18 @@ def _claims(
         "holonomic_alone": labels.alone,
         "scleronomic": traits.scleronomic,
     }
+    if form in ("pfaffian", "nonlinear"):
+        values["catastatic"] = traits.catastatic
     if form == "pfaffian":
-        values |= {"catastatic": traits.catastatic, "exact": traits.exact}
+        values["exact"] = traits.exact
     if integrals.integral is not None:
         values["integral"] = integrals.integral
     verdicts = {"holonomic": in_system, "holonomic_alone": alone, "integral": in_system, **traits.verdicts}
     rows = evidence.rows
     ground = Ground(form, [t.answer for t in rows], [t.label for t in rows if t.label is not None])
     claims = claims_of_labels(ground, FoundLabels(values, verdicts, by_themselves))
+    if traits.by is not None and traits.scleronomic is not None:
+        claims["scleronomic"] = ground.claim(traits.verdicts["scleronomic"], claims[traits.by].argument or "identity")
     if evidence.independent is not None:
         all_needed = evidence.circuit is None and evidence.independent >= len(rows)
         claims["independent"] = claim_of_dependence(ground, all_needed, evidence.copied)
@@ -209,7 +217,7 @@ class _EntryIntegrals(NamedTuple):
 
 
 def _integrals_of(
-    form: Form, labels: _EntryLabels, proofs: Sequence[Integrability], evidence: Evidence, consistent: bool
+    form: Form, labels: EntryLabels, proofs: Sequence[Integrability], evidence: Evidence, consistent: bool
 ) -> _EntryIntegrals:
     own = joined([p.integral for p in proofs])
     others = Others()

@@ -40,7 +40,7 @@ def in_words(relation: Relation, otherwise: str) -> str:
     'no rotation about (1, 0, 0)'
     """
     word, _, rest = relation.part.partition(" ")
-    told = _SAYS.get(word, relation.part or otherwise).format(rest)
+    told = _SAYS[word].format(rest) if word in _SAYS else relation.part or otherwise
     if word not in _ABOUT or not relation.vector or not _given(relation.vector):
         return told
     about = _ABOUT[word].format(f"({', '.join(to_text(part) for part in relation.vector)})")

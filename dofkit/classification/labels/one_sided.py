@@ -31,9 +31,9 @@ from dofkit.report import ConstraintEntry, FieldVerdict
 
 #: Real states at which it is looked whether a side is kept to by itself.
 STATES = 8
-ASIDE = "It also keeps the velocities to one side, {sides}, which takes no freedom away"
-NOT_WHOLE = f"{ASIDE} and follows from no finite relation: as a whole it is not holonomic."
-OPEN_SIDE = f"{ASIDE}; whether that follows from finite relations was not decided."
+ASIDE = "It also restricts the velocities to one side, {sides}, which does not reduce the number of degrees of freedom"
+NOT_WHOLE = f"{ASIDE} and is not implied by geometric equations: the constraint as a whole is not holonomic."
+OPEN_SIDE = f"{ASIDE}; whether geometric equations imply this was not decided."
 
 
 def with_a_side(outcome: Outcome) -> frozenset[int]:

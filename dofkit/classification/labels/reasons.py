@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from dofkit.base.records import dataclass
 from dofkit.integrability.single_form import Integrability
 from dofkit.report import Form
 
-_INITIAL = "the constant is set by the initial state"
+_INITIAL = "the constant is determined by the initial conditions"
 _CHECKED = " (checked at random points)"
 
 
 @dataclass(frozen=True)
 class Others:
-    """What the other constraints do for a form: the names of those it needs (None: not sought), and the integral."""
+    """What the other constraints do for a form: the names of those it needs (None: not sought), and the integral.
+
+    ``timed``: whether t occurs in the integral; None without one.
+    """
 
     names: tuple[str, ...] | None = None
     integral: str | None = None
     identically: bool = True
+    timed: bool | None = None
 
     @property
     def text(self) -> str:
@@ -55,26 +59,32 @@ def reason_of(
     elif form == "nonlinear":
         reason = _nonlinear(labels)
     elif form == "inequality":
-        reason = "An inequality keeps to one side (unilateral): it is not holonomic and takes no freedom away."
+        reason = (
+            "An inequality is a unilateral constraint: it is not holonomic and does not reduce the number of "
+            "degrees of freedom."
+        )
     elif labels.relates:
-        reason = "A relation between coordinates (and time): holonomic."
+        reason = "It relates coordinates (and possibly time) only, so it is holonomic."
     else:
-        reason = "It relates no coordinates: it holds always, or everywhere within a region."
+        reason = "It relates no coordinates: it is satisfied always, or everywhere within a region."
     if circuit:
-        reason += f" It follows from {', '.join(circuit)}."
+        reason += f" It is implied by {', '.join(circuit)}."
     elif circuit is not None:
-        reason += " It takes nothing away."
+        reason += " It imposes no condition beyond the others."
     return reason
 
 
 def _nonlinear(labels: Labels) -> str:
     if labels.in_system:
-        return "Not linear in the velocities alone; with the other constraints it becomes integrable: holonomic here."
+        return (
+            "On its own it is not linear in the velocities; together with the other constraints it is "
+            "integrable, so it is holonomic here."
+        )
     if labels.in_system is None:
-        flat = "the velocities it allows may form flat pieces, so that it is linear in disguise"
+        flat = "the admissible velocities may form linear subspaces, so that it may be equivalent to linear equations"
         return f"Not decided: {labels.undecided or flat}."
-    why = labels.beside or "It is not linear in the velocities and no finite relation gives it"
-    return f"{why}: non-holonomic; it limits velocities only."
+    why = labels.beside or "It is not linear in the velocities and is not a consequence of geometric equations"
+    return f"{why}: non-holonomic; it restricts the velocities, not the accessible configurations."
 
 
 def _pfaffian(labels: Labels, proofs: Sequence[Integrability], others: Others) -> str:
@@ -86,17 +96,18 @@ def _pfaffian(labels: Labels, proofs: Sequence[Integrability], others: Others) -
         with_whom = "the other constraints" if not others.names else " and ".join(others.names)
         then = "" if others.integral is None else f", which gives {others.text}"
         return (
-            f"Alone it is not integrable; it is integrable only together with {with_whom}{then}: "
+            f"It is not integrable on its own; together with {with_whom} it is integrable{then}: "
             f"in this system it is holonomic, and {_INITIAL}."
         )
     if labels.alone:
-        return "Alone it is integrable."
+        return "It is integrable on its own."
     modulo = ""
     if others.integral is not None:
-        modulo = f" It is integrable modulo the others: with them it says {others.text}."
+        modulo = f" It is integrable modulo the others: together with them it implies {others.text}."
     return (
-        "Its curvature does not vanish on the velocities that are left (Frobenius): no function of the coordinates "
-        f"has it as a consequence, so it is non-holonomic and limits velocities only.{modulo}"
+        "It fails Frobenius' condition on the admissible velocities: it is not a consequence of any relation between "
+        "coordinates (and time). It is non-holonomic: it restricts the velocities, not the accessible "
+        f"configurations.{modulo}"
     )
 
 

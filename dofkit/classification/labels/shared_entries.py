@@ -10,6 +10,7 @@ from dofkit.expressions.tree import TIME
 from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import Answer
 from dofkit.relations.joint_equations import JointEquation
+from dofkit.relations.normal.notes import INSTANT_NOTE
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian, Piece
 from dofkit.relations.piece_shapes import shape_together
 from dofkit.relations.reduced import Reduced
@@ -54,7 +55,7 @@ class SharedEntries:
             return None
         return (
             r.constraint.type,
-            tuple([tuple(map(len, n.branches)) for n in r.normals]),
+            tuple([(tuple(map(len, n.branches)), INSTANT_NOTE in n.notes) for n in r.normals]),
             len(every),
             shape_together(every) if any(issubclass(kind, Pfaffian) for kind in kinds) else self._plain_kinds(every),
             self._plain_kinds(r.inequalities),

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import partial
 from itertools import combinations
 from math import comb
 
-from dofkit.base.records import dataclass
 from dofkit.classification.special.common_zeros import MAX_READ, Leaf, common_zeros
 from dofkit.classification.special.minors import MAX_MINORS, EliminatedTable, MinorTable, curvatures
 from dofkit.exact.errors import NoValueError, raising_no_value

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from dofkit.base.deadline import OutOfTimeError, expired, limited
 from dofkit.base.errors import DofkitError
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.isomorphic_blocks import Likenesses
+from dofkit.classification.special.branch_dimensions import branch_dimensions
 from dofkit.classification.special.candidates import Candidates, candidates
-from dofkit.classification.special.common_zeros import Leaf, Reals
+from dofkit.classification.special.common_zeros import Leaf
 from dofkit.classification.special.integrals import undefined_integrals
 from dofkit.classification.special.loci import Locus, place, undefined
 from dofkit.classification.special.meeting_branches import meetings
@@ -117,9 +117,11 @@ def special_cases(
     told = GenericAnswer(system, setting, report, order_of(system), [q for r in reduced for q in r.inequalities])
     cases: list[SpecialCase] = []
     with limited(MAX_SECONDS):
+        with suppress(*_UNFINISHED):
+            cases.extend(branch_dimensions(system, reduced, outcome, report, again))
         found = _searched(outcome, told)
         if not found:
-            return {}
+            return {"special_cases": cases} if cases else {}
         conditions = [ParameterCondition(leaf, f.table.reals) for f in found for leaf in f.candidates.values]
         with suppress(*_UNFINISHED):
             conditions += undefined_integrals(system, report)
@@ -209,7 +211,16 @@ def _plain(block: Block, told: GenericAnswer) -> bool:
 
 
 def _places(found: SearchedBlock, told: GenericAnswer) -> Iterator[SpecialCase]:
-    """Ranks that drop, then curvature that vanishes elsewhere, then coefficients without a value."""
+    """Yield what changes on each locus, once where one locus with the same change lies in another."""
+    located = list(_located(found, told))
+    for what in dict.fromkeys(case.what for _, case in located):
+        alike = [(leaf, case) for leaf, case in located if case.what == what]
+        largest = found.table.reals.largest([leaf for leaf, _ in alike])
+        yield from (case for leaf, case in alike if leaf in largest)
+
+
+def _located(found: SearchedBlock, told: GenericAnswer) -> Iterator[tuple[Leaf, SpecialCase]]:
+    """Yield ranks that drop, then curvature that vanishes elsewhere, then coefficients without a value."""
     if told.report.velocity_dof is None:
         return
     dropped: list[Leaf] = []
@@ -217,18 +228,19 @@ def _places(found: SearchedBlock, told: GenericAnswer) -> Iterator[SpecialCase]:
         seen = _locus_of(found, told, leaf, 0)
         if seen is not None and seen.rank < found.rank:
             dropped.append(leaf)
-            yield from _dropping(found, told, leaf, seen)
+            yield from ((leaf, case) for case in _dropping(found, told, leaf, seen))
     for leaf in found.candidates.bends[:MAX_PLACES] if found.curved else ():
         seen = None if leaf in dropped else _locus_of(found, told, leaf, found.rank)
         if seen is not None:
-            yield from _bending(found, told, leaf, seen)
+            yield from ((leaf, case) for case in _bending(found, told, leaf, seen))
     for row, below in found.candidates.poles[:MAX_PLACES]:
-        yield from _pole(found, told, row, below)
+        leaf = found.table.reals.leaf(below)
+        yield from ((leaf, case) for case in _pole(found, told, row, below))
 
 
 def _locus_of(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, grows: int) -> Locus | None:
     canon, reals = found.table.canon, found.table.reals
-    left = [g for g in found.table.relations if not _holds(reals, leaf, g)]
+    left = [g for g in found.table.relations if not reals.vanishes_on(leaf, g)]
     if len(leaf.conditions(canon)) + len(left) > len(found.block.coordinates):
         return None
     conditions, relations = ([canon.to_expr(p) for p in polys] for polys in (leaf.conditions(canon), left))
@@ -236,12 +248,6 @@ def _locus_of(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, grows: int)
         return place(found.block, found.answer, told.setting, conditions, relations, grows)
     except _UNFINISHED:
         return None
-
-
-def _holds(reals: Reals, leaf: Leaf, relation: Poly) -> bool:
-    """Does a finite relation hold wherever the conditions do?"""
-    left = reals.on(leaf, relation)
-    return left == 0 or any(divmod(left, condition)[1] == 0 for condition in leaf.others)
 
 
 def _locus(

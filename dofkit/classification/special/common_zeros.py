@@ -8,10 +8,10 @@ zero set. What never vanishes for the values that the scene allows has no leaf.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from itertools import product as cartesian
 
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import TooLargeError
 from dofkit.exact.ring.canonical import Canon, Poly
 from dofkit.expressions import tree as ex
@@ -130,6 +130,22 @@ class Reals:
         for index, value in leaf.solved:
             poly = self.under(poly, index, value)
         return poly
+
+    def vanishes_on(self, leaf: Leaf, poly: Poly) -> bool:
+        """Return whether a polynomial is shown to vanish wherever the conditions of a leaf hold."""
+        left = self.on(leaf, poly)
+        return left == 0 or any(divmod(left, condition)[1] == 0 for condition in leaf.others)
+
+    def largest(self, leaves: Sequence[Leaf]) -> list[Leaf]:
+        """Return the leaves that lie in no other one; of equal leaves the first."""
+        kept: list[Leaf] = []
+        for leaf in leaves:
+            if not any(self._within(leaf, other) for other in kept):
+                kept = [*(other for other in kept if not self._within(other, leaf)), leaf]
+        return kept
+
+    def _within(self, leaf: Leaf, larger: Leaf) -> bool:
+        return all(self.vanishes_on(leaf, c) for c in larger.conditions(self.canon))
 
     def under(self, poly: Poly, index: int, value: Poly) -> Poly:
         """A polynomial where a generator has a value, with what follows for its sine or cosine."""

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from flint import arb, ctx, nmod, nmod_mat
 
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import Verdict
 from dofkit.configuration.generic_points import on_variety
 from dofkit.exact.errors import NoValueError, raising_no_value

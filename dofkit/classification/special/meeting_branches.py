@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
+from dofkit.base.verdicts import Verdict
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.special.common_zeros import Reals, common_zeros
+from dofkit.classification.special.common_zeros import Leaf, Reals, common_zeros
 from dofkit.classification.special.loci import meeting
 from dofkit.classification.special.wording import order_of, where
 from dofkit.exact.ring.canonical import Canon
@@ -29,24 +30,32 @@ def meetings(system: System, reduced: Sequence[Reduced], setting: Setting, outco
         return
     nonzero = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "nonzero")
     order = order_of(system)
-    seen: set[tuple[str, str]] = set()
     for i, r in enumerate(reduced):
-        for pair in (pair for normal in r.normals for pair in _pairs(normal)):
-            canon, reals = _reals(pair, setting, nonzero)
-            polys = [canon.quotient(canon.ring.node(g))[0] for g in pair]
-            for leaf in common_zeros(reals, polys):
-                conditions = leaf.conditions(canon)
-                at = where(canon, leaf, order)
-                if not conditions or any(reals.of_parameters(c) for c in conditions) or (at, r.constraint.name) in seen:
-                    continue
-                seen.add((at, r.constraint.name))
-                others = _others(i, outcome)
-                shown = [canon.to_expr(c) for c in conditions]
-                names = [c.name for c in system.coordinates if _mentioned(c.name, [*shown, *others])]
-                sure = meeting(names, setting, [*shown, *others])
-                if sure is not None:
-                    what = f"two branches of {r.constraint.name} meet there"
-                    yield SpecialCase(where=at, kind="locus", what=what, constraints=[r.constraint.name], verdict=sure)
+        pairs = [pair for normal in r.normals for pair in _pairs(normal)]
+        if not pairs:
+            continue
+        canon, reals = _reals([g for pair in pairs for g in pair], setting, nonzero)
+        others = _others(i, outcome)
+        zeros = [common_zeros(reals, [canon.quotient(canon.ring.node(g))[0] for g in pair]) for pair in pairs]
+        sure: list[tuple[Leaf, Verdict]] = []
+        for leaf in (leaf for leaves in zeros for leaf in leaves):
+            conditions = leaf.conditions(canon)
+            if not conditions or any(reals.of_parameters(c) for c in conditions) or leaf in [a for a, _ in sure]:
+                continue
+            shown = [canon.to_expr(c) for c in conditions]
+            names = [c.name for c in system.coordinates if _mentioned(c.name, [*shown, *others])]
+            verdict = meeting(names, setting, [*shown, *others])
+            if verdict is not None:
+                sure.append((leaf, verdict))
+        largest = reals.largest([leaf for leaf, _ in sure])
+        for leaf, verdict in [(a, v) for a, v in sure if a in largest]:
+            yield SpecialCase(
+                where=where(canon, leaf, order),
+                kind="locus",
+                what=f"two branches of {r.constraint.name} meet there",
+                constraints=[r.constraint.name],
+                verdict=verdict,
+            )
 
 
 def _pairs(normal: Normal) -> Iterator[list[Expr]]:

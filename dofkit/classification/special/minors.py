@@ -8,12 +8,12 @@ spanned by Cramer's vectors, so the curvature d(omega)(u, v) of every form on ev
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 from math import comb
 
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 from dofkit.classification.special.common_zeros import Reals
 from dofkit.classification.special.derivatives import Derivation
 from dofkit.exact.errors import TooLargeError, raising_no_value

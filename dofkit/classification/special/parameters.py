@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import product as cartesian
 
-from dofkit.base.records import dataclass
 from dofkit.classification.special.common_zeros import Leaf, Reals
 from dofkit.classification.special.wording import tuple_of
 from dofkit.exact.ring.canonical import Canon, Poly
@@ -133,8 +132,8 @@ def differences(generic: Report, special: Report, integrals: Sequence[str] = ())
         return []
     if generic.consistent != special.consistent:
         if special.consistent:
-            return [f"{_all(generic.conflicting)} can hold: dof {_number(special.dof)}"]
-        return [f"{_all(special.conflicting)} cannot hold"]
+            return [f"{_all(generic.conflicting)} can be satisfied: dof {_number(special.dof)}"]
+        return [f"{_all(special.conflicting)} cannot be satisfied"]
     said = [*_branches(generic, special), *_labels(generic, special), *_integrals(special, integrals)]
     numbers = {f: (getattr(generic, f), getattr(special, f)) for f in ("dof", "velocity_dof")}
     differ = {f: pair for f, pair in numbers.items() if None not in pair and pair[0] != pair[1]}

@@ -41,6 +41,11 @@ def _equation(canon: Canon, poly: Poly, order: Mapping[Expr, int]) -> str:
     return f"{to_text(e - number)} = {to_text(-number)}"
 
 
+def in_order(e: Expr, order: Mapping[Expr, int]) -> Expr:
+    """Return a sum with its terms in the order in which their symbols are declared."""
+    return ex.add(*sorted(e.args, key=lambda term: _first(term, order))) if e.op == "add" else e
+
+
 def _positive(term: Expr) -> bool:
     return not (term.op == "mul" and term.args[0].op == "num" and term.args[0].args[0] < 0)
 
@@ -55,12 +60,12 @@ def drop(rank: int, by: int, velocities: int, moves: bool) -> str:
         return "no velocity satisfies the constraints there"
     return (
         f"the rank of the constraints drops from {rank} to {rank - by}: "
-        f"to first order {_velocities(velocities + by)} allowed there instead of {velocities}"
+        f"{_velocities(velocities + by)} there instead of {velocities}"
     )
 
 
 def _velocities(number: int) -> str:
-    return "1 velocity is" if number == 1 else f"{number} velocities are"
+    return f"the instantaneous freedom is {number}"
 
 
 def flag(
@@ -70,7 +75,7 @@ def flag(
 
     ``own`` and ``there`` are the block's dimensions; the scene's have as many more as it has other coordinates.
     """
-    told = "the curvature vanishes there" if vanishes else "less of the curvature is independent there"
+    told = "the curvature vanishes there" if vanishes else "the curvature has smaller rank there"
     if not scene or not own or there[-1] != own[-1] or [g + scene[0] - own[0] for g in own] != list(scene):
         return told, False
     special = [g + scene[0] - own[0] for g in there]

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import field, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 from flint import arb, ctx
 
-from dofkit.base.libraries import LateLibrary
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import VERDICTS
+from dofkit.base.wording import gap_in_words
 from dofkit.configuration.drawing.dependent_classes import DependentClass, chart_of, dependent_parts, widened
 from dofkit.configuration.drawing.fewer_coordinates import smaller
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
+from dofkit.configuration.local import dimension as local_dimension
+from dofkit.configuration.local import first_order
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
 from dofkit.exact.errors import NoValueError
@@ -32,16 +33,9 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import FollowedClasses
 from dofkit.relations.chart import Chart
 
-if TYPE_CHECKING:
-    from dofkit.configuration.local import dimension as local_dimension
-    from dofkit.configuration.local import first_order
-else:
-    first_order = LateLibrary("dofkit.configuration.local.first_order")
-    local_dimension = LateLibrary("dofkit.configuration.local.dimension")
-
 #: A gap between singular values that tells them apart.
 CLEAR = 1e3
-EXPLICIT = "every relation gives a coordinate by others, so the set is a graph"
+EXPLICIT = "each equation determines one coordinate in terms of others, so the set is a graph"
 
 
 @dataclass(frozen=True)
@@ -133,7 +127,9 @@ def _with_fewer(
     spared = chart.coordinates - small.coordinates
     here = point if small is chart else pose_point(small, known, 3)
     if here is None or not on_variety(small, here):
-        return LocalDimension(None, "undecided", "with fewer coordinates the relations do not hold at the drawing"), 0
+        return LocalDimension(
+            None, "undecided", "in the reduced coordinates the reference configuration does not satisfy the equations"
+        ), 0
     if not small.nodes:
         return LocalDimension(free, "proved", EXPLICIT, argument="graph"), spared
     kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]
@@ -181,7 +177,7 @@ def _by_parts(
 
 def _rigid() -> str:
     """Why what depends on itself does not move."""
-    return f"what is dependent is rigid: {first_order.WHOLE}"
+    return f"the dependent part is rigid: {first_order.WHOLE}"
 
 
 def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[LocalDimension | None, int]:
@@ -234,7 +230,7 @@ def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReferen
     if not exact:
         return AtReference(n - rank, LocalDimension(None, "undecided", "measured"), [], 2, rank, rigid, ball)
     of_q = ball_part([row[:n] for row in matrix])
-    local = LocalDimension(None, "undecided", f"the gap between pivots is {part.gap:.1e}")
+    local = LocalDimension(None, "undecided", gap_in_words(part.gap, "pivot"))
     if part.gap > CLEAR:
         frame = Pivots(tuple(part.rows), tuple(part.columns), tuple(c for c in range(columns) if c not in part.columns))
         manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
@@ -249,7 +245,7 @@ def _dimension_along_curves(manifold: Manifold, rigid: int, time: int | None) ->
         return local_dimension.numeric_dimension(manifold, rigid, time)
     except NoValueError:
         return LocalDimension(
-            None, "undecided", "the relations could not be followed along a curve through this configuration"
+            None, "undecided", "the equations could not be evaluated along a curve through this configuration"
         )
 
 

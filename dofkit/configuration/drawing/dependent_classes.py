@@ -15,10 +15,9 @@ not enough, all that is said of its bodies is looked at (`widened`).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from dofkit.base.libraries import nx
-from dofkit.base.records import dataclass
 from dofkit.exact.matrices.sparse import Echelon
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr

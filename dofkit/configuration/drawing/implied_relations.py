@@ -13,11 +13,10 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
-from dofkit.base.records import dataclass
 from dofkit.configuration.drawing.at_reference import ball_point
 from dofkit.configuration.drawing.dependent_classes import chart_of
 from dofkit.configuration.drawing.fewer_coordinates import smaller

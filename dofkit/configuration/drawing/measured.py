@@ -10,12 +10,11 @@ the relations along it, excludes it beyond what the tolerance may hide. All else
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
-from dofkit.base.records import dataclass
 from dofkit.configuration.drawing.measured_branches import branch_dimension
 from dofkit.configuration.drawing.measured_flexes import StressForms
 from dofkit.configuration.drawing.measured_paths import LONGEST, ON, follow, runs_through, stride_of
@@ -38,10 +37,13 @@ CLOSE, LEVER = 2.0, 30.0
 #: Directions in which motions are followed; how much farther one is that is nearly straight.
 WAYS, FARTHER = 3, 3.0
 
-FOLLOWED = "the motion was followed for a finite step within the tolerance"
-MISSED = "the relations do not hold at the measured drawing within the tolerance, and it says nothing elsewhere"
-FIXED = "the relations allow neither a motion nor another moment within the tolerance: they fix the time"
-OPEN = "some of the motions to first order are no finite motions; which was not decided"
+FOLLOWED = "the motion was continued for a finite step within the tolerance"
+MISSED = (
+    "the measured reference configuration does not satisfy the equations within the tolerance, and the "
+    "tolerance is meaningful only near it"
+)
+FIXED = "within the tolerance the equations allow neither a motion nor another instant: they fix the time"
+OPEN = "some infinitesimal motions are not finite motions; which ones was not decided"
 
 
 class Decided(NamedTuple):
@@ -115,9 +117,11 @@ def _at_fixed_time(drawing: MeasuredDrawing, found: Decided) -> Decided:
     if rank == columns:
         return Decided(None, FIXED, still=True)
     if rank is not None and rank == full > drawing.rank and _time_moves(replace(drawing, rank=rank)):
-        return Decided(columns - full - 1, "all relations are independent within the tolerance, time counted")
+        return Decided(
+            columns - full - 1, "all equations are independent within the tolerance, with time as a variable"
+        )
     if rank != drawing.rank or (found.dimension is not None and found.confined):
-        return Decided(None, "within the tolerance it is not decided whether a motion passes through this moment")
+        return Decided(None, "whether a motion passes through this instant is not decided within the tolerance")
     return found if found.dimension is None else found._replace(dimension=found.dimension - 1)
 
 
@@ -135,17 +139,21 @@ def _finite(drawing: MeasuredDrawing, rigid: int, far: bool) -> Decided:
     full, columns = drawing.j.shape
     first = columns - drawing.rank
     if drawing.rank == full:
-        return Decided(first, "all relations are independent within the tolerance")
+        return Decided(first, "all equations are independent within the tolerance")
     if first == rigid:
-        return Decided(first, "nothing but motions of the whole is possible to first order", confined=True)
+        return Decided(first, "the only infinitesimal motions are rigid motions of the system", confined=True)
     if far:
         return Decided(
-            None, "the drawing is too far from the origin, by its size, to follow a motion in floating point"
+            None,
+            "the reference configuration is too far from the origin, relative to its size, to continue a motion "
+            "in floating point",
         )
     if stride_of(drawing.tolerance) > LONGEST:
-        return Decided(None, "the tolerance is too coarse to tell a motion from one of first order only")
+        return Decided(None, "the tolerance is too coarse to distinguish a finite motion from an infinitesimal one")
     if len(drawing.ways) != first - rigid:
-        return Decided(None, "the motions of the whole are not told from others within the tolerance")
+        return Decided(
+            None, "rigid motions of the system cannot be distinguished from other motions within the tolerance"
+        )
     forms = StressForms(drawing)
     if forms.vanish:
         found = _by_paths(drawing, first, rigid)
@@ -161,17 +169,20 @@ def _by_second_order(forms: StressForms, first: int, rigid: int) -> Decided:
     there are none where the branch has the dimension of the cone [TangentCone].
     """
     if forms.change_sign:
-        return Decided(first - 1, "branches cross here: the second order is an indefinite form beyond the tolerance")
+        return Decided(first - 1, "branches cross here: the second-order form is indefinite by more than the tolerance")
     if forms.definite:
         return Decided(
-            rigid, "to second order a stress is definite beyond the tolerance: no finite motion", confined=True
+            rigid, "a stress is definite to second order by more than the tolerance: no finite motion", confined=True
         )
     if forms.cone == 0:
-        why = "no first-order motion satisfies the second order within the tolerance: no finite motion"
+        why = "no infinitesimal motion satisfies the second-order condition within the tolerance: no finite motion"
         return Decided(rigid, why, confined=True)
     branch = branch_dimension(forms)
     if branch == forms.cone:
-        why = "a motion was followed away from here within the tolerance, and the second order allows no more"
+        why = (
+            "a finite motion was continued from here within the tolerance, and the second-order condition allows "
+            "no more"
+        )
         return Decided(rigid + forms.cone, why, confined=True)
     return Decided(None, OPEN, seen=rigid + branch)
 
@@ -179,7 +190,7 @@ def _by_second_order(forms: StressForms, first: int, rigid: int) -> Decided:
 def _by_paths(drawing: MeasuredDrawing, first: int, rigid: int) -> Decided:
     """What paths say where the second order says nothing.
 
-    Where the one dependent relation has both signs it parts the manifold [HurewiczWallman1941]; where one motion is
+    Where the one dependent equation has both signs it parts the manifold [HurewiczWallman1941]; where one motion is
     left and the relations break along it, both ways, it is none [IsolatedZeros].
     """
     reach = stride_of(drawing.tolerance)
@@ -189,9 +200,12 @@ def _by_paths(drawing: MeasuredDrawing, first: int, rigid: int) -> Decided:
         return Decided(first, FOLLOWED)
     broken = [path.side() for path in paths if path.breaks]
     if len(drawing.stresses) == 1 and min(broken, default=0.0) < 0 < max(broken, default=0.0):
-        return Decided(first - 1, "the one dependent relation changes sign beyond the tolerance: it holds between")
+        return Decided(
+            first - 1,
+            "the one dependent equation changes sign by more than the tolerance, so it is satisfied in between",
+        )
     if first - rigid == 1 and (all(path.breaks for path in paths) or _breaks_farther(drawing, reach)):
-        why = "the one motion left to first order breaks the relations beyond the tolerance"
+        why = "the one infinitesimal motion violates the equations by more than the tolerance"
         return Decided(rigid, why, confined=True)
     return Decided(None, OPEN, seen=rigid + any(path.near(reach) for path in paths))
 

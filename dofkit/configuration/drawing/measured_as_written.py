@@ -17,10 +17,16 @@ from dofkit.configuration.drawing.measured_branches import branch_dimension
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
 
-AS_WRITTEN = "the numbers as they are written make the relations dependent exactly, and decide: {}"
-ALONE = "the one motion left to first order is none as written, nor was one found beside it within the tolerance"
-STOPPED = "within the tolerance a motion goes on, and read as written it is stopped: the tolerance hides which is so"
-HIDDEN = "read as written the drawing allows no finite motion, but lengths within the tolerance may allow one"
+AS_WRITTEN = "with the numbers exactly as written the equations are dependent, which decides: {}"
+ALONE = (
+    "the one infinitesimal motion is not a finite motion of the geometry as written, and no finite "
+    "motion was found within the tolerance"
+)
+STOPPED = (
+    "the infinitesimal motion extends to a finite motion within the tolerance but not for the geometry "
+    "as written, so the tolerance leaves it open"
+)
+HIDDEN = "the geometry as written allows no finite motion, but lengths within the tolerance may allow one"
 
 
 def held_against_exact(told: Measured, chart: Chart, drawing: Mapping[Expr, Expr]) -> Measured:

@@ -7,10 +7,10 @@ a motion: within the tolerance of it they hold, or they are broken, or nothing i
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 from dofkit.base.libraries import np
-from dofkit.base.records import dataclass
 from dofkit.configuration.drawing.measured_relations import GREY, SLACK, MeasuredDrawing, Place, clear_rank
 from dofkit.exact.errors import NoValueError
 

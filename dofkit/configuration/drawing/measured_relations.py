@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
-from dofkit.base.records import dataclass
 from dofkit.configuration.drawing.measured_frames import BodyFrame, frames_of, of_points, shifts, to_points
 from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.points.balls import FloatPoint, jacobian

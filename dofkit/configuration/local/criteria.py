@@ -7,15 +7,17 @@ the germ (`germ.Germ`) and a row here; its theorem is a line of `dofkit/THEOREMS
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Literal
 
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import ArgumentKey, Verdict, weakest
 from dofkit.configuration.local import first_order, higher_order, second_order
 from dofkit.configuration.local.germ import Conclusion, Germ
 from dofkit.configuration.local.manifold import LocalDimension
 
-UNDECIDED = LocalDimension(None, "undecided", "the relations are dependent here and their lowest order does not decide")
+UNDECIDED = LocalDimension(
+    None, "undecided", "the equations are dependent here and their lowest-order terms do not decide"
+)
 
 
 @dataclass(frozen=True)
@@ -41,7 +43,7 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "independent relations",
         "ImplicitFunctions",
-        "all relations are independent at the point (k = 0)",
+        "all equations are independent at the point (k = 0)",
         first_order.independent,
         "motion",
         "proved",
@@ -50,7 +52,7 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "rigid to first order",
         "AsimowRoth1978",
-        "the relations allow no velocities but those of the whole (m = mu)",
+        "the equations allow only the velocities of rigid motions of the system (m = mu)",
         first_order.rigid_to_first_order,
         "rigidity",
         "proved",
@@ -59,7 +61,7 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "degree too high",
         "SchwartzZippel",
-        "a dependent relation is of a degree to which it is not followed",
+        "a dependent equation has a degree beyond the orders that are examined",
         first_order.of_high_degree,
         "nothing",
         "undecided",
@@ -68,7 +70,8 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "zero along a curve",
         "SchwartzZippel",
-        "the dependent relations are 0 along a random curve of M to an order above their degree, and at a distance",
+        "the dependent equations vanish along a random curve of M to an order above their degree, and at a "
+        "finite distance",
         first_order.vanishing,
         "motion",
         "probable",
@@ -77,7 +80,7 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "flat along a curve",
         "SchwartzZippel",
-        "the dependent relations are 0 along a random curve of M, but not at a distance, or not as far as is seen",
+        "the dependent equations vanish along a random curve of M, but not, or not verifiably, at a finite distance",
         first_order.vanishing_here,
         "nothing",
         "undecided",
@@ -86,7 +89,8 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "isolated zero of one variable",
         "IsolatedZeros",
-        "one motion is left beside those of the whole (m = mu + 1), and a dependent relation is not 0 along it",
+        "one motion remains besides the rigid motions of the system (m = mu + 1), and a dependent equation "
+        "is not zero along it",
         first_order.of_one_variable,
         "rigidity",
         "proved",
@@ -95,7 +99,7 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "indefinite form",
         "HurewiczWallman1941",
-        "one dependent relation, whose second order has certified squares of both signs; time, if any, moves on M",
+        "one dependent equation, whose second order has certified squares of both signs; time, if any, moves on M",
         second_order.one_form,
         "motion",
         "proved",
@@ -104,7 +108,7 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "definite form",
         "MorseBott",
-        "one dependent relation, whose second order has m - mu certified squares, all of one sign",
+        "one dependent equation, whose second order has m - mu certified squares, all of one sign",
         second_order.one_form,
         "rigidity",
         "proved",
@@ -113,7 +117,7 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "definite combination",
         "ConnellyWhiteley1996",
-        "several dependent relations, of whose second orders a combination has m - mu certified squares of one sign",
+        "several dependent equations, of whose second orders a combination has m - mu certified squares of one sign",
         second_order.several_forms,
         "rigidity",
         "proved",
@@ -122,7 +126,8 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "least along a motion",
         "GromollMeyer1969",
-        "one dependent relation, of second order of one sign, and which is 0 on its critical set N as is seen",
+        "one dependent equation, of second order of one sign, and which vanishes on its critical set N as "
+        "far as examined",
         higher_order.split_form,
         "motion",
         "probable",
@@ -131,7 +136,7 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "change of sign",
         "HurewiczWallman1941",
-        "one dependent relation, whose second order and lowest order on N together take both signs",
+        "one dependent equation, whose second order and lowest order on N together take both signs",
         higher_order.split_form,
         "motion",
         "probable",
@@ -140,7 +145,7 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "definite at a higher order",
         "GromollMeyer1969",
-        "one dependent relation, whose second order and lowest order on N are of one sign, and N has dimension mu + 1",
+        "one dependent equation, whose second order and lowest order on N are of one sign, and N has dimension mu + 1",
         higher_order.split_form,
         "rigidity",
         "probable",
@@ -149,7 +154,7 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "no second-order flex",
         "TangentCone",
-        "several dependent relations, whose second orders have a cone of common zeros of dimension mu, and no more",
+        "several dependent equations, whose second orders have a cone of common zeros of dimension mu, and no more",
         second_order.several_forms_over_both,
         "rigidity",
         "proved",
@@ -158,7 +163,8 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "critical branch",
         "TangentCone",
-        "several dependent relations, all 0 on N as far as seen, which has the dimension of their second-order cone",
+        "several dependent equations, all zero on N as far as examined, which has the dimension of their "
+        "second-order cone",
         second_order.several_forms_over_both,
         "motion",
         "probable",
@@ -167,7 +173,7 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "branch followed",
         "TangentCone",
-        "several dependent relations; a branch of the dimension of their second-order cone is found in numbers",
+        "several dependent equations; a branch of the dimension of their second-order cone was found numerically",
         second_order.several_forms_over_both,
         "motion",
         "numeric",
@@ -176,7 +182,7 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "initial forms apart",
         "CurveSelection",
-        "two motions are left beside those of the whole, and the initial forms have no common complex zero",
+        "two motions remain besides the rigid motions of the system, and the initial forms have no common complex zero",
         higher_order.of_two_variables,
         "rigidity",
         "probable",
@@ -185,7 +191,7 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "definite initial form",
         "CurveSelection",
-        "two motions are left beside those of the whole, and one initial form has no real zero",
+        "two motions remain besides the rigid motions of the system, and one initial form has no real zero",
         higher_order.of_two_variables,
         "rigidity",
         "probable",

@@ -9,10 +9,10 @@ set of the splitting lemma [GromollMeyer1969]: f = Q(y) + g Q the second-order p
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from flint import nmod_mat
 
-from dofkit.base.records import dataclass
 from dofkit.configuration.local.manifold import Form, Manifold, inverse, product
 from dofkit.exact.points.frames import pivots
 from dofkit.exact.points.series import Series, monomial

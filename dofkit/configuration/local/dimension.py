@@ -52,7 +52,7 @@ def local_at(
         return local_dimension(field_manifold, ball_manifold, rigid, time, drawn and "balls" in chart.engines)
     except NoValueError:
         return LocalDimension(
-            None, "undecided", "the relations could not be followed along a curve through this configuration"
+            None, "undecided", "the equations could not be evaluated along a curve through this configuration"
         )
 
 

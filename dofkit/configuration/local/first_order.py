@@ -11,11 +11,11 @@ from __future__ import annotations
 
 from dofkit.configuration.local.germ import LONG_ORDER, LONGEST, Conclusion, Germ, time_moves
 
-INDEPENDENT = "all relations are independent here (implicit function theorem)"
-KEPT = "the relations kept are independent within the precision"
-UNSEEN = {False: "and yet not at a distance", None: "which could not be followed to a distance"}
-FLAT = "may be flat here to a higher order than is followed"
-WHOLE = "nothing but motions of the whole is possible to first order"
+INDEPENDENT = "all equations are independent here (implicit function theorem)"
+KEPT = "the equations kept are independent within the precision"
+UNSEEN = {False: "but not at a finite distance", None: "which could not be continued to a finite distance"}
+FLAT = "may vanish here to a higher order than was examined"
+WHOLE = "the only infinitesimal motions are rigid motions of the system"
 
 
 def independent(germ: Germ) -> bool:
@@ -56,9 +56,12 @@ def vanishing(germ: Germ) -> bool:
 def whole_manifold(germ: Germ) -> Conclusion:
     """What is 0 along a random curve to an order above its degree is 0 on M, with high probability [SchwartzZippel]."""
     if germ.exact:
-        why = f"the dependent relations hold along a random curve to order {germ.order - 1}: the motion is finite"
+        why = (
+            f"the dependent equations are satisfied along a random curve to order {germ.order - 1}: the motion is "
+            "finite"
+        )
     else:
-        why = "the dependent relations hold along a random curve within the precision"
+        why = "the dependent equations are satisfied along a random curve within the precision"
     return _timed(germ, Conclusion(germ.m, why))
 
 
@@ -70,7 +73,9 @@ def vanishing_here(germ: Germ) -> bool:
 def flat(germ: Germ) -> Conclusion:
     """Where the degree is not known (a column given implicitly), 0 to some order is no proof of 0 [SchwartzZippel]."""
     to = f" to order {germ.order - 1}" if germ.exact else ""
-    return Conclusion(None, f"the dependent relations hold along a random curve{to}, {UNSEEN[germ.vanishes_away]}")
+    return Conclusion(
+        None, f"the dependent equations are satisfied along a random curve{to}, {UNSEEN[germ.vanishes_away]}"
+    )
 
 
 def of_one_variable(germ: Germ) -> bool:
@@ -80,7 +85,7 @@ def of_one_variable(germ: Germ) -> bool:
 
 def isolated_zero(germ: Germ) -> Conclusion:
     """An analytic function of one variable that is not 0 has isolated zeros: the set is the orbit [IsolatedZeros]."""
-    why = "the one motion left to first order breaks a relation"
+    why = "the one infinitesimal motion violates an equation"
     if germ.exact:
         first = min(k for s in germ.series for k in range(germ.order) if s.coefficient(k) != 0)
         why = f"{why} at order {first}"

@@ -27,7 +27,10 @@ def least_along_a_motion(germ: Germ) -> Conclusion | None:
     """Q of one sign and g = 0: the set is N, all of it singular [GromollMeyer1969]."""
     if germ.remainder_order is not None or not germ.parts.solved or not _vanishes_on_critical(germ):
         return None
-    why = f"to order {CRITICAL_ORDER - 1} the dependent relation has its least value along a motion, all of it singular"
+    why = (
+        f"to order {CRITICAL_ORDER - 1} the dependent equation attains its minimum along a motion that is "
+        "singular throughout"
+    )
     return Conclusion(len(germ.parts.free), why)
 
 
@@ -36,9 +39,9 @@ def changing_sign(germ: Germ) -> Conclusion | None:
     order = germ.remainder_order
     if order is None:
         return None
-    why = f"beyond its second order the dependent relation changes sign at order {order}"
+    why = f"beyond its second order the dependent equation changes sign at order {order}"
     if order % 2:
-        return Conclusion(germ.m - 1, f"{why}: the motion goes on")
+        return Conclusion(germ.m - 1, f"{why}: the motion is finite")
     return Conclusion(germ.m - 1, why) if len(germ.remainder_signs | _sign(germ)) > 1 else None
 
 
@@ -47,7 +50,7 @@ def definite_at_higher_order(germ: Germ) -> Conclusion | None:
     order = germ.remainder_order
     if order is None or germ.remainder_signs != _sign(germ) or len(germ.parts.free) - germ.rigid != 1:
         return None
-    return Conclusion(germ.rigid, f"the dependent relation is definite at order {order}: no finite motion")
+    return Conclusion(germ.rigid, f"the dependent equation is definite at order {order}: no finite motion")
 
 
 def critical_branch(germ: Germ) -> Conclusion | None:
@@ -66,7 +69,7 @@ def branch_followed(germ: Germ) -> Conclusion | None:
     """A branch of the dimension of the second-order cone is seen, and there is no larger one [TangentCone]."""
     if germ.ball is None or largest_branch(germ.ball, germ.signs, germ.cone) != germ.cone:
         return None
-    why = "a motion was followed away from here to high precision, and the second order allows no more"
+    why = "a finite motion was continued from here to high precision, and the second-order condition allows no more"
     return Conclusion(germ.cone, why)
 
 
@@ -79,7 +82,7 @@ def no_common_zero(germ: Germ) -> Conclusion | None:
     """A curve of the set leaves along a common zero of the initial forms, and there is none [CurveSelection]."""
     if not have_no_common_zero(germ.initial_forms):
         return None
-    return Conclusion(germ.rigid, "the initial forms of the dependent relations have no common zero: no finite motion")
+    return Conclusion(germ.rigid, "the initial forms of the dependent equations have no common zero: no finite motion")
 
 
 def definite_initial_form(germ: Germ) -> Conclusion | None:
@@ -87,7 +90,7 @@ def definite_initial_form(germ: Germ) -> Conclusion | None:
     degree = None if germ.ball is None else definite_degree(germ.ball, germ.initial_forms)
     if degree is None:
         return None
-    why = f"a dependent relation begins with a definite form of degree {degree}: no finite motion"
+    why = f"the lowest-order term of a dependent equation is a definite form of degree {degree}: no finite motion"
     return Conclusion(germ.rigid, why)
 
 

@@ -56,7 +56,7 @@ class SparseColumns:
                     heappush(pending, k)
         most = max(map(abs, work.values()), default=0.0)
         if most < TINY:
-            raise PoleError("the relations are nearly dependent")
+            raise PoleError("the equations are nearly dependent")
         good = [c for c, v in work.items() if abs(v) >= THRESHOLD * most]
         column = min(good, key=lambda c: (self._weight[c], c))
         of[column] = len(self._rows)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from flint import arb, arb_mat, nmod, nmod_mat
 
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import ArgumentKey, Verdict
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import FactoredMatrix

@@ -12,10 +12,10 @@ from __future__ import annotations
 from dofkit.configuration.local.germ import Conclusion, Germ, time_moves
 from dofkit.configuration.local.quadratic_cone import definite_combination
 
-CROSS = "the second order is an indefinite form: branches of the motion cross here"
-DEFINITE = "to second order the dependent relation is a definite form: no finite motion"
-TOGETHER = "a combination of them is definite to second order: no finite motion"
-NO_FLEX = "no first-order motion satisfies the second order: no finite motion"
+CROSS = "the second-order form is indefinite: branches of the motion cross here"
+DEFINITE = "the second-order form of the dependent equation is definite: no finite motion"
+TOGETHER = "a combination of the dependent equations is definite to second order: no finite motion"
+NO_FLEX = "no infinitesimal motion satisfies the second-order condition: no finite motion"
 
 
 def one_form(germ: Germ) -> bool:

@@ -6,9 +6,9 @@ Running it backward narrows the arguments of every step to those for which it ca
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from dofkit.base.records import dataclass
 from dofkit.exact.boxes import functions
 from dofkit.exact.boxes import intervals as iv
 from dofkit.exact.boxes.intervals import Interval

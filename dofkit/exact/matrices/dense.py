@@ -7,13 +7,13 @@ product of matrices is ever rounded: the speed is that of the numerical library,
 from __future__ import annotations
 
 import random
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from flint import fmpz
 
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 
 PRIME_BITS = 23
 #: Products that are summed before they are reduced: 256 (2^22)^2 + 2^22 < 2^53.

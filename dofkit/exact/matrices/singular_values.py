@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import np
 
 #: Relative size below which a singular value of a matrix with scaled rows is taken for 0, and above which it is not.
@@ -13,9 +14,14 @@ NOISE, SIGNAL = 1e-9, 1e-6
 
 
 def independent_part(j: np.ndarray) -> tuple[int, float, list[int], list[int]]:
-    """(rank, gap, rows, columns) of a matrix with its rows scaled; rows are taken greedily in their order."""
+    """Return (rank, gap, rows, columns) of a matrix with its rows scaled; rows are taken greedily in their order.
+
+    Raises NoValueError where an entry is not finite, as at a pole.
+    """
     if not j.size:
         return 0, math.inf, [], []
+    if not np.isfinite(j).all():
+        raise NoValueError("an entry of the matrix is not finite")
     norms = np.linalg.norm(j, axis=1)
     scaled = j / np.where(norms > 0, norms, 1.0)[:, None]
     singular = np.linalg.svd(scaled, compute_uv=False)

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from typing import Any
 
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import PoleError
 
 SparseRow = dict[int, int]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from flint import arb, arb_mat, nmod, nmod_mat
 
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import PoleError, raising_no_value
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns

@@ -9,12 +9,12 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.certified import ORDERED, PivotedPart, ball_part
 from dofkit.exact.matrices.singular_values import independent_part

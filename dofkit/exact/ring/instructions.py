@@ -6,12 +6,12 @@ The program runs over any numbers with ``+ - * /``: a `Point` supplies the gener
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from hashlib import sha256
 from typing import Any, Protocol
 
-from dofkit.base.records import dataclass
 from dofkit.expressions.tree import Expr
 
 #: A value of whatever the program runs over: an element of GF(p), a ball, a float, a truncated series.

@@ -6,14 +6,13 @@ Which of the two it is comes from a simplex method in exact arithmetic; what it 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import count
 from typing import Literal
 
 from flint import fmpq, fmpq_mat
 
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 
 #: Entries of a matrix of equations that is eliminated, and of a tableau that is worked through.
 MAX_EQUATIONS, MAX_TABLEAU = 1_000_000, 250_000

@@ -9,12 +9,11 @@ from __future__ import annotations
 import random
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoPointError, NoValueError
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.ring.instructions import ADD, MUL, NUM, POW

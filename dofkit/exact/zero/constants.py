@@ -8,13 +8,12 @@ A ball below that proves 0.
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from math import lcm, log2
 
 from flint import arb
 
-from dofkit.base.records import dataclass
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import interval_of, is_constant
 from dofkit.expressions.terms import linear_terms

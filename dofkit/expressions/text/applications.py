@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import NoReturn
 
 from dofkit.expressions.calculus import diff
+from dofkit.expressions.domains import of_function, of_power
 from dofkit.expressions.text.arithmetic import UndefinedError, applied, inverse, product
 from dofkit.expressions.text.derivatives import by_time, over_dt, raise_order, size, total_differential
 from dofkit.expressions.text.limits import MAX_DIFFERENTIATED, MAX_ORDER
@@ -36,6 +37,7 @@ def checked(parser: TextReader, token: Token, name: str, given: list[Expr]) -> E
     if len(given) != wanted:
         what = "one argument" if wanted == 1 else f"{wanted} arguments"
         parser.fail(f"`{name}` takes {what}, not {len(given)}", token, "check the commas")
+    parser.domain |= dict.fromkeys(of_function(name, *given))
     try:
         return applied(name, given)
     except UndefinedError as fault:
@@ -128,7 +130,7 @@ def ask_extent(parser: TextReader, token: Token, first: Token) -> NoReturn:
     plain = parser.tokens[parser.at - 1].kind != ")" and beyond.kind in ("value", "number")
     closed = plain and (not follows or follows in " +-,=<>)]}")
     span = (parser.columns[token.start], parser.columns[beyond.end - 1] + 1)
-    told = f"it is not clear what `{name}` is taken of"
+    told = f"it is not clear how far the argument of `{name}` reaches"
     raise AmbiguousError(told, parser.columns[after.start], hint, ways if closed else (), span)
 
 
@@ -161,6 +163,7 @@ def fraction(parser: TextReader, token: Token) -> Expr:
     moved = over_dt(above) if below == DT else None
     if moved is not None:
         return moved
+    parser.domain |= dict.fromkeys(of_power(below, MINUS_ONE))
     try:
         return mul(above, inverse(below))
     except UndefinedError as fault:
@@ -192,7 +195,9 @@ def unknown(parser: TextReader, token: Token) -> Expr:
         given = own_arguments(parser, token)
     if primes is not None and wanted != 1:
         hint = f"write `diff({name}(...), x)` with the argument that is meant"
-        parser.fail(f"`{name}` has {wanted} arguments, so a prime does not say by which to differentiate", primes, hint)
+        parser.fail(
+            f"`{name}` has {wanted} arguments, so a prime does not say which of them to differentiate by", primes, hint
+        )
     found = call(name, given, (primes.amount,) if primes is not None else None)
     return time_derivative_of(parser, token, found, token.amount)
 
@@ -233,7 +238,7 @@ def allowed_derivative(parser: TextReader, token: Token, found: Expr | None) -> 
     """A derivative that exists and holds only what is allowed."""
     if found is None:
         hint = "write the derivative of an expression in coordinates, velocities and t"
-        parser.fail("what stands here cannot be differentiated by time", token, hint)
+        parser.fail("this expression cannot be differentiated with respect to time", token, hint)
     for symbol in sorted(found.symbols, key=lambda s: s.args):
         parser.check_allowed(symbol, token)
     return found
@@ -249,7 +254,9 @@ def derivative_call(parser: TextReader, token: Token) -> Expr:
         parser.fail(f"`{name}` needs its arguments", token, f"write `{name}(h(s), s)`")
     given = arguments(parser)
     if len(given) < 2:
-        parser.fail(f"`{name}` needs what to differentiate and by what", token, f"write `{name}(h(s), s)`")
+        parser.fail(
+            f"`{name}` needs an expression and the variable to differentiate by", token, f"write `{name}(h(s), s)`"
+        )
     found, steps = given[0], given[1:]
     if name == "partial" and any(step.op == "num" for step in steps):
         return by_place(parser, token, found, steps)
@@ -273,7 +280,7 @@ def derivative_call(parser: TextReader, token: Token) -> Expr:
 def once(parser: TextReader, token: Token, found: Expr, symbol: Expr) -> Expr:
     """One derivative; by time it is the total one for `diff`."""
     if size(found, MAX_DIFFERENTIATED) >= MAX_DIFFERENTIATED:
-        parser.fail("this is too long to be differentiated here", token, "write the derivative out")
+        parser.fail("this expression is too long to be differentiated here", token, "write the derivative out")
     if symbol == TIME and token.name == "diff":
         return allowed_derivative(parser, token, by_time(found))
     return diff(found, symbol)
@@ -283,7 +290,7 @@ def whole(parser: TextReader, token: Token, e: Expr) -> int:
     """A small counting number."""
     value = e.args[0]
     if value.denominator != 1 or not 1 <= value <= MAX_ORDER:
-        parser.fail(f"{value} is no order of a derivative", token, f"write a number from 1 to {MAX_ORDER}")
+        parser.fail(f"{value} is not an order of differentiation", token, f"write a number from 1 to {MAX_ORDER}")
     return int(value)
 
 

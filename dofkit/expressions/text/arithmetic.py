@@ -40,17 +40,17 @@ def _bits(value: Fraction) -> int:
 
 def _check_power(base: Expr, value: Fraction) -> None:
     if abs(value.numerator) > MAX_EXPONENT or value.denominator > MAX_EXPONENT:
-        message = f"a constant exponent of this size is not read; at most {MAX_EXPONENT} is"
+        message = f"this exponent is too large; at most {MAX_EXPONENT} is read"
         raise UndefinedError(message, "choose a smaller exponent")
     if base.op == "num":
         if base.is_zero and value == 0:
-            raise UndefinedError("`0^0` has no value", "write the number that is meant")
+            raise UndefinedError("`0^0` has no value", "write the number")
         if base.is_zero and value < 0:
-            raise UndefinedError("this divides by zero", "check what stands in the denominator")
+            raise UndefinedError("this divides by zero", "check the denominator")
         if base.args[0] < 0 and value.denominator != 1:
-            raise UndefinedError("a negative number has no real root here", "write the real number that is meant")
+            raise UndefinedError("a negative number has no real root", "write a real number")
     elif abs(value) > 1 and degree(base, {}) * abs(value) > MAX_EXPONENT:
-        message = f"powers of powers come to more than {MAX_EXPONENT} here"
+        message = f"these nested powers multiply to more than {MAX_EXPONENT}"
         raise UndefinedError(message, "choose smaller exponents")
 
 
@@ -68,7 +68,7 @@ def degree(e: Expr, memo: dict[Expr, Fraction]) -> Fraction:
 def inverse(divisor: Expr) -> Expr:
     """``1/divisor``, or UndefinedError for zero."""
     if divisor.is_zero:
-        raise UndefinedError("this divides by zero", "check what stands in the denominator")
+        raise UndefinedError("this divides by zero", "check the denominator")
     return power(divisor, MINUS_ONE)
 
 

@@ -52,19 +52,19 @@ _LOOKALIKES: dict[str, str] = {
     **dict(zip("ΑΒΕΖΗΙΚΜΝΟΡΤΥΧο", "ABEZHIKMNOPTYXo", strict=True)),
 }
 _REFUSED: dict[str, tuple[str, str]] = {
-    "≠": ("`≠` is no constraint that is known here", "write what holds: `=`, `<=`, `>=`, `<` or `>`"),
-    "≈": ("`≈` says nothing exact", "write `=`"),
+    "≠": ("`≠` is not a constraint that can be read", "write `=`, `<=`, `>=`, `<` or `>`"),
+    "≈": ("`≈` does not state an exact relation", "write `=`"),
     "≡": ("`≡` is not read", "write `=`"),
-    "±": ("`±` stands for two texts", "write each of the two relations by itself"),
-    "∓": ("`∓` stands for two texts", "write each of the two relations by itself"),
-    "∞": ("infinity is no number", "leave that bound out"),
+    "±": ("`±` stands for two relations", "write each of the two as a text of its own"),
+    "∓": ("`∓` stands for two relations", "write each of the two as a text of its own"),
+    "∞": ("infinity is not a number", "leave that bound out"),
     "∂": ("`∂` is not read", "write a derivative as `diff(h(s), s)`"),
     "∛": ("`∛` is not read", "write `x^(1/3)`"),
-    "∈": ("`∈` is no relation", "write `0 <= x <= L` for an interval"),
-    "ⁿ": ("a letter as a superscript is not read", "write `^n`"),
-    "˙": ("a dot by itself is not read", "write the velocity of `x` as `xdot`"),
-    "¨": ("two dots by themselves are not read", "write the acceleration of `x` as `xddot`"),
-    "∫": ("an integral is not read", "write the relation without it"),
+    "∈": ("`∈` is not a relation that can be read", "write `0 <= x <= L` for an interval"),
+    "ⁿ": ("a superscript letter is not read", "write `^n`"),
+    "˙": ("a dot without a letter is not read", "write the velocity of `x` as `xdot`"),
+    "¨": ("two dots without a letter are not read", "write the acceleration of `x` as `xddot`"),
+    "∫": ("an integral is not read", "write the relation without the integral"),
     "∑": ("a sum sign is not read", "write out the terms"),
 }
 
@@ -145,10 +145,10 @@ def _refusal(char: str, column: int) -> TextError:
         plain = f"the Latin `{latin}`" if latin.isalpha() else f"the plain `{latin}`"
         return TextError(f"{what} is a {script} character, not {plain}", column, f"type `{latin}` instead")
     if unicodedata.category(char) in ("Cf", "Cc", "Co", "Cn", "Cs"):
-        return TextError(f"an invisible character {what} stands here", column, "delete it")
+        return TextError(f"the text holds an invisible character, {what}", column, "delete it")
     if unicodedata.combining(char):
         hint = "name the quantity with letters, digits and `_`; dots above mean derivatives by time"
-        return TextError(f"the mark {what} over a letter has no meaning here", column, hint)
+        return TextError(f"the mark {what} above a letter has no meaning here", column, hint)
     hint = "names are made of Latin and Greek letters, digits and `_`"
     return TextError(f"the character {what} has no meaning here", column, hint)
 
@@ -175,5 +175,5 @@ def check_name_characters(name: str) -> str | None:
             continue
         if not char.isascii() and (char in _LOOKALIKES or char in _REFUSED):
             return _refusal(char, 1).message
-        return f"the name holds the character {char!r}; names are made of Latin and Greek letters, digits and `_`"
+        return f"the name holds the character {char!r}, and names are made of Latin and Greek letters, digits and `_`"
     return None

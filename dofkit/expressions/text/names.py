@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
 from dofkit.base.errors import TextError
-from dofkit.base.records import dataclass
 from dofkit.expressions.text.characters import DOT, TWO_DOTS, check_name_characters, spelled
 from dofkit.expressions.text.limits import MAX_NAME
 from dofkit.expressions.tree import DT, FUNCTIONS, PI, TIME, E, Expr, coordinate, differential, sym, velocity
@@ -19,6 +18,8 @@ SYNONYMS: dict[str, str] = {
 }  # fmt: skip
 ELEMENTARY: dict[str, str] = {**{name: name for name in FUNCTIONS}, "sqrt": "sqrt", **SYNONYMS}
 OPERATORS = ("diff", "partial")
+#: Before the name of a coordinate: a virtual displacement, read as its differential.
+VARIATION = "δ"
 _RESERVED: dict[str, str] = {
     "t": "time", "dt": "the differential of time", "ground": "the fixed world", "pi": "the number 3.14...",
 }  # fmt: skip
@@ -97,6 +98,7 @@ class AmbiguousError(TextError):
 _NUMBERED = re.compile(r"(.*[A-Za-z])(_?)(\d+)", re.ASCII)
 _SUFFIXED = re.compile(r"(.+?)_?(d?dot)(_.*)?", re.ASCII)
 _MARKED = re.compile(f"([^{DOT}{TWO_DOTS}]+)([{DOT}{TWO_DOTS}]+)([_0-9][^{DOT}{TWO_DOTS}]*)?")
+_DOTS = {1: "dot", 2: "ddot"}
 #: How many words are remembered at most beside the declared ones; a word that fits nothing is remembered too.
 _MEMORY = 20_000
 
@@ -104,6 +106,21 @@ _MEMORY = 20_000
 def unmarked(name: str) -> str:
     """``name`` spelled out, in small letters and without `_`."""
     return spelled(name).replace("_", "").lower()
+
+
+def in_words(name: str) -> str:
+    """Return the name with its Greek letters spelled out and the dots above it as `dot` or `ddot`.
+
+    >>> in_words("θ\u0307_A")
+    'thetadot_A'
+    """
+    name = spelled(name)
+    match = _MARKED.fullmatch(name)
+    return name if match is None else f"{match[1]}{_DOTS.get(_order(match[2]), match[2])}{match[3] or ''}"
+
+
+def _order(marks: str) -> int:
+    return sum(1 if mark == DOT else 2 for mark in marks)
 
 
 class Lookup:
@@ -116,11 +133,16 @@ class Lookup:
         self.longest = 5 + max((len(name) for name in self._declared), default=0)
 
     def meaning(self, word: str) -> Meaning | None:
-        """What the whole word stands for, or None. Greek letters and their spelled names are the same."""
+        """Return what the whole word stands for, or None.
+
+        Greek letters and their spelled names are the same; ``δq`` is the differential of q unless δ is declared.
+        """
         try:
             return self._words[word]
         except KeyError:
             found = self._find(spelled(word))
+            if found is None and word[:1] == VARIATION and spelled(VARIATION) not in self._declared:
+                found = self._time_derivative(spelled(word[1:]), -1)
             if len(self._words) < _MEMORY + len(self._declared):
                 self._words[word] = found
             return found
@@ -153,8 +175,7 @@ class Lookup:
         match = _MARKED.fullmatch(word)
         if match is None:
             return None
-        order = sum(1 if mark == DOT else 2 for mark in match[2])
-        return self._time_derivative(match[1] + (match[3] or ""), order)
+        return self._time_derivative(match[1] + (match[3] or ""), _order(match[2]))
 
     def _marked_derivative(self, word: str) -> Meaning | None:
         """`dq`, `qdot`, `q_dot`, `qdot_A`, `qddot` of a declared q."""

@@ -14,9 +14,10 @@ question. So the rules are the methods below, from loosest to tightest:
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import Literal, NoReturn, cast
 
-from dofkit.base.records import dataclass
+from dofkit.expressions.domains import Requirement, of_power
 from dofkit.expressions.text.arithmetic import UndefinedError, check_numbers, inverse, product, raised
 from dofkit.expressions.text.derivatives import is_differential, over_dt
 from dofkit.expressions.text.limits import MAX_DEPTH
@@ -32,12 +33,16 @@ STARTS = frozenset({"value", "motion", "function", "call", "operator", "(", "|",
 
 @dataclass(frozen=True)
 class Comparison:
-    """One relation; ``column`` is where its sign stands (where the text begins, if it has none)."""
+    """One relation; ``column`` is where its sign stands (where the text begins, if it has none).
+
+    ``domain``: what has to be so where the text, as it was written, has a value.
+    """
 
     left: Expr
     relation: RelationSign
     right: Expr
     column: int
+    domain: tuple[Requirement, ...] = ()
 
 
 class Parser(PrimaryReader):
@@ -52,21 +57,21 @@ class Parser(PrimaryReader):
         token = self.take()
         found = []
         if token.kind == "end":
-            return (Comparison(left, "=", ZERO, self.columns[first.start]),)
+            return (Comparison(left, "=", ZERO, self.columns[first.start], tuple(self.domain)),)
         while token.kind == "relation":
             right = self.bounded(self.sum(), token)
             found.append(Comparison(left, cast(RelationSign, token.name), right, self.columns[token.start]))
             left, token = right, self.take()
         if token.kind != "end":
             self.unexpected(token)
-        return tuple(found)
+        return tuple(replace(c, domain=tuple(self.domain)) for c in found)
 
     def value(self) -> Expr:
         """The whole text as one value."""
         found = self.bounded(self.sum(), self.tokens[0])
         token = self.next
         if token.kind == "relation":
-            self.fail(f"a value is asked for, and `{token.name}` makes a relation", token, "write one side only")
+            self.fail(f"a value is needed here, and `{token.name}` makes a relation", token, "write one side only")
         if token.kind != "end":
             self.unexpected(token)
         return found
@@ -129,6 +134,7 @@ class Parser(PrimaryReader):
         unit = is_differential(divisor) and is_differential(factors[-1])
         try:
             factors.append(inverse(divisor))
+            self.domain |= dict.fromkeys(of_power(divisor, MINUS_ONE))
         except UndefinedError as fault:
             self.fail(fault.message, token, fault.hint)
         return unit
@@ -176,7 +182,7 @@ class Parser(PrimaryReader):
         if token.kind == "superscript":
             self.at += 1
             if self.next.kind in ("^", "superscript"):
-                self.fail("one power stands on another here", self.next, "write parentheses")
+                self.fail("a power is raised to another power here", self.next, "write parentheses")
             return self.raise_to(base, num(token.amount), token)
         if token.kind != "^":
             return base
@@ -188,6 +194,7 @@ class Parser(PrimaryReader):
 
     def raise_to(self, base: Expr, exponent: Expr, token: Token) -> Expr:
         """``base^exponent`` within the bounds."""
+        self.domain |= dict.fromkeys(of_power(base, exponent))
         try:
             return raised(base, exponent)
         except UndefinedError as fault:

@@ -17,7 +17,7 @@ from dofkit.expressions.text.names import Lookup, Meaning
 #: Longer texts are read by themselves: they may be too long.
 LONGEST = 1000
 _WORDS = re.compile(r"([A-Za-z][A-Za-z0-9_]*)", re.ASCII)
-_UNUSUAL = re.compile(r"[\\{}]|[^\x00-\x7f]")
+_UNUSUAL = re.compile(r"[\\{}$]|[^\x20-\x7e]")
 #: Where a word goes on with a number: ``2e5``, ``0x1``.
 _IN_A_NUMBER = re.compile(r"[0-9.]$", re.ASCII)
 

@@ -86,8 +86,8 @@ class PrimaryReader(TextReader):
         primes = self.take()
         name = self.source(token.start, token.end)
         if found.op != "sym" or found.args[0] != "coordinate":
-            hint = "a prime means the derivative of a coordinate by time or of a declared function"
-            self.fail(f"`{name}` is no coordinate, so `{name}'` has no meaning", primes, hint)
+            hint = "a prime means the time derivative of a coordinate, or the derivative of a declared function"
+            self.fail(f"`{name}` is not a coordinate, so `{name}'` has no meaning", primes, hint)
         moved = derivative(found.args[1], primes.amount)
         if moved is None:
             self.fail("derivatives higher than the second are not read", primes, "write at most two primes")
@@ -105,7 +105,7 @@ class PrimaryReader(TextReader):
         else:
             return
         shown = self.source(token.start, self.last.end)
-        self.fail(f"`{shown}` is {what}, which has no place here", token, "write it without")
+        self.fail(f"`{shown}` is {what}, which cannot be used here", token, f"write it without {what}")
 
     def check_call(self, token: Token, found: Expr, touching: bool) -> None:
         """After a name, `(t)` is read over; `(2)`, `(y)` right after it are questions; `(y + 1)` is a product."""
@@ -120,7 +120,7 @@ class PrimaryReader(TextReader):
             hint = f"write `{name}*{shown}`, or declare `{name}` under functions, with the argument t"
             self.fail(f"`{name}` is a constant, so `{name}({shown})` has no meaning", token, hint)
         elif touching and inside.kind == "number":
-            hint = f"write `{name}*{shown}`; a value at one time is no part of a relation"
+            hint = f"write `{name}*{shown}`; a value at one instant cannot stand in a relation"
             self.fail(f"`{name}({shown})` may be a product or a value at {shown}", token, hint)
         elif touching and inside.kind == "value":
             hint = f"write `{name}*{shown}`, or declare `{name}` under functions"

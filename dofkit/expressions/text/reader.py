@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from typing import NoReturn
 
 from dofkit.base.errors import TextError
+from dofkit.expressions.domains import Requirement
 from dofkit.expressions.text.limits import MAX_DEPTH
 from dofkit.expressions.text.names import Names
 from dofkit.expressions.text.tokens import Token, Tokens
@@ -23,6 +24,7 @@ class TextReader(ABC):
         self.at = 0
         self.depth = 0
         self.bars = 0
+        self.domain: dict[Requirement, None] = {}
 
     @property
     def next(self) -> Token:
@@ -52,7 +54,9 @@ class TextReader(ABC):
         """Count one more level of nesting."""
         self.depth += 1
         if self.depth > MAX_DEPTH:
-            self.fail(f"this is nested more than {MAX_DEPTH} deep", token, "write it with fewer parentheses")
+            self.fail(
+                f"this text is nested more than {MAX_DEPTH} levels deep", token, "write it with fewer parentheses"
+            )
 
     def unexpected(self, token: Token) -> NoReturn:
         """Say why ``token`` cannot stand where it does."""
@@ -62,13 +66,12 @@ class TextReader(ABC):
         before = self.tokens[self.tokens.index(token) - 1] if token.start else token
         shown = self.source(before.start, before.end)
         if kind == "end":
-            self.fail(f"something is missing after `{shown}`", token, "write what belongs there")
+            self.fail(f"something is missing after `{shown}`", token, "complete the expression")
         if kind == ")":
             message = "something is missing before this `)`" if before.kind in _OPEN else "this `)` closes nothing"
             self.fail(message.replace(")", self.text[token.start]), token, "check the parentheses")
         if kind == ",":
-            hint = "write decimals with a point; a comma stands between the arguments of a function"
-            self.fail("a comma cannot stand here", token, hint)
+            self.unexpected_comma(token)
         if kind == "prime":
             hint = "a prime follows the name of a coordinate or of a declared function; text needs no quotes"
             self.fail("a prime or quote cannot stand here", token, hint)
@@ -79,6 +82,16 @@ class TextReader(ABC):
         self.fail(
             f"something is missing before `{self.source(token.start, token.end)}`", token, "write a number or name"
         )
+
+    def unexpected_comma(self, token: Token) -> NoReturn:
+        """Say why a comma cannot stand where it does: between two relations, or in a decimal."""
+        place = self.tokens.index(token)
+        if all(any(t.kind == "relation" for t in side) for side in (self.tokens[:place], self.tokens[place:])):
+            first, second = self.source(0, token.start), self.source(token.end, len(self.text))
+            hint = f"give each its own text: `{first}` and `{second}`"
+            self.fail("this comma separates two relations, and a text holds one", token, hint)
+        hint = "write decimals with a point; a comma stands between the arguments of a function"
+        self.fail("a comma cannot stand here", token, hint)
 
     # The parts of the grammar
 

@@ -11,7 +11,7 @@ from dofkit.base.errors import TextError
 from dofkit.expressions.text.characters import DEGREE, DOT, FRACTIONS, GREEK_LETTERS, SUPERSCRIPTS, TWO_DOTS, fold
 from dofkit.expressions.text.latex import FRACTION_MARK, unlatex
 from dofkit.expressions.text.limits import MAX_CHARACTERS, MAX_DIGITS, MAX_EXPONENT, MAX_NODES, MAX_TEXT_BITS
-from dofkit.expressions.text.names import Lookup, Meaning
+from dofkit.expressions.text.names import VARIATION, Lookup, Meaning
 from dofkit.expressions.text.words import read_word
 from dofkit.expressions.tree import PI, Expr, mul, num, sym
 
@@ -55,35 +55,36 @@ _TOKEN = re.compile(
 )
 _SQUARE = r"\s*(?:²|(?:\^|\*\*)\s*(?:2|\{\s*2\s*\}))"
 _SECOND = re.compile(rf"d{_SQUARE}\s*(?P<name>{_WORD})\s*/\s*dt{_SQUARE}", re.ASCII)
+_SPACED_VARIATION = re.compile(rf"{VARIATION}[ \t]+(?P<name>{_WORD})", re.ASCII)
 _NUMBER = re.compile(r"(\d*)\.?(\d*)(?:[eE]([+-]?\d+))?", re.ASCII)
 _DEGREES = frozenset({"deg", "degree", "degrees"})
 _ALIKE = {"**": "^", "==": "=", "[": "(", "{": "(", "]": ")", "}": ")", FRACTION_MARK: "frac", "√": "root"}
 
 _STRANGE: dict[str, tuple[str, str]] = {
-    ";": ("one relation stands in a text", "give each relation its own text"),
-    "\n": ("one relation stands in a text", "give each line its own text"),
-    "\r": ("one relation stands in a text", "give each line its own text"),
-    "#": ("a comment cannot stand in a text", "delete `#` and what follows"),
-    "!": ("there is no factorial here", "write the number"),
+    ";": ("a text holds one relation, and `;` would begin another", "give each relation its own text"),
+    "\n": ("a text holds one relation, and a new line would begin another", "give each line its own text"),
+    "\r": ("a text holds one relation, and a new line would begin another", "give each line its own text"),
+    "#": ("a comment cannot stand inside a text", "delete `#` and what follows it"),
+    "!": ("factorials are not read", "write the number"),
     "%": ("`%` is not read", "write a quotient with `/`"),
-    ".": ("a point stands only inside a number", "write a product with `*`"),
+    ".": ("a point is read only inside a number", "write a product with `*`"),
     ":": ("`:` is not read", "write a quotient with `/`, an equation with `=`"),
     '"': ("quotes cannot stand in a text", "delete them"),
     "`": ("quotes cannot stand in a text", "delete them"),
-    "$": ("`$` is not read", "delete it and write plain text"),
-    "&": ("`&` is not read", "write one relation per text"),
+    "$": ("this `$` is not read", "write `$` around the whole text, or leave it out"),
+    "&": ("`&` is not read", "give each relation its own text"),
     "~": ("`~` is not read", "write `=`"),
     "@": ("`@` is not read", "write a product with `*`"),
-    "?": ("`?` is not read", "write what holds"),
+    "?": ("`?` is not read", "write an equation or an inequality"),
     "_": ("a name cannot begin with `_`", "begin it with a letter; a subscript stands right after its letter: `x_1`"),
-    DOT: ("a dot stands above nothing", "put it right after the letter, or write `xdot`"),
-    TWO_DOTS: ("two dots stand above nothing", "put them right after the letter, or write `xddot`"),
+    DOT: ("this dot stands above no letter", "put it right after the letter, or write `xdot`"),
+    TWO_DOTS: ("these two dots stand above no letter", "put them right after the letter, or write `xddot`"),
 }
 _WRONG: dict[str, tuple[str, str]] = {
-    "!=": ("`!=` is no constraint that is known here", "write what holds: `=`, `<=`, `>=`, `<` or `>`"),
+    "!=": ("`!=` is not a constraint that can be read", "write `=`, `<=`, `>=`, `<` or `>`"),
     "=>": ("`=>` is not read", "did you mean `>=`?"),
     "=<": ("`=<` is not read", "did you mean `<=`?"),
-    "<>": ("`<>` is no constraint that is known here", "write what holds: `=`, `<=`, `>=`, `<` or `>`"),
+    "<>": ("`<>` is not a constraint that can be read", "write `=`, `<=`, `>=`, `<` or `>`"),
     "//": ("`//` is not read", "write a quotient with `/`"),
     ":=": ("`:=` is not read", "write `=`"),
 }
@@ -110,10 +111,10 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
             _stop(text, position, columns)
         kind = match.lastgroup or ""
         start, end = match.span(kind)
-        second = _SECOND.match(text, start) if kind == "word" and match[kind][0] == "d" else None
-        if second is not None:
-            found.append(_second_derivative(second, lookup, columns))
-            end = second.end()
+        motion = _motion(match[kind], text, start, lookup, columns) if kind == "word" else None
+        if motion is not None:
+            found.append(motion)
+            end = motion.end
         elif kind == "degree" or (kind == "word" and match[kind] in _DEGREES and lookup.meaning(match[kind]) is None):
             found[-1:] = [_in_degrees(found, start, end, columns)]
         elif kind == "word":
@@ -140,12 +141,28 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
         position = end
 
 
+def _motion(word: str, text: str, start: int, lookup: Lookup, columns: Sequence[int]) -> Token | None:
+    """Return the acceleration or the differential that begins at ``start``: ``d^2x/dt^2``, ``δ x``; None for none.
+
+    ``δ x`` is a product where δ is declared.
+    """
+    if word[0] == "d" and (second := _SECOND.match(text, start)) is not None:
+        return _second_derivative(second, lookup, columns)
+    if word != VARIATION or lookup.meaning(VARIATION) is not None:
+        return None
+    match = _SPACED_VARIATION.match(text, start)
+    meaning = None if match is None else lookup.meaning(VARIATION + match["name"])
+    if match is None or meaning is None or meaning.kind != "motion":
+        return None
+    return Token("motion", start, match.end(), meaning.expr)
+
+
 def _in_degrees(found: list[Token], start: int, end: int, columns: Sequence[int]) -> Token:
     """The number that stands before a sign of degrees, times pi/180."""
     before = found[-1] if found else None
     if before is None or before.kind != "number" or before.expr is None or before.expr.op != "num":
-        hint = "write `60°`, or `theta*pi/180` for what is not a number"
-        raise TextError("degrees are read after a number only", columns[start], hint)
+        hint = "write `60°`; write anything else than a number as `theta*pi/180`"
+        raise TextError("a sign of degrees is read only after a number", columns[start], hint)
     return Token("number", before.start, end, mul(before.expr, num(Fraction(1, 180)), PI), "degrees")
 
 
@@ -158,7 +175,7 @@ def _check_size(found: list[Token], columns: Sequence[int]) -> None:
             value: Fraction = e.args[0]
             total += value.numerator.bit_length() + value.denominator.bit_length() - 2
             if total > MAX_TEXT_BITS:
-                message = "the numbers in this text have too many digits together"
+                message = "the numbers in this text have too many digits in total"
                 raise TextError(message, columns[token.start], "split it into several texts, or choose other units")
 
 
@@ -176,8 +193,8 @@ def _second_derivative(match: re.Match[str], lookup: Lookup, columns: Sequence[i
             return Token("call", match.start(), match.end(), None, meaning.name, 2)
         if meaning is not None and meaning.expr is not None and meaning.expr.args[:1] == ("coordinate",):
             return Token("motion", match.start(), match.end(), sym("acceleration", meaning.expr.args[1]))
-    message = f"`{name}` is no coordinate, so it has no acceleration"
-    raise TextError(message, columns[match.start("name")], "declare it under coordinates")
+    message = f"`{name}` is not a coordinate, so it has no acceleration"
+    raise TextError(message, columns[match.start("name")], f"declare it: `coordinates: [{name}]`")
 
 
 def _other(match: re.Match[str], columns: Sequence[int], text: str, lookup: Lookup) -> Token:
@@ -193,7 +210,7 @@ def _other(match: re.Match[str], columns: Sequence[int], text: str, lookup: Look
     if kind == "superscript":
         digits = "".join(SUPERSCRIPTS[c] for c in found)
         if not digits.lstrip("+-").isdigit() or len(digits) > 4 or digits.rfind("-") > 0 or "+" in digits:
-            raise TextError(f"the superscript `{found[:12]}` is no exponent", column, "write `^` and the exponent")
+            raise TextError(f"the superscript `{found[:12]}` is not an exponent", column, "write `^` and the exponent")
         return Token(kind, start, end, num(int(digits)), found, int(digits))
     if kind == "wrong":
         message, hint = _WRONG.get(found, (f"`{found}` is not read", "write `=`, `<=`, `>=`, `<`, `>` or arithmetic"))
@@ -214,17 +231,21 @@ def _check_number(found: str, text: str, end: int, column: int, lookup: Lookup) 
     if letter in found and letter in lookup.declared:
         head, _, tail = found.partition(letter)
         question = f"write `{head}*10^({tail.lstrip('+')})` or `{head}*{letter}*{tail}`"
-        raise TextError(f"`{found}` may be a power of ten or hold the declared name `{letter}`", column, question)
+        raise TextError(
+            f"`{found}` can be read as a power of ten or as a product with the declared name `{letter}`",
+            column,
+            question,
+        )
 
 
 def _number(found: str, column: int) -> Fraction:
     """The exact value of a decimal."""
     match = _NUMBER.fullmatch(found)
     if match is None:  # pragma: no cover - the token's pattern is the same
-        raise TextError(f"`{found}` is no number", column)
+        raise TextError(f"`{found}` is not a number", column)
     whole, rest, power = match.groups()
     if len(whole) + len(rest) > MAX_DIGITS:
-        message = f"a number of {len(whole) + len(rest)} digits stands here; at most {MAX_DIGITS} are read"
+        message = f"this number has {len(whole) + len(rest)} digits; at most {MAX_DIGITS} are read"
         raise TextError(message, column, "write fewer digits, or a fraction")
     value = Fraction(int(whole + rest), 10 ** len(rest))
     if power is None:
@@ -241,7 +262,7 @@ def _stop(text: str, position: int, columns: Sequence[int]) -> NoReturn:
         position += 1
     char, column = text[position], columns[position]
     if text.startswith("...", position) or text.startswith("..", position):
-        raise TextError("dots in a row are not read", column, "write out what they stand for")
+        raise TextError("an ellipsis is not read", column, "write out what the dots stand for")
     if char in _STRANGE:
         message, hint = _STRANGE[char]
         raise TextError(message, column, hint)

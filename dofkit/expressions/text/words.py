@@ -12,13 +12,16 @@ from dofkit.expressions.text.limits import MAX_NAME
 from dofkit.expressions.text.names import ELEMENTARY, SYNONYMS, Lookup, Meaning, UnknownNameError, unmarked
 from dofkit.expressions.tree import PI, E
 
-#: Words that belong to programs; each gets its own advice unless it is declared.
+_CONSTANT = "give the constant a name: `parameters: {C: real}`, and `... = C`"
+_RELATIONS = "give each relation its own text"
+#: Words of programs and of prose; each gets its own advice unless it is declared.
 _FOREIGN: dict[str, str] = {
-    "and": "write one relation per text", "or": "write one relation per text", "not": "write what holds",
-    "if": "write one relation per text", "else": "write one relation per text", "in": "write a chain `0 <= x <= L`",
-    "is": "write `=`", "lambda": "a text is mathematics, not code", "True": "write an equation",
-    "False": "write an equation", "None": "write an equation, or leave the field out",
-    "nan": "write a number", "NaN": "write a number", "inf": "leave that bound out", "oo": "leave that bound out",
+    **dict.fromkeys(("const", "constant", "konst", "cst", "cte"), _CONSTANT),
+    **dict.fromkeys(("and", "or", "if", "else"), _RELATIONS),
+    "not": "write `=`, `<=`, `>=`, `<` or `>`", "in": "write a chain `0 <= x <= L`", "is": "write `=`",
+    "lambda": "a text is mathematics, not code", "True": "write an equation", "False": "write an equation",
+    "None": "write an equation, or leave the field out", "nan": "write a number", "NaN": "write a number",
+    "inf": "leave that bound out", "oo": "leave that bound out",
 }  # fmt: skip
 #: Names of units: a number has none here.
 _UNITS = frozenset({
@@ -42,7 +45,7 @@ def read_word(word: str, lookup: Lookup, column: int, called: bool, number: str 
     if whole is not None:
         return (WordPart(whole, 0, len(word)),)
     if len(word) > MAX_NAME:
-        message = f"a name of {len(word)} letters stands here; at most {MAX_NAME} are read"
+        message = f"this name has {len(word)} letters; at most {MAX_NAME} are read"
         raise TextError(message, column, "write the product with `*`, or shorten the name")
     if word not in _FOREIGN:
         ways = _splits(word, lookup)
@@ -52,7 +55,7 @@ def read_word(word: str, lookup: Lookup, column: int, called: bool, number: str 
             raise _several(word, ways, column)
     if number and word in _UNITS:
         raise UnknownNameError(
-            f"`{word}` is not declared, and no number has a unit here", column, _no_unit(word, number)
+            f"`{word}` is not declared, and numbers are written without units", column, _no_unit(word, number)
         )
     raise _unknown(word, lookup, column, called)
 
@@ -60,7 +63,7 @@ def read_word(word: str, lookup: Lookup, column: int, called: bool, number: str 
 def _no_unit(word: str, number: str) -> str:
     if word == "rad":
         return f"angles are in radians: write `{number}`"
-    return f"numbers only: write `{number}`, and every quantity in units that go together"
+    return f"write `{number}`, with every quantity in one consistent system of units"
 
 
 def _splits(word: str, lookup: Lookup) -> list[tuple[WordPart, ...]]:
@@ -116,7 +119,8 @@ def _several(word: str, ways: list[tuple[WordPart, ...]], column: int) -> TextEr
 
 def _unknown(word: str, lookup: Lookup, column: int, called: bool) -> UnknownNameError:
     if word in _FOREIGN:
-        return UnknownNameError(f"`{word}` has no meaning here", column, _FOREIGN[word])
+        what = "is not declared" if _FOREIGN[word] is _CONSTANT else "has no meaning in a text"
+        return UnknownNameError(f"`{word}` {what}", column, _FOREIGN[word])
     near = _nearest(word, lookup, called)
     what = f"there is no function `{word}`" if called else f"`{word}` is not declared"
     if word == "e":
@@ -131,7 +135,7 @@ def _unknown(word: str, lookup: Lookup, column: int, called: bool) -> UnknownNam
         return UnknownNameError(what, column, f"the functions are {known_functions}")
     known = lookup.declared
     listed = ", ".join(known[:8]) + (", ..." if len(known) > 8 else "")
-    return UnknownNameError(what, column, f"declared are: {listed}" if known else "no names are declared")
+    return UnknownNameError(what, column, f"the declared names are {listed}" if known else "no names are declared")
 
 
 def _nearest(word: str, lookup: Lookup, called: bool = False) -> str | None:

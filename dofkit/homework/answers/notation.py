@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import re
 
+from dofkit.expressions.text.latex import BROKEN_COMMAND, COMMANDS, CONTROLS
 from dofkit.expressions.text.names import ELEMENTARY
-from dofkit.homework.answers.prose import words
 from dofkit.homework.answers.script import By, Script
 
 #: Stands between equations of which one follows from another.
@@ -27,17 +27,6 @@ _TWO = r"\s*(?:\^\s*\{?\s*2\s*\}?|\*\*\s*2|²)\s*"
 _FRACTION_2 = rf"\\frac\s*\{{\s*d{_TWO}\}}\s*\{{\s*d\s*t{_TWO}\}}"
 _FRACTION_1 = r"\\frac\s*\{\s*d\s*\}\s*\{\s*d\s*t\s*\}"
 _SLASH_2, _SLASH_1 = rf"(?<![\w\\])d{_TWO}/\s*dt{_TWO}", r"(?<![\w\\])d\s*/\s*dt(?![\w^*²])"
-#: Signs that a document made of a backslash and a letter.
-_CONTROLS = {"\x07": "a", "\x08": "b", "\t": "t", "\n": "n", "\x0b": "v", "\x0c": "f", "\r": "r", "\x1b": "e"}
-_COMMANDS = words(
-    "alpha approx beta begin bar bigl bigr tau tan tanh text textrm theta tfrac times to nu nabla ne neq newline "
-    "nonumber varphi vartheta varepsilon vec frac forall rho right rm rightarrow rvert eta end ell equiv epsilon exp"
-)
-_ENDS = {
-    sign: "|".join(sorted((c[1:] for c in _COMMANDS if c[0] == letter), key=len, reverse=True))
-    for sign, letter in _CONTROLS.items()
-}
-_BROKEN = re.compile("|".join(f"{re.escape(sign)}(?:{ends})(?![a-z])" for sign, ends in _ENDS.items() if ends))
 _WIDE = re.compile("[\uff01-\uff5e]")
 
 
@@ -46,7 +35,7 @@ def _narrow(match: re.Match[str]) -> str:
 
 
 def _mended(match: re.Match[str]) -> str:
-    return "\\" + _CONTROLS[match[0][0]] + match[0][1:]
+    return "\\" + CONTROLS[match[0][0]] + match[0][1:]
 
 
 def _dotted(name: str, mark: str) -> str:
@@ -159,7 +148,7 @@ def _closed(text: str, start: int) -> int | None:
 
 
 _COMMAND = re.compile(
-    rf"(?<!\\)\\(?=(?:{'|'.join(sorted(_COMMANDS, key=len, reverse=True))})(?![a-z])|[^\\\s\"/abefnrtuvxNLPU_0-9])"
+    rf"(?<!\\)\\(?=(?:{'|'.join(sorted(COMMANDS, key=len, reverse=True))})(?![a-z])|[^\\\s\"/abefnrtuvxNLPU_0-9])"
 )
 
 
@@ -202,7 +191,7 @@ def _unboxed(script: Script) -> Script:
 
 def script_of(text: str) -> Script:
     """A text in plain signs; what the grammar does not know stays as it is, and is refused there."""
-    script = Script.of(text).replaced(_BROKEN, _mended).replaced(_WIDE, _narrow)
+    script = Script.of(text).replaced(BROKEN_COMMAND, _mended).replaced(_WIDE, _narrow)
     if script.text.isascii() and not _ODD.search(script.text):
         return script
     script = _unboxed(_as_equation(script))

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from dofkit.base.errors import TextError
-from dofkit.base.records import dataclass
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.text.characters import GREEK
 from dofkit.expressions.text.words import read_word

@@ -13,10 +13,9 @@ import base64
 import binascii
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from dofkit.base.records import dataclass
 from dofkit.homework.answers.submission import clean
 from dofkit.homework.answers.tables import DELIMITERS, MOST_LISTED, Columns, NumberedLines, TableError, records
 

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import field, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from dofkit.base.errors import TextError
-from dofkit.base.records import dataclass
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import AmbiguousError, Comparison, Names, UnknownNameError, parse_relations, spelled
 from dofkit.expressions.text.characters import GREEK
-from dofkit.expressions.text.names import unmarked
+from dofkit.expressions.text.names import in_words, unmarked
 from dofkit.expressions.text.words import read_word
 from dofkit.expressions.tree import E, Expr, coordinate, parameter
 from dofkit.homework.answers.pieces import Pieces, pieces_of
@@ -73,6 +73,19 @@ class AnswerReading(NamedTuple):
         symbols = {s for c in self.relations for e in (c.left, c.right) for s in e.symbols}
         return any(s.args[0] != "parameter" and s.args[-1] not in self.own for s in symbols)
 
+    def with_own(self, names: Iterable[str]) -> AnswerReading:
+        """Return the reading with these coordinates as names of the answer's own."""
+        symbols = {s for c in self.relations for e in (c.left, c.right) for s in e.symbols if len(s.args) > 1}
+        used = {n: {s.args[0] for s in symbols if s.args[1] == n} for n in names}
+        moving = frozenset(n for n, kinds in used.items() if kinds - {"coordinate"})
+        still = {coordinate(n): parameter(n) for n, kinds in used.items() if kinds and n not in moving}
+        relations = tuple(
+            Comparison(substitute(c.left, still), c.relation, substitute(c.right, still), c.column)
+            for c in self.relations
+        )
+        own = (*self.own, *(n for n, kinds in used.items() if kinds))
+        return self._replace(relations=relations, own=own, moving=self.moving | moving)
+
     def read(self, constants: frozenset[str] = frozenset()) -> Read:
         """As equations for a scene."""
         symbols = {s for c in self.relations for side in (c.left, c.right) for s in side.symbols}
@@ -122,6 +135,7 @@ class AnswerNames:
 
     def with_word(self, word: str) -> AnswerNames | None:
         """The same with what an unknown word stands for; None where it can stand for nothing."""
+        word = in_words(word)
         if word == "e" and not self.euler:
             return replace(self, euler=True)
         rate = _RATE.fullmatch(word)

@@ -14,13 +14,12 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from io import StringIO
 from pathlib import Path
 
 from dofkit.base.errors import DofkitError
-from dofkit.base.records import dataclass
 from dofkit.homework.answers.submission import MOST_BYTES, clean, reason
 from dofkit.homework.answers.tables import DELIMITERS
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from dofkit.base.errors import TextError
-from dofkit.base.records import dataclass
 
 By = str | Callable[[re.Match[str]], str]
 

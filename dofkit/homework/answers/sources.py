@@ -11,13 +11,12 @@ import stat
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from io import BufferedReader, BytesIO, RawIOBase, TextIOWrapper
 from itertools import islice
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from dofkit.base.records import dataclass
 from dofkit.homework.answers.gradescope import METADATA, submitters
 from dofkit.homework.answers.prairielearn import SubmittedRow, answers_of, is_submissions_header, submitted_rows
 from dofkit.homework.answers.roster import Participant, own_name

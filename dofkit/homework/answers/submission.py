@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Integral
@@ -16,7 +16,6 @@ from typing import Any
 
 from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import Fault
-from dofkit.base.records import dataclass
 from dofkit.homework.answers.notation import backslashes_kept
 from dofkit.homework.answers.values import plain_value
 from dofkit.homework.judgement import Given

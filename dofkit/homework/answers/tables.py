@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from io import StringIO
 from itertools import chain, islice
 
-from dofkit.base.records import dataclass
 from dofkit.base.spelling import nearest
 from dofkit.homework.answers.submission import clean
 

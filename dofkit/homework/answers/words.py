@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 
 from pydantic_core import PydanticCustomError
 
 from dofkit.base.errors import TextError
-from dofkit.base.records import dataclass
 from dofkit.base.spelling import nearest
 from dofkit.expressions.text import spelled
 from dofkit.homework.answers.denials import affirms, beside_none, says_none

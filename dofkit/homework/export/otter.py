@@ -22,6 +22,7 @@ from dofkit.homework.formats.wording import number
 from dofkit.homework.otter import parts_of
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import QuestionBase
+from dofkit.homework.statement import marked
 
 NAMES, ASSIGNMENT = "names.json", "assignment.json"
 _CONFIG = f"""# ASSIGNMENT CONFIG
@@ -82,7 +83,7 @@ def _plain(text: str) -> str:
 def _notebook(prepared: Prepared) -> dict[str, Any]:
     cells = [
         _cell("raw", _CONFIG),
-        _cell("markdown", f"# {prepared.assignment.title}"),
+        _cell("markdown", f"# {marked(prepared.assignment.title)}"),
         _cell("code", f"answers = {json.dumps({p.id: {} for p in prepared.assignment.problems})}"),
     ]
     taken: set[str] = set()
@@ -103,9 +104,8 @@ def _question(name: str, problem: Problem, question: QuestionBase) -> Iterator[d
     asked = type(question).model_fields["ask"].description or question.kind()
     place = f"answers[{json.dumps(problem.id)}][{json.dumps(question.id)}]"
     yield _cell("raw", f"# BEGIN QUESTION\nname: {name}")
-    yield _cell(
-        "markdown", f"**{problem.title or problem.id}, {question.id}** ({number(float(question.points))}): {asked}"
-    )
+    heading = f"{marked(problem.title or problem.id)}, {marked(question.id)}"
+    yield _cell("markdown", f"**{heading}** ({number(float(question.points))}): {asked}")
     yield _cell("raw", "# BEGIN SOLUTION")
     yield _cell("code", f"{place} = None # SOLUTION")
     yield _cell("raw", "# END SOLUTION")

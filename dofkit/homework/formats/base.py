@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple, TextIO
 
+from dofkit.base.endings import format_of_path, is_folder_path
 from dofkit.base.errors import DofkitError
-from dofkit.base.records import dataclass
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.result import Result
@@ -33,18 +34,26 @@ class Format:
     """``write(results, prepared, target)`` writes results, which come one by one in the order of the submissions.
 
     ``write`` keeps no more than one result in memory where the format allows it, and raises FormatError for what the
-    format cannot hold. ``needs_path``: it writes a folder, so that standard output will not do. ``folder``:
-    does it write a folder at this path, not one file? ``write_known``: the same with a roster: a gradebook has
-    rows for those in it only, and pages tell of each class. ``write_back``: it fills in, at a path that ends in
-    ``.csv``, the tables of the platform that were handed in.
+    format cannot hold. ``needs_path``: it writes a folder, so that standard output will not do. ``endings``: those
+    of the files that it writes, without the dot. ``folders``: whether it can write a folder. ``write_known``: the same
+    with a roster: a gradebook has rows for those in it only, and pages tell of each class. ``write_back``: it fills in,
+    at a path that ends in ``.csv``, the tables of the platform that were handed in.
     """
 
     name: str
     write: Callable[[Iterator[Result], Prepared, Target], None]
     needs_path: bool = False
-    folder: Callable[[Path], bool] = lambda path: path.is_dir() or path.suffix.lower() != ".json"
+    endings: tuple[str, ...] = ("json",)
+    folders: bool = True
     write_known: Callable[[Iterator[Result], Prepared, Target, Roster], None] | None = None
     write_back: Callable[[Iterator[Result], Prepared, Path, Handback], None] | None = None
+
+    def folder(self, path: Path) -> bool:
+        """Return whether a folder is written there. Raises ArgumentError for the ending of another format."""
+        if self.folders and is_folder_path(path):
+            return True
+        format_of_path(path, self.endings)
+        return False
 
     def written(
         self,

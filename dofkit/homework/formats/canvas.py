@@ -90,4 +90,4 @@ def _identity(student: str, member: Participant | None) -> list[str]:
     return [named, *numbers, member.section]
 
 
-CANVAS = Format("canvas", write, folder=lambda path: False, write_known=write_known)
+CANVAS = Format("canvas", write, endings=("csv",), folders=False, write_known=write_known)

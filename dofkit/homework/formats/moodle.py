@@ -72,4 +72,4 @@ def _column(roster: Roster | None, first: str) -> str:
     return max(having, key=lambda name: having[name])
 
 
-MOODLE = Format("moodle", write, folder=lambda path: False, write_known=write_known)
+MOODLE = Format("moodle", write, endings=("csv",), folders=False, write_known=write_known)

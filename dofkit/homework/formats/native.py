@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, Target, opened
@@ -19,9 +18,4 @@ def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None
             stream.flush()
 
 
-def _is_folder(path: Path) -> bool:
-    """A path without an ending is a folder, unless there is a file."""
-    return path.is_dir() or not (path.suffix or path.is_file())
-
-
-NATIVE = Format("native", write, folder=_is_folder)
+NATIVE = Format("native", write, endings=("jsonl",))

@@ -85,7 +85,4 @@ def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None
     write_documents(results, target, document)
 
 
-PRAIRIELEARN = Format(
-    "prairielearn", write, folder=lambda path: path.is_dir() or path.suffix.lower() not in (".json", ".csv"),
-    write_back=write_scores,
-)  # fmt: skip
+PRAIRIELEARN = Format("prairielearn", write, endings=("json", "csv"), write_back=write_scores)

@@ -6,10 +6,10 @@ It tells no answer: an equation that is asked for is not shown, and an example i
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby
 
-from dofkit.base.records import dataclass
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import number
 from dofkit.homework.grading import Grader

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from base64 import b64encode
 from collections.abc import Mapping
 from html import escape
@@ -58,5 +59,5 @@ class _Html:
 def page_of(markdown: str, title: str, language: str, figures: Mapping[str, SheetFigure]) -> str:
     """The page; ``figures`` by their paths in the text. It loads nothing and runs nothing."""
     page = _TEMPLATE.read_text(encoding="utf-8")
-    page = page.replace("{{language}}", language).replace("{{title}}", escape(line(title)))
-    return page.replace("{{body}}", written(markdown, _Html(figures)))
+    parts = {"language": language, "title": escape(line(title)), "body": written(markdown, _Html(figures))}
+    return re.sub(r"\{\{(language|title|body)\}\}", lambda found: parts[found[1]], page)

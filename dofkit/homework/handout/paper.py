@@ -14,7 +14,7 @@ from dofkit.homework.handout.markup import written
 _HEAD = """#set page(paper: "a4", margin: 2.2cm, numbering: "1")
 #set text(font: "New Computer Modern", size: 10.5pt, lang: "{language}")
 #set par(justify: true)
-#set document(title: "{title}", author: (), keywords: ())
+#set document(title: {title}, author: (), keywords: ())
 #show heading: set block(above: 1.3em, below: 0.8em)
 #show raw: set text(font: "DejaVu Sans Mono", size: 9pt)
 """
@@ -66,8 +66,7 @@ class _Typst:
 
 def typst_of(markdown: str, title: str, language: str) -> str:
     """The document in Typst's own notation."""
-    quoted = title.replace("\\", "\\\\").replace('"', '\\"')
-    return _HEAD.replace("{language}", language).replace("{title}", quoted) + written(markdown, _Typst())
+    return _HEAD.replace("{language}", language).replace("{title}", _quoted(title)) + written(markdown, _Typst())
 
 
 def pdf_of(typst: str, pictures: Mapping[str, bytes]) -> bytes:

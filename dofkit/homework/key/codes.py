@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dofkit.homework.key.misconceptions import ERRORS
 
 _OF_LABELS = {
-    "RHEO_MISSED": "Time enters the constraint, so it is rheonomic, and it was called scleronomic.",
+    "RHEO_MISSED": "Time occurs in the constraint, or in the relation that it integrates to, so it is rheonomic, and "
+    "it was called scleronomic.",
     "RHEO_NH": "A constraint on velocities was called rheonomic, but velocities are not time: time does not enter it.",
     "RHEO_MOVES": "What the constraint is attached to moves, but time itself does not enter: it is scleronomic.",
     "EQ_AS_INEQ": "An equation, which holds from both sides, was called unilateral.",

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple, TypeVar
 
 from dofkit.base.errors import SceneError, TextError
-from dofkit.base.records import dataclass
 from dofkit.classification.dependence.equivalence import Compared, Sameness, compare
 from dofkit.expressions.text import UnknownNameError
 from dofkit.homework.answers.relations import AnswerReading
@@ -35,6 +34,7 @@ _FEEDBACK = {
     Sameness.DIFFERENT: "It is another constraint.",
     Sameness.EMPTY: "Nothing satisfies it together with the other constraints.",
 }
+_UNDECIDED = "whether it is the same constraint was not decided in the time there is."
 #: What an answer that is not quite the constraint is worth.
 _HALVES = frozenset({Sameness.IRREGULAR, Sameness.BRANCH, Sameness.DIFFERENTIATED, Sameness.WITHOUT_CONSTANT})
 _RIGHT = frozenset({Sameness.SAME, Sameness.INTEGRATED})
@@ -102,7 +102,7 @@ class EquationComparison:
         if not way.own:
             return self._declared(way)
         if not way.on_coordinates:
-            raise undeclared(way, self.key)
+            return self._undecided(way)
         forms = any(self.key.constraints[name].form == "pfaffian" for name in self.names)
         if forms and not way.moving and not way.read().moving:
             return self._told(way.read(frozenset(way.own)), way.shown)
@@ -114,6 +114,12 @@ class EquationComparison:
             if found.status == "right":
                 told = ", ".join(f"{own} = {name}" for own, name in names.items())
                 return right(other.shown, say("Read {names}: so the problem calls it.", names=told))
+        return self._undecided(way)
+
+    def _undecided(self, way: AnswerReading) -> Judgement:
+        """An equation in coordinates that the assignment offers needs a review. Raises UnknownNameError for others."""
+        if set(way.own) <= self.key.also.keys():
+            return needs_review(way.shown, _UNDECIDED)
         raise undeclared(way, self.key)
 
     def _declared(self, way: AnswerReading, shown: str = "") -> Judgement:
@@ -136,7 +142,7 @@ class EquationComparison:
     def _told(self, read: Read, shown: str) -> Judgement:
         found = self.key.compared((self.names, read.texts, read.constants), lambda: self._compared(read))
         if found.sameness is Sameness.UNDECIDED:
-            return needs_review(shown, "whether it is the same constraint was not decided in the time there is.")
+            return needs_review(shown, _UNDECIDED)
         told, code = _FEEDBACK[found.sameness], found.sameness.value
         if found.sameness in _RIGHT:
             return right(shown, told)
@@ -165,6 +171,6 @@ class EquationComparison:
 def undeclared(way: AnswerReading, key: Key) -> UnknownNameError:
     """That an answer brings a name that stands for nothing."""
     name = way.own[0]
-    known: Sequence[str] = [*sorted(key.names.coordinates), *key.names.parameters]
+    known: Sequence[str] = [*sorted(key.names_with_also.coordinates), *key.names.parameters]
     told = f"`{name}` is not declared"
-    return UnknownNameError(told, way.places.get(name, 1), f"declared are: {', '.join(known[:12])}")
+    return UnknownNameError(told, way.places.get(name, 1), f"the declared names are {', '.join(known[:12])}")

@@ -8,6 +8,7 @@ accelerations of the scene's own equations satisfy it, and the system is complet
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
 from itertools import permutations
@@ -15,7 +16,6 @@ from typing import NamedTuple
 
 from flint import nmod_mat
 
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.ring.ring import Ring

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import networkx as nx
 
-from dofkit.base.records import dataclass
 from dofkit.homework.key.key import Key
 from dofkit.report import ConstraintEntry
 from dofkit.scene.lowering import lower

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
 from dofkit.base.errors import DofkitError
-from dofkit.base.records import dataclass
 from dofkit.classification.dependence.equivalence import Compared
 from dofkit.expressions.text import Names
 from dofkit.expressions.tree import coordinate
@@ -97,6 +96,11 @@ class Key:
         moving = {other: coordinate(name) for other, name in self.others.items() if name in names.coordinates}
         still = {o: names.parameters[name] for o, name in self.others.items() if name in names.parameters}
         return replace(names, parameters={**names.parameters, **moving, **still}) if moving or still else names
+
+    @cached_property
+    def names_with_also(self) -> Names:
+        """The same with the further coordinates, which are read in every notation of a declared one."""
+        return replace(self.names, coordinates=self.names.coordinates | self.also.keys())
 
     @cached_property
     def coordinates(self) -> list[str]:

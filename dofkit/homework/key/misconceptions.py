@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from dofkit.homework.key.facts import SceneCounts
 from dofkit.homework.key.key import Key
+from dofkit.homework.sentences.said import Said, say
 from dofkit.report import ConstraintEntry
 
 Numbers = Iterator[int | Fraction]
@@ -178,12 +179,21 @@ def explain(given: Fraction, ask: str, key: Key) -> tuple[tuple[str, ...], str]:
     return tuple(m.code for m in found), found[0].hint if found else ""
 
 
-def explain_label(part: str, entry: ConstraintEntry, key: Key) -> tuple[str, str]:
+def explain_label(part: str, entry: ConstraintEntry, key: Key) -> tuple[str, str | Said]:
     """(code, what to say) where the label of a part is wrong."""
     del key
     if part == "scleronomic":
+        if not entry.scleronomic and entry.integral is not None:
+            sentence = "It integrates to {integral}, and time occurs in that relation: it is rheonomic."
+            return "RHEO_MISSED", say(sentence, integral=entry.integral)
         if not entry.scleronomic:
             return "RHEO_MISSED", "Time enters this constraint: look for t, or a motion that is prescribed."
+        if entry.catastatic is False:
+            return (
+                "RHEO_NH",
+                "Time does not occur in it, and it does not integrate: it is scleronomic. A term without velocities "
+                "makes it acatastatic.",
+            )
         if entry.form in ("pfaffian", "nonlinear"):
             return "RHEO_NH", "Velocities are not time: a constraint on velocities is rheonomic only where t enters."
         return "RHEO_MOVES", "That what it is attached to moves does not matter: time itself does not enter."

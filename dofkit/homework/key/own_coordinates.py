@@ -74,7 +74,7 @@ def _defined(answer: str, key: Key) -> ChosenCoordinates | None:
 def extended(key: Key, own: Sequence[str], relations: Sequence[Comparison]) -> Key:
     """The key with coordinates that an answer defines. Raises DoubtError where they may leave configurations out."""
     left = restrictions(relations, own, key.scene)
-    if left is None or not all(_implied(key, f"{to_text(e)} = 0") for e in left):
+    if left is None or not all(implied(key, f"{to_text(e)} = 0") for e in left):
         raise DoubtError("its own coordinates may leave configurations out.", 1, None)
     return key.with_own(tuple(own), tuple(as_text(c) for c in relations))
 
@@ -93,12 +93,12 @@ def _equations(key: Key, name: str) -> list[str]:
     if e.op == "fn" and e.args[0] == "atan2":
         a, b = (to_text(part) for part in e.args[1:])
         for radius in key.constants:
-            if key.scene.parameters.get(radius) == "positive" and _implied(key, f"({a})^2 + ({b})^2 = {radius}^2"):
+            if key.scene.parameters.get(radius) == "positive" and implied(key, f"({a})^2 + ({b})^2 = {radius}^2"):
                 return [f"{a} = {radius}*sin({name})", f"{b} = {radius}*cos({name})"]
     return [f"{name} = {to_text(e)}"]
 
 
-def _implied(key: Key, text: str) -> bool:
+def implied(key: Key, text: str) -> bool:
     """Does a relation follow from the scene's constraints?"""
     return key.implied(text, lambda: _follows(key, text))
 

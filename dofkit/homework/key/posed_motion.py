@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from dofkit.base.errors import TextError
-from dofkit.base.records import dataclass
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import Comparison, spelled, to_text
@@ -62,8 +62,8 @@ class PosedMotion:
 
 def posed_motions(answer: Given, key: Key, value: bool) -> list[PosedMotion]:
     """Every way to read an answer, as a value or as equations. Raises TextError."""
-    vocabulary = AnswerNames(key.names, accelerations=True)
-    answer = with_energies(answer, key.names) if value else answer
+    vocabulary = AnswerNames(key.names_with_also, accelerations=True)
+    answer = with_energies(answer, key.names_with_also) if value else answer
     ways = readings_of(answer, vocabulary, _without_lead if value else None)
     claims = [way.claim if way.derived else way for way in ways]
     return [_posed(side, key, value) for way in claims for side in (_sides(way) if value else [way])]
@@ -89,17 +89,18 @@ def _without_lead(script: Script) -> Script:
 def _posed(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
     way = _defining_constants(way, key)
     multipliers = [n for n in way.own if not value and n not in way.moving and _MULTIPLIER.fullmatch(spelled(n))]
-    other = tuple(name for name in way.own if name not in multipliers)
+    used = {n for c in way.relations for n in _names(c)} & key.also.keys()
+    other = (*(name for name in way.own if name not in multipliers), *sorted(used))
     defining = [c for c in way.relations if c.relation == "=" and _defines(c, other)]
     rest = [(c, bare) for c, bare in zip(way.relations, way.bare, strict=True) if c not in defining]
     defined = {n for c in defining for n in other if n in _names(c)}
     known = tuple(ex.parameter(n) for n in multipliers)
     if value and (len(rest) != 1 or not rest[0][1]):
         raise TextError("one expression is needed here", 1, "write the expression alone, such as L = ...")
-    if defined != set(other) and not defined and set(other) <= set(key.also):
-        key = offered(key, other)
-        defined = set(other)
-    elif defined and defined == set(other):
+    if used - defined:
+        key = offered(key, sorted(used - defined))
+        other = tuple(name for name in other if name not in used - defined)
+    if defined and defined == set(other):
         key = extended(key, other, defining)
     if defined == set(other):
         table = {ex.parameter(n): ex.coordinate(n) for n in other}

@@ -51,7 +51,8 @@ class EquationQuestion(QuestionBase):
         return " or ".join(dict.fromkeys(way.shown for way in self._ways(answer, key)))
 
     def _ways(self, answer: Given, key: Key) -> list[AnswerReading]:
-        return readings_of(answer, AnswerNames(key.names, free=True, accelerations=True))
+        vocabulary = AnswerNames(key.names_with_also, free=True, accelerations=True)
+        return [way.with_own(key.also) for way in readings_of(answer, vocabulary)]
 
     def solution(self, key: Key) -> Sentence:
         return say("For example: {text}.", text=equations_of(key, self.constraint))

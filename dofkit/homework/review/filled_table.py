@@ -5,13 +5,12 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from io import StringIO
 from pathlib import Path
 
 from dofkit.base.errors import DofkitError, Fault
-from dofkit.base.records import dataclass
 from dofkit.base.spelling import nearest
 from dofkit.homework.review.identity import mark_of, question_mark
 from dofkit.homework.review.rows import COLUMNS, SOMEONE, Decision, ReviewRow

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 
-from dofkit.base.records import dataclass
 from dofkit.homework.result import Item, Result
 from dofkit.homework.review.identity import answer_id
 from dofkit.homework.review.rows import ReviewRow

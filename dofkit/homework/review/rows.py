@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
-
-from dofkit.base.records import dataclass
 
 #: The columns of the table, in order; those that a person fills in come last.
 COLUMNS = (

@@ -15,7 +15,7 @@ from dofkit.homework.own_sheets import NobodysSheetError, SheetDrawer, mark_told
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.questions.equations import EquationQuestion
 from dofkit.homework.result import Result
-from dofkit.methods import certificates
+from dofkit.methods.certificates.answers import certificates_of
 from dofkit.methods.classify import with_certificate
 
 #: What is told of the answers: the file of each, or why there is none.
@@ -114,7 +114,7 @@ def _told_of(
     if key is not None and " or " not in answer.read_as and isinstance(question, EquationQuestion):
         texts = [text.strip() for text in answer.read_as.split(";")]
         right = answer.status == "right"
-        found, why = certificates.certificates_of(key.scene, question.constraint, texts, key.report, right)
+        found, why = certificates_of(key.scene, question.constraint, texts, key.report, right)
     stem = f"{_stem(answer.problem, answer.variant)}.{quote(answer.question, safe='')}.answer-{number}"
     files = [f"{stem}.{i}.json" for i in range(1, len(found) + 1)]
     for file, certificate in zip(files, found, strict=True):

@@ -5,12 +5,11 @@ from __future__ import annotations
 import pickle
 import time
 from collections.abc import Generator, Iterator, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from dofkit.base.records import dataclass
 from dofkit.base.workers import Json
 from dofkit.base.workers.limits import allow_processor
 from dofkit.homework.answers.sources import Handed

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from dofkit.base.records import dataclass
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.html.review_page import write_page
 from dofkit.homework.formats.review_queue import write_table

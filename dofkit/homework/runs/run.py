@@ -6,13 +6,13 @@ import json
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, closing, contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from dofkit.base.line_journal import ledger
-from dofkit.base.records import dataclass
 from dofkit.base.workers.batches import in_order
 from dofkit.base.workers.pool import cores
 from dofkit.homework.answers.roster import Roster, load_roster
@@ -62,6 +62,13 @@ class GradingOptions:
             raise FormatError("--check-only tells how answers are read, one JSON object a line, in no other format")
         if FORMATS[self.form].needs_path and self.out is None:
             raise FormatError(f"the format {self.form} needs --out PATH")
+        ending = "" if self.out is None or self.out.is_dir() else self.out.suffix.lower()[1:]
+        others = [name for name, form in FORMATS.items() if ending in form.endings]
+        if others and self.form not in others:
+            raise FormatError(
+                f"'{self.out}' ends in .{ending}, which --format {self.form} does not write: name a folder without an "
+                f"ending, or choose --format {' or '.join(others)}"
+            )
         return FORMATS[self.form]
 
     @property

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
 from dofkit.base.errors import SceneError
-from dofkit.base.records import dataclass
 from dofkit.homework.key.key import Key
 from dofkit.homework.problem import ASPECTS, Aspect, Problem, Varying
 from dofkit.homework.questions.equations import EquationQuestion

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations_with_replacement
 from math import isqrt
@@ -12,7 +12,6 @@ from typing import Any
 from flint import nmod, nmod_mat
 
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.points.field import FieldPoint, field_point

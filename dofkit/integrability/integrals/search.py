@@ -8,9 +8,9 @@ work is bounded by a count, not by a clock: the same form always gives the same 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import chain, count
 
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.zero.identity import certainly_nonzero
 from dofkit.expressions import tree as ex

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from dofkit.base.memory import unhurried
-from dofkit.base.records import dataclass
 from dofkit.base.workers import Json
 from dofkit.base.workers.limits import allow
 from dofkit.interface.many.scene_files import SceneGiven

@@ -1,86 +1,110 @@
-"""How sure the answers of a report are, and by what, in words that a student reads."""
+"""How certain the answers of a report are, and by which arguments."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import log10
 
 from dofkit.base.surface import handed_on
 from dofkit.interface.show.sheet import Remark
 from dofkit.report import FieldVerdict, Report
 
-#: What is imported only where arguments are told.
+#: Names that are imported only where arguments are shown.
 _HEAVY = {"TABLE": "dofkit.classification.arguments"}
-#: What a verdict means.
+#: The meaning of each verdict.
 VERDICT_MEANS = {
-    "proved": "follows by exact arithmetic that leaves no doubt",
+    "proved": "derived by exact arithmetic that leaves no doubt",
     "probable": "exact arithmetic at random points; the chance of an error is bounded and tiny",
-    "numeric": "measured or rounded numbers, told apart by a gap that is stated",
-    "undecided": "not settled; the reason says why",
+    "numeric": "measured or rounded numbers, separated by a gap that is stated",
+    "undecided": "not decided; the reason says why",
 }
-#: What the engines call their ways, and what that means. The first that fits is taken, so longer ones stand first.
+#: The names of methods, and what they mean. The first that fits is taken, so longer ones stand first.
 _WAYS = (
     (
         "rank over GF(p) and balls",
-        "the rank of the equations, found twice: in whole numbers modulo a large prime, where zero can be trusted, and "
-        "with certified intervals about a real point, where non-zero can",
+        "the rank of the equations, computed twice: modulo a large prime, which bounds it from below, and with "
+        "certified intervals about a real point, which prove that a minor is not zero",
     ),
     (
         "rank over GF(p) at the given configuration",
-        "the rank of the equations at the drawing, in whole numbers modulo a large prime",
+        "the rank of the equations at the reference configuration, modulo a large prime",
     ),
-    ("rank over GF(p)", "the rank of the equations, in whole numbers modulo a large prime"),
+    ("rank over GF(p)", "the rank of the equations, modulo a large prime"),
     (
         "Lie algebra along a curve over GF(p)",
-        "the velocities that are allowed and their brackets (Frobenius), in whole numbers modulo a large prime",
+        "the admissible velocities and their Lie brackets (Frobenius), modulo a large prime",
     ),
     (
         "special cases by the zeros of minors and of curvature",
-        "special cases where minors of the equations, or their curvature, are zero",
+        "special cases, where minors or Frobenius conditions of the equations vanish",
     ),
-    ("graph of rigid links", "links as a graph, each counted where it is needed"),
+    ("graph of rigid links", "the rigidity matroid of the links as a graph"),
 )
-#: What the model says of relations that hold no velocities, and what that means.
+#: The model's note on relations without velocities, and its meaning.
 _NO_TEST = (
-    "no integrability test where all relations are finite (d(dg) = 0)",
-    "relations between coordinates are holonomic as they stand, so that nothing is tested for integrability",
+    "no integrability test where all equations are geometric (d(dg) = 0)",
+    "all equations are geometric, so integrability need not be tested",
 )
 #: Hypotheses shorter than this name other arguments only.
 _TERSE = 14
+#: The number of undecided fields that are named in one line.
+_MOST_FIELDS = 6
 _FIELDS = {
     "dof": "degrees of freedom",
-    "velocity_dof": "velocities",
-    "instantaneous_dof": "velocities to first order",
+    "velocity_dof": "velocity freedom",
+    "instantaneous_dof": "instantaneous freedom",
     "redundant_equations": "number of redundant equations",
-    "redundancies": "redundant groups",
-    "generalized_coordinates": "coordinates",
+    "redundancies": "groups of dependent constraints",
+    "generalized_coordinates": "generalized coordinates",
     "growth_vector": "growth vector",
     "integrable_part": "integrable part",
 }
 
 
-#: Before each thing that a model has and its scene leaves out.
+#: Stands before each part of a model that its scene leaves out.
 LEFT_OUT = "; left out: "
 
 
-def how_sure(report: Report, arguments: bool) -> list[Remark]:
-    """What was computed with, in which way, what the verdicts mean; and by which ``arguments``."""
-    model, *left_out = report.modelled.replace(*_NO_TEST).split(LEFT_OUT)
-    told = [Remark(label, text) for label, text in (("the model", model), ("the way", way(report))) if text]
-    told += [Remark("left out", text) for text in left_out]
-    used = verdicts_of(report)
-    told += [Remark(verdict, meaning) for verdict, meaning in VERDICT_MEANS.items() if verdict in used]
-    return [*told, *_arguments(report)] if arguments else told
+def how_sure(report: Report) -> list[Remark]:
+    """Return the model, the method, the meaning of the verdicts and the argument behind each answer."""
+    model, *lacks = report.modelled.replace(*_NO_TEST).split(LEFT_OUT)
+    remarks = [Remark(label, text) for label, text in (("model", model), ("method", way(report))) if text]
+    remarks += [Remark("not modelled", text) for text in lacks]
+    used = {report.verdict, *(e.verdict for e in report.constraints), *(case.verdict for case in report.special_cases)}
+    remarks += [Remark(verdict, meaning) for verdict, meaning in VERDICT_MEANS.items() if verdict in used]
+    return [*remarks, *_arguments(report)]
 
 
-def verdicts_of(report: Report) -> set[str]:
-    """The verdicts that occur."""
-    return {report.verdict, *(e.verdict for e in report.constraints), *(case.verdict for case in report.special_cases)}
+def left_out(report: Report) -> str:
+    """Return which parts of the model the scene leaves out, in one line."""
+    return "; ".join(report.modelled.split(LEFT_OUT)[1:])
+
+
+def reservation(report: Report) -> str:
+    """Return in one line why the report is not proved: the chance of an error, the gap, or what is undecided."""
+    weakest = [(name, found) for name, found in report.verdicts.items() if found.verdict == report.verdict]
+    bounds = [found.bound for _, found in weakest if found.bound]
+    bounds += [
+        f.bound for e in report.constraints for f in e.verdicts.values() if f.verdict == report.verdict and f.bound
+    ]
+    if report.verdict == "probable" and bounds:
+        digits = min(int(int(bound.removeprefix("2^-")) * log10(2)) for bound in bounds)
+        return f"chance of error below 1e-{digits} (details: --how)"
+    if report.verdict == "numeric" and bounds:
+        gap = f"{min(map(float, bounds)):.0e}".replace("e+0", "e").replace("e+", "e")
+        return f"rank is unambiguous: smallest kept / largest dropped singular value {gap} (details: --how)"
+    if report.verdict == "undecided":
+        names = [_FIELDS.get(name, name.replace("_", " ")) for name, _ in weakest]
+        names += [entry.name for entry in report.constraints if entry.verdict == "undecided"]
+        listed = ", ".join(names[:_MOST_FIELDS]) + (", ..." if len(names) > _MOST_FIELDS else "")
+        return f"{listed} (details: --how)" if listed else ""
+    return ""
 
 
 def way(report: Report) -> str:
-    """How the answers were found."""
+    """Return the method in words."""
     if report.method == "count":
-        return "by counting: each equation is independent of the others by itself"
+        return "counting: each equation is evidently independent of the others"
     said = report.method
     for name, meaning in _WAYS:
         said = said.replace(name, meaning)
@@ -88,7 +112,7 @@ def way(report: Report) -> str:
 
 
 def _arguments(report: Report) -> Iterator[Remark]:
-    """The fields that rest on one argument, and its hypotheses."""
+    """Yield each argument with the fields that rest on it and its hypotheses."""
     together: dict[str, list[str]] = {}
     for name, found in report.verdicts.items():
         if found.argument is not None:
@@ -103,7 +127,7 @@ def _arguments(report: Report) -> Iterator[Remark]:
 
 
 def not_proved(report: Report) -> list[Remark]:
-    """What is not proved: the fields of which the same is said in one line."""
+    """Return the fields that are not proved, those with the same reason in one line."""
     together: dict[str, list[str]] = {}
     for name, found in report.verdicts.items():
         if found.verdict != "proved":
@@ -112,10 +136,10 @@ def not_proved(report: Report) -> list[Remark]:
 
 
 def _because(found: FieldVerdict) -> str:
-    """The argument, and the chance of an error or the gap."""
+    """Return the argument in parentheses, with the chance of an error or the gap."""
     if found.verdict == "undecided":
         return ""
-    means = f"wrong with a chance below {found.bound}" if found.verdict == "probable" else f"by a gap of {found.bound}"
+    means = f"chance of error below {found.bound}" if found.verdict == "probable" else f"gap {found.bound}"
     where = (
         "" if found.about == "everywhere" else f", near the {'witness' if found.about == 'component' else found.about}"
     )

@@ -1,4 +1,4 @@
-"""A report on one line, for many scenes below each other."""
+"""A report on one line, for lists of many scenes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from dofkit.report import Report
 
 
 def brief_line(report: Report, widest: int, screen: Screen) -> str:
-    """``NAME  f  v  labels  verdict`` and what is remarkable, a name of at most ``widest`` characters."""
+    """Return ``NAME  f  v  labels  verdict`` and remarkable findings; ``widest``: the longest name."""
     name, verdict = safe(report.scene), report.verdict
     text = Text.assemble(
         (f"{name:<{min(widest, WIDEST_NAME)}}", "bold"),

@@ -1,4 +1,4 @@
-"""What a report says that is otherwise than without some constraints, or than was expected."""
+"""What changes in a report where constraints are dropped, and where it differs from what was expected."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from dofkit.interface.show.sheet import Remark, SheetSection
 from dofkit.report import Report
 
 #: An inequality may bound the motion all the same, and so no more is said.
-SAME = "no number and no label that is compared here changes"
+SAME = "no degree of freedom, no count and no label changes"
 #: The numbers that are compared, and what they are called.
 _NUMBERS = (
     ("degrees of freedom", "dof"),
-    ("velocities", "velocity_dof"),
-    ("to first order", "instantaneous_dof"),
+    ("velocity freedom", "velocity_dof"),
+    ("instantaneous freedom", "instantaneous_dof"),
     ("redundant equations", "redundant_equations"),
 )
 
 
 def changed(before: Report, after: Report, names: Sequence[str]) -> SheetSection:
-    """What happens where the constraints of these names are dropped."""
+    """Return what changes where the constraints of these names are dropped."""
     told = [*_changes(before, after), *_open(before, after)]
     return SheetSection(f"Without {names_of(names)}", told or [Remark("", SAME)])
 
@@ -33,7 +33,7 @@ def _open(before: Report, after: Report) -> Iterator[Remark]:
         if any((found := report.verdicts.get(name)) and found.verdict == "undecided" for report in (before, after))
     ]
     if unsure:
-        yield Remark("undecided", f"whether this changes: {', '.join(unsure)}")
+        yield Remark("undecided", f"it is open whether these change: {', '.join(unsure)}")
 
 
 def _changes(before: Report, after: Report) -> Iterator[Remark]:
@@ -44,7 +44,7 @@ def _changes(before: Report, after: Report) -> Iterator[Remark]:
     if before.consistent != after.consistent:
         yield Remark("consistent", f"{_yes(before.consistent)} -> {_yes(after.consistent)}")
     if system_labels(before) != system_labels(after):
-        yield Remark("the system", f"{system_labels(before)} -> {system_labels(after)}")
+        yield Remark("system", f"{system_labels(before)} -> {system_labels(after)}")
     kept = {e.name: e for e in after.constraints}
     for entry in before.constraints:
         now_entry = kept.get(entry.name)
@@ -62,4 +62,6 @@ def _holonomic(value: bool | None) -> str:
 
 def unexpected(missed: Sequence[str]) -> list[SheetSection]:
     """What the scene's own answers say otherwise."""
-    return [SheetSection("Otherwise than the scene expects", [Remark("!", line) for line in missed])] if missed else []
+    return (
+        [SheetSection("Differs from what the scene expects", [Remark("!", line) for line in missed])] if missed else []
+    )

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
+from typing import TypeVar
 
 from dofkit.base.display import Companion
 from dofkit.expressions.text.typesetting import typeset
 from dofkit.homework.result import Result
+from dofkit.interface.show.decimals import as_the_scene
+from dofkit.interface.show.faults import panel_of
 from dofkit.interface.show.motion import sheet_of_motion
 from dofkit.interface.show.page import as_html
 from dofkit.interface.show.picture import picture_of
@@ -20,6 +23,11 @@ from dofkit.mobility.graph.result import Linkage
 from dofkit.motion.lagrange.report import MotionReport
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.scene import Scene
+
+__all__ = ["html_of", "latex_of", "panel_of", "text_of"]
+
+
+Shown = TypeVar("Shown", Report, MotionReport)
 
 
 def text_of(value: object, width: int | None, how: bool) -> str:
@@ -57,11 +65,11 @@ def sheet_of(value: object, how: bool = False) -> Sheet:
     """The sheet of a value. Raises TypeError for one that has none."""
     match value:
         case Report():
-            return _beside(sheet_of_report(value, how=how), value._companion, value)
+            return _beside(sheet_of_report(_printed(value), how=how), value._companion, value)
         case ConstraintEntry():
             return sheet_of_entry(value)
         case MotionReport():
-            return _beside(sheet_of_motion(value), value._companion)
+            return _beside(sheet_of_motion(_printed(value)), value._companion)
         case Scene():
             return sheet_of_scene(value)._replace(picture=partial(picture_of, value))
         case Linkage():
@@ -70,6 +78,12 @@ def sheet_of(value: object, how: bool = False) -> Sheet:
             return sheet_of_result(value)
         case _:
             raise TypeError(f"there is nothing to show of a {type(value).__name__}")
+
+
+def _printed(report: Shown) -> Shown:
+    """Return a report as it is printed, with decimals where its scene has decimals."""
+    scene = report._companion.scene
+    return as_the_scene(report, scene) if isinstance(scene, Scene) else report
 
 
 def _beside(sheet: Sheet, companion: Companion, report: Report | None = None) -> Sheet:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+import sysconfig
+import traceback
+from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from dofkit.base.errors import Fault
@@ -18,6 +21,8 @@ Style = Literal["place", "error", "hint", "quiet"]
 #: Bold, bold red, bold cyan, dim: what a report has at a terminal.
 _CODES: dict[Style, str] = {"place": "1", "error": "1;31", "hint": "1;36", "quiet": "2"}
 _BEFORE = 60
+#: Where code lies that the user did not write: dofkit, the standard library and what is installed.
+_LIBRARIES = (str(Path(__file__).parents[2]), sysconfig.get_path("stdlib"), sysconfig.get_path("purelib"))
 _UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]")
 
 
@@ -29,6 +34,24 @@ def complaint(file: str, faults: tuple[Fault, ...], document: Document | None, c
     if more > 0:
         blocks.append(f"... and {more} more in {safe(file)}")
     return "\n".join(blocks)
+
+
+def panel_of(error: BaseException) -> list[str]:
+    """Return the lines of an error for a notebook: the user's line that led to it, and every fault with its hint."""
+    frames = traceback.extract_tb(error.__traceback__)
+    called = [frame.line for frame in frames if frame.line and not frame.filename.startswith(_LIBRARIES)]
+    lines = [f"in  {called[-1]}"] if called else []
+    faults: tuple[Fault, ...] = getattr(error, "faults", ())
+    lines += [line for fault in faults[:MOST_SHOWN] for line in _fault_lines(fault)] or str(error).splitlines()
+    if len(faults) > MOST_SHOWN:
+        lines.append(f"... and {len(faults) - MOST_SHOWN} more")
+    return [f"╭─ {type(error).__name__}", *(f"│ {line}" for line in lines), "╰─"]
+
+
+def _fault_lines(fault: Fault) -> Iterator[str]:
+    yield safe(f"{fault.location}: {fault.message}" if fault.location else fault.message)
+    if fault.hint:
+        yield f"    hint: {safe(fault.hint)}"
 
 
 def _plain(text: str, style: Style) -> str:

@@ -8,6 +8,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from dofkit.interface.show.sheet import TONES, Fact, Formula, Matrix, Remark, Sheet, SheetSection
 from dofkit.motion.lagrange.report import Linearized, MotionReport
 
+#: An equation that says nothing.
+_TRIVIAL = "0 = 0"
+#: Names of the matrices of mass, damping and stiffness: the first three that are no names in their entries.
+_MATRICES = (("M", "C", "K"), ("A", "B", "C"), ("M_q", "C_q", "K_q"))
+_WORDS = re.compile(r"[^\W\d]\w*")
+
 
 def sheet_of_motion(report: MotionReport, title: str | None = None) -> Sheet:
     """The whole report; its lines are not broken, so that equations can be copied."""
@@ -21,7 +27,7 @@ def sheet_of_motion(report: MotionReport, title: str | None = None) -> Sheet:
 
 
 def _facts(report: MotionReport) -> Iterator[Fact]:
-    yield Fact("coordinates", ", ".join(report.coordinates) or "none: nothing is left that can move")
+    yield Fact("coordinates", ", ".join(report.coordinates) or "none: the system cannot move")
     for name, value in report.eliminated.items():
         yield Fact("eliminated", _formula(f"{name} = {value}"))
     if report.left_out:
@@ -31,17 +37,34 @@ def _facts(report: MotionReport) -> Iterator[Fact]:
 
 
 def _sections(report: MotionReport) -> Iterator[SheetSection]:
-    yield SheetSection("Equations of motion", _formulas(report.equations))
+    idle = [n for n, e in zip(report.coordinates, report.equations, strict=False) if e == _TRIVIAL]
+    equations = _formulas(e for e in report.equations if e != _TRIVIAL)
+    yield SheetSection("Equations of motion", [*equations, *_without_equation(idle)])
     pairs = zip(report.multipliers, report.constraints, strict=True)
     yield SheetSection("Constraints with a multiplier", [Remark(_formula(m), _formula(c)) for m, c in pairs])
-    yield SheetSection("Generalized momenta", _formulas(f"p_{n} = {p}" for n, p in report.momenta.items()))
-    yield SheetSection("Generalized forces", _formulas(f"Q_{n} = {f}" for n, f in report.forces.items()))
-    yield SheetSection("Cyclic coordinates", _formulas(report.cyclic))
-    held = [Remark("", _formula(f"{c.name} = {c.quantity}"), c.reason.rstrip(".")) for c in report.conserved]
-    yield SheetSection("Conserved", held)
+    momenta = (f"p_{n} = {p}" for n, p in report.momenta.items() if n not in idle)
+    yield SheetSection("Generalized momenta", _formulas(momenta))
+    forces = (f"dL/d{n}{_added(report, n)} = {f}" for n, f in report.forces.items() if n not in idle)
+    yield SheetSection("Generalized forces", _formulas(forces))
+    yield SheetSection("Cyclic coordinates", _formulas(n for n in report.cyclic if n not in idle))
+    conserved = (c for c in report.conserved if c.quantity != "0")
+    remarks = [Remark("", _formula(f"{c.name} = {c.quantity}"), c.reason.rstrip(".")) for c in conserved]
+    yield SheetSection("Conserved", remarks)
     if report.linearized is not None:
         yield _small_motions(report.linearized)
-    yield SheetSection("Notes", [Remark("", note) for note in (*report.notes, f"q*p is an {report.action}.")])
+    yield SheetSection("Notes", [Remark("", note) for note in report.notes])
+
+
+def _without_equation(idle: list[str]) -> Iterator[Remark]:
+    """Name the coordinates whose equations of motion read 0 = 0."""
+    if idle:
+        one = "the coordinate" if len(idle) == 1 else "the coordinates"
+        yield Remark("", f"No mass, force or constraint determines {one} {', '.join(idle)}: 0 = 0.")
+
+
+def _added(report: MotionReport, name: str) -> str:
+    """Return the term that stands for the non-conservative force along a coordinate, if there is one."""
+    return f" + Q_{name}" if name in report.non_conservative else ""
 
 
 def _formula(text: str) -> Formula:
@@ -59,8 +82,13 @@ def _formulas(texts: Iterable[str]) -> list[Remark]:
 
 def _small_motions(found: Linearized) -> SheetSection:
     """M, C, K and the frequencies about a place of rest."""
-    told = [Remark("", _formula("M qddot + C qdot + K q = 0"), f"q = ({', '.join(found.coordinates)})")]
-    for name, matrix in (("M", found.mass), ("C", found.damping), ("K", found.stiffness)):
+    matrices = (found.mass, found.damping, found.stiffness)
+    taken = {word for matrix in matrices for row in matrix for entry in row for word in _WORDS.findall(entry)}
+    names = next((names for names in _MATRICES if taken.isdisjoint(names)), _MATRICES[-1])
+    mass, damping, stiffness = names
+    law = f"{mass} qddot + {damping} qdot + {stiffness} q = 0"
+    told = [Remark("", _formula(law), f"q = ({', '.join(found.coordinates)})")]
+    for name, matrix in zip(names, matrices, strict=True):
         told.append(Remark("", Matrix(name, [[*map(_by_hand, row)] for row in matrix])))
     if found.characteristic:
         told.append(Remark("characteristic equation", _formula(f"{found.characteristic} = 0")))

@@ -1,23 +1,31 @@
-"""What is told of a report, in a reader's words: the counts, the constraints, why, and how sure."""
+"""The printed report: the counts, the constraints with their labels and reasons, and how certain the answers are."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from dofkit.base.wording import many, verb
-from dofkit.interface.show.assurance import LEFT_OUT, how_sure, not_proved, verdicts_of
+from dofkit.interface.show.assurance import how_sure, left_out, not_proved, reservation
 from dofkit.interface.show.sheet import TONES, Column, Fact, Formula, Grid, Remark, Sheet, SheetSection, Tone
 from dofkit.report import ConstraintEntry, Report, SpecialCase
 
-#: More constraints than this are counted, not listed.
-MOST_ROWS = 60
-_MOST_NAMES = 40
-_COLUMNS = (Column("name"), Column("text", 3), Column("form"), Column("labels", 2), Column("eq.", numbers=True))
+#: The number of constraints, reasons and other lines that each section lists; the rest is counted.
+MOST_ROWS = 15
+_MOST_NAMES = 24
+_COLUMNS = (
+    *(Column("name"), Column("text", 3), Column("form"), Column("labels", 2)),
+    Column("independent equations", numbers=True),
+)
+#: The form of a constraint on configurations, in the field's word.
+_FORMS = {"finite": "geometric"}
+#: A decimal with more than three significant digits.
+_LONG_DECIMAL = re.compile(r"-?(?=(?:[.0]*[1-9])(?:\.?\d){3})\d*\.\d+(?:e-?\d+)?")
 _OPPOSITES = {"holonomic": "non-holonomic", "scleronomic": "rheonomic", "bilateral": "unilateral"}
 
 
 def sheet_of_report(report: Report, title: str | None = None, how: bool = False) -> Sheet:
-    """The whole report. ``how``: by which arguments too; without it only where something is not proved."""
+    """Return the printed report. ``how``: with the argument behind each answer."""
     return Sheet(
         name=report.scene,
         title=title or "",
@@ -28,11 +36,11 @@ def sheet_of_report(report: Report, title: str | None = None, how: bool = False)
 
 
 def sheet_of_entry(entry: ConstraintEntry) -> Sheet:
-    """One constraint by itself."""
+    """Return the sheet of one constraint."""
     facts = [
-        Fact("form", entry.form),
+        Fact("form", _FORMS.get(entry.form, entry.form)),
         Fact("labels", labels(entry)),
-        Fact("equations", _equations(entry)),
+        Fact("independent equations", _equations(entry)),
         *(Fact("integral", Formula(str(r.text)), r.note) for r in _integrals([entry])),
         Fact("verdict", entry.verdict, tone=TONES[entry.verdict]),
         Fact("why", entry.reason),
@@ -43,27 +51,36 @@ def sheet_of_entry(entry: ConstraintEntry) -> Sheet:
 def _sections(report: Report, how: bool) -> Iterator[SheetSection]:
     entries = report.constraints
     if entries:
-        rows = [(e.name, Formula(e.text), e.form, labels(e), _equations(e)) for e in entries[:MOST_ROWS]]
+        shown = entries[:MOST_ROWS]
+        rows = [
+            (e.name, Formula(e.text), _FORMS.get(e.form, e.form), labels(e).removesuffix(", bilateral"), _equations(e))
+            for e in shown
+        ]
         yield SheetSection("Constraints", [Grid(_COLUMNS, rows)], _more(len(entries)))
     reasons = _reasons(entries)
-    yield SheetSection("Why", reasons[:MOST_ROWS], _more(len(reasons)))
-    yield SheetSection("Integrals", _integrals(entries)[:MOST_ROWS])
-    yield SheetSection("Special cases", [_special(case) for case in report.special_cases])
-    yield SheetSection("Redundancy", list(_redundancy(report)))
-    yield SheetSection("Forces", [Remark(force.name, force.reason) for force in report.forces])
-    yield SheetSection("Warnings", [Remark("!", warning) for warning in report.warnings])
-    if how or verdicts_of(report) != {"proved"} or LEFT_OUT in report.modelled:
-        yield SheetSection("How", how_sure(report, how))
-    yield SheetSection("Not proved", not_proved(report))
+    yield _listed("Why", reasons)
+    yield _listed("Integrals", _integrals(entries))
+    yield _listed("Special cases", [_special(case) for case in report.special_cases])
+    yield _listed("Redundancy", list(_redundancy(report)))
+    yield _listed("Forces", [Remark(force.name, force.reason) for force in report.forces])
+    yield _listed("Warnings", [Remark("!", warning) for warning in report.warnings])
+    if how:
+        yield SheetSection("How", how_sure(report))
+        yield SheetSection("Not proved", not_proved(report))
+
+
+def _listed(heading: str, remarks: Sequence[Remark]) -> SheetSection:
+    """Return a section with the first remarks, and the number of the rest."""
+    return SheetSection(heading, remarks[:MOST_ROWS], _more(len(remarks)))
 
 
 def _more(number: int) -> str:
-    return f"... and {number - MOST_ROWS} more: --json has them all" if number > MOST_ROWS else ""
+    return f"... and {number - MOST_ROWS} more (--json lists all)" if number > MOST_ROWS else ""
 
 
 def _alarm(report: Report) -> tuple[str, Tone] | None:
     if report.consistent is None:
-        return "It is undecided whether these constraints can all hold at once.", "care"
+        return "It is undecided whether the constraints are consistent.", "care"
     if report.consistent is False:
         names = names_of(report.conflicting) or "the constraints"
         return f"Inconsistent: no motion satisfies all of {names}.", "bad"
@@ -71,72 +88,105 @@ def _alarm(report: Report) -> tuple[str, Tone] | None:
 
 
 def _facts(report: Report) -> Iterator[Fact]:
-    yield _count(report)
-    if report.count.errs:
-        yield Fact("where it errs", report.count.errs, tone="care")
+    if report.consistent is not False:
+        yield _count(report)
+        if report.count.errs:
+            yield Fact("why the count is off", report.count.errs, tone="care")
     yield from _numbers(report)
-    yield from _beside(report)
-    yield Fact("the system", system_labels(report))
+    yield from _other_counts(report)
+    yield Fact("system", system_labels(report, _by_inequalities(report)))
     yield from _inequalities(report)
     if report.generalized_coordinates:
-        yield Fact("coordinates", f"{names_of(report.generalized_coordinates)} (independent, and enough)")
+        yield Fact("generalized coordinates", f"{names_of(report.generalized_coordinates)}  (a local chart)")
     if report.joint_coordinates:
-        yield Fact("joints", f"{names_of(report.joint_coordinates)} (they describe the tree)")
+        yield Fact("joint coordinates", names_of(report.joint_coordinates))
     if report.growth_vector:
-        yield Fact("growth vector", f"({', '.join(map(str, report.growth_vector))})")
+        timed = report.velocity_dof is not None and report.growth_vector[0] > report.velocity_dof
+        dimensions = f"({', '.join(map(str, report.growth_vector))})"
+        yield Fact("growth vector", f"{dimensions}  of (q, t)" if timed else dimensions)
     part = report.integrable_part
     if part is not None and part.rank and part.basis:
-        yield Fact("integrable part", f"{', '.join(part.basis)} (and what is finite as written)")
-    yield Fact("verdict", report.verdict, tone=TONES[report.verdict])
+        yield Fact("integrable part", f"{', '.join(part.basis)}  (besides the geometric equations)")
+    if model_lacks := left_out(report):
+        yield Fact("not modelled", model_lacks, tone="care")
+    yield Fact("verdict", report.verdict, reservation(report), TONES[report.verdict])
 
 
 def _count(report: Report) -> Fact:
     count = report.count
     given = [(count.particles, "particle"), (count.bodies, "body"), (count.coordinates, "coordinate")]
     said = [many(number, what) for number, what in given if number]
-    return Fact("the count", count.formula, f"({', '.join([*said, many(count.constraints, 'finite equation')])})")
+    return Fact(
+        "constraint count", count.formula, f"({', '.join([*said, many(count.constraints, 'geometric equation')])})"
+    )
 
 
 def _numbers(report: Report) -> Iterator[Fact]:
     if report.consistent is not False:
-        yield Fact("degrees of freedom", number(report.dof), "dimension of the configuration space")
-        yield Fact("velocities", number(report.velocity_dof), "independent velocities of finite motions")
+        branch = "".join(f" on the branch {c.where}" for c in report.special_cases if c.kind == "branch")
+        yield Fact("degrees of freedom", number(report.dof), f"dimension of the configuration space{branch}")
+        yield Fact("velocity freedom", number(report.velocity_dof), "independent admissible velocities")
     if report.singular is not None:
-        special = "more than can move: this place is singular" if report.singular else "as many as can move"
-        yield Fact("to first order", number(report.instantaneous_dof), f"velocities allowed at the drawing, {special}")
+        compared = (
+            "exceeds the finite freedom: singular configuration" if report.singular else "equal to the finite freedom"
+        )
+        note = f"at the reference configuration; {compared}"
+        yield Fact("instantaneous freedom", number(report.instantaneous_dof), note)
     if report.redundant_equations:
         few = report.redundant_equations
-        yield Fact("redundant", str(few), f"of the scalar equations {verb(few, 'adds', 'add')} nothing")
+        yield Fact("redundant equations", str(few), f"{verb(few, 'depends', 'depend')} on the other scalar equations")
 
 
-def _beside(report: Report) -> Iterator[Fact]:
-    """The counts beside the report's own, where they tell something else."""
+def _other_counts(report: Report) -> Iterator[Fact]:
+    """Yield the Gruebler-Kutzbach count and the generic mobility, where they differ from the report's numbers."""
     mobility, generic = report.mobility, report.generic
+    if mobility is not None and mobility.undriven is not None and mobility.freedom is not None:
+        sure = "" if mobility.undriven_verdict == "proved" else f" [{mobility.undriven_verdict}]"
+        yield Fact("mobility", number(mobility.undriven), _driven(mobility.undriven, mobility.freedom) + sure)
     if mobility is not None and (mobility.differs or mobility.kutzbach != report.count.naive_dof):
         yield Fact("Gruebler-Kutzbach", mobility.formula)
         if mobility.differs:
-            yield Fact("where it errs", mobility.differs, tone="care")
-    if generic is not None and generic.differs:
-        yield Fact("generic", number(generic.dof), f"degrees of freedom in general position; {generic.differs}")
+            yield Fact("why it is off", mobility.differs, tone="care")
+    if generic is not None and generic.differs and generic.dof is not None:
+        yield Fact("generic mobility", number(generic.dof), generic.differs)
+
+
+def _driven(undriven: int, freedom: int) -> str:
+    """How much of the mobility the drives take, and what is left of it."""
+    driven = undriven - freedom
+    left = "it moves as driven" if not freedom else f"{freedom} {verb(freedom)} left free"
+    return f"of which {driven} {verb(driven)} driven: {left}"
 
 
 def _inequalities(report: Report) -> Iterator[Fact]:
-    """Whether they can all be met, where there are some."""
+    """Yield whether the inequalities are consistent with the constraints, where there are some."""
     if report.consistent is False or all(e.bilateral for e in report.constraints):
         return
-    at = ", ".join(f"{name} = {value}" for name, value in (report.feasible_at or {}).items())
+    point = ", ".join(f"{name} = {_short(value)}" for name, value in (report.feasible_at or {}).items())
     if report.feasible:
-        yield Fact("inequalities", f"can all be met, as at {at}" if at else "can all be met")
+        yield Fact("inequalities", f"consistent, for example near {point}" if point else "consistent")
     elif report.feasible is False:
-        told = f"cannot all be met: no motion satisfies all of {names_of(report.infeasible)}"
-        yield Fact("inequalities", told, tone="bad")
+        names = names_of(report.infeasible)
+        yield Fact("inequalities", f"inconsistent: no motion satisfies all of {names}", tone="bad")
     else:
-        yield Fact("inequalities", "undecided whether they can all be met", tone="care")
+        yield Fact("inequalities", "undecided whether they are consistent", tone="care")
 
 
-def system_labels(report: Report) -> str:
-    """The labels of the whole system in words."""
-    return f"{_label(report.holonomic, 'holonomic')}, {_label(report.scleronomic, 'scleronomic')}"
+def _short(value: str) -> str:
+    """Return a coordinate of a witness, a long decimal with three significant digits."""
+    return f"{float(value):.3g}" if _LONG_DECIMAL.fullmatch(value) else value
+
+
+def system_labels(report: Report, reason: str = "") -> str:
+    """Return the labels of the system in words; ``reason``: why it is not holonomic."""
+    return f"{_label(report.holonomic, 'holonomic')}{reason}, {_label(report.scleronomic, 'scleronomic')}"
+
+
+def _by_inequalities(report: Report) -> str:
+    """Return which inequalities alone make the system non-holonomic, in parentheses."""
+    names = [entry.name for entry in report.constraints if entry.holonomic is False]
+    alone = all(entry.form == "inequality" for entry in report.constraints if entry.holonomic is False)
+    return f" (by {names_of(names)})" if names and alone and report.holonomic is False else ""
 
 
 def _label(value: bool | None, word: str) -> str:
@@ -144,12 +194,13 @@ def _label(value: bool | None, word: str) -> str:
 
 
 def labels(entry: ConstraintEntry) -> str:
-    """A constraint's labels in words."""
+    """Return a constraint's labels in words."""
     alone = ""
     if entry.holonomic != entry.holonomic_alone and entry.holonomic_alone is not None:
-        alone = f" (alone: {_label(entry.holonomic_alone, 'holonomic')})"
+        alone = f" (on its own: {_label(entry.holonomic_alone, 'holonomic')})"
     words = [_label(entry.holonomic, "holonomic") + alone, _label(entry.scleronomic, "scleronomic")]
-    return ", ".join([*words, _label(entry.bilateral, "bilateral")])
+    acatastatic = ["acatastatic"] if entry.catastatic is False else []
+    return ", ".join([*words, *acatastatic, _label(entry.bilateral, "bilateral")])
 
 
 def _equations(entry: ConstraintEntry) -> str:
@@ -169,15 +220,15 @@ def _reasons(entries: Sequence[ConstraintEntry]) -> list[Remark]:
 
 
 def _integrals(entries: Iterable[ConstraintEntry]) -> list[Remark]:
-    found: list[Remark] = []
+    remarks: list[Remark] = []
     for entry in entries:
         if entry.integral is None:
             continue
-        how = "exact as written" if entry.exact else ""
-        if not how and entry.integrating_factor:
-            how = f"by the factor {entry.integrating_factor}"
-        found.append(Remark(entry.name, Formula(entry.integral), how))
-    return found
+        note = "exact as written" if entry.exact else ""
+        if not note and entry.integrating_factor:
+            note = f"integrating factor {entry.integrating_factor}"
+        remarks.append(Remark(entry.name, Formula(entry.integral), note))
+    return remarks
 
 
 def _special(case: SpecialCase) -> Remark:
@@ -187,20 +238,24 @@ def _special(case: SpecialCase) -> Remark:
 
 def _redundancy(report: Report) -> Iterator[Remark]:
     if report.redundant:
-        yield Remark("can be dropped together", names_of(report.redundant))
+        note = "these may be removed together without changing the motion"
+        yield Remark("maximal redundant set", names_of(report.redundant), note)
     for group in report.redundancies:
-        yield Remark(f"{many(group.nullity, 'equation')} too many among", names_of(group.members))
-    for entry in [entry for entry in report.constraints if entry.circuit is not None][:MOST_ROWS]:
-        on = names_of(entry.circuit or [])
-        yield Remark(entry.name, f"follows from {on}" if on else "says nothing: it always holds")
+        members = names_of(group.members)
+        yield Remark("", f"Overconstrained by {group.nullity}: the equations of {members} are dependent.")
+    for entry in report.constraints:
+        if entry.circuit:
+            yield Remark(entry.name, f"implied by {names_of(entry.circuit)}")
+        elif entry.circuit is not None:
+            yield Remark(entry.name, "imposes no condition: every configuration satisfies it")
 
 
 def names_of(names: Sequence[str]) -> str:
-    """Names with commas; the first of very many."""
+    """Return names with commas, the first of very many."""
     shown = ", ".join(names[:_MOST_NAMES])
     return f"{shown} and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else shown
 
 
 def number(value: int | None) -> str:
-    """A number, or a dash for what is not known."""
+    """Return a number, or a dash where it is not known."""
     return "-" if value is None else str(value)

@@ -38,6 +38,7 @@ def as_text(sheet: Sheet, screen: Screen) -> str:
         force_jupyter=False,
         color_system=screen.colours,
         emoji=False,
+        markup=False,
         no_color=not coloured,
     )
     with console.capture() as captured:
@@ -91,7 +92,7 @@ def _grid(grid: Grid) -> RenderableType:
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="dim", show_edge=False)
     for i, column in enumerate(grid.columns):
         if column.numbers:
-            table.add_column(column.head, justify="right", no_wrap=True)
+            table.add_column(column.head.replace(" ", "\n"), justify="right", no_wrap=True)
         elif i == 0:
             table.add_column(column.head, overflow="fold")
         elif column.share:

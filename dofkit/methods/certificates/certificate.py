@@ -48,16 +48,19 @@ NUMBERS: dict[str, Maker] = {
 LABELS: dict[str, Callable[[Room, ConstraintEntry, str], Iterator[Told]]] = {
     "holonomic": labels.holonomic,
     "holonomic_alone": labels.holonomic,
-    "scleronomic": labels.scleronomic,
-    "catastatic": labels.scleronomic,
     "exact": labels.exact,
     "integrating_factor": labels.integrating_factor,
     "integral": labels.integral,
+    "scleronomic": labels.scleronomic,
+    "catastatic": labels.scleronomic,
     "independent": freedom.independent,
     "circuit": freedom.circuit,
 }
 #: Claims that follow from others, which therefore stand before them.
-LAST = ("/singular", "/holonomic", "/scleronomic", "/redundant_equations", "/redundancies", "/integrable_part")
+LAST = (
+    *("/singular", "/holonomic", "/scleronomic", "/redundant_equations", "/redundancies", "/integrable_part"),
+    "/growth_vector",
+)
 #: Numbers that may differ from one part of the set to another.
 OF_A_POINT = ("dof", "velocity_dof", "redundant", "generalized_coordinates", "growth_vector", "independent", "circuit")
 HINDRANCES = (CheckError, NoEstimateError, RecursionError, KeyError, ValueError, ZeroDivisionError, OverflowError)
@@ -262,7 +265,7 @@ def _asked(report: Report) -> Iterator[tuple[str, Any, Maker]]:
             yield f"/{field}", told[field], _nothing
     for entry, values in zip(report.constraints, told["constraints"], strict=True):
         name = entry.name.replace("~", "~0").replace("/", "~1")
-        for field, verdict in entry.verdicts.items():
+        for field, verdict in sorted(entry.verdicts.items(), key=lambda told: told[0] == "scleronomic"):
             if verdict.verdict == "proved":
                 yield f"/constraints/{name}/{field}", values[field], _label_maker(entry, field)
 

@@ -249,15 +249,13 @@ def _circuit(room: Room, entry: ConstraintEntry) -> Iterator[Contradiction]:
 
 def _independent(room: Room, entry: ConstraintEntry) -> Iterator[Contradiction]:
     """More rows than those of all constraints before, and what is told of this one."""
-    owners = list(dict.fromkeys(one.owner for one in room.problem.relations))
-    if entry.name not in owners or entry.independent is None:
+    rows = room.rows_through(entry.name)
+    if not rows or entry.independent is None:
         return
-    place = {name: owners.index(room.owner(name)) for name in room.equations}
-    last = owners.index(entry.name)
-    before = sum(one < last for one in place.values())
-    standing = room.standing_of([name for name in room.equations if place[name] <= last])
-    if standing is not None and len(standing.rows) - before > entry.independent:
-        least = _verified_minor(room, standing) - before
+    others = sum(room.owner(name) != entry.name for name in rows)
+    standing = room.standing_of(rows)
+    if standing is not None and len(standing.rows) - others > entry.independent:
+        least = _verified_minor(room, standing) - others
         yield Contradiction(f"the evidence gives at least {least}, not {entry.independent}")
 
 

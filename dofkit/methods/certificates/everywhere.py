@@ -55,7 +55,7 @@ def _needed(standing: Standing, names: Sequence[str]) -> list[str]:
 
 
 def _of_set(room: Room, standing: Standing) -> Iterator[Told]:
-    """What the finite relations leave."""
+    """What the geometric equations define."""
     evidence = room.scenery.evidence
     finite = _needed(standing, evidence.finite)
     order, left = graph_order(room, finite, columns=["t"])

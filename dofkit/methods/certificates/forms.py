@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
-from dofkit.base.records import dataclass
 from dofkit.checker.evidence import CheckedEvidence, VelocityField, bracket, field_named
 from dofkit.checker.trees import ZERO, CheckError, Tree, negative
 from dofkit.methods.certificates.elimination import echelon

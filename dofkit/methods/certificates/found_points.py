@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
-
-from dofkit.base.records import dataclass
 
 #: The radius of every box.
 RADIUS = "1e-30"

@@ -141,19 +141,16 @@ def independent(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told
     if entry.form == "inequality":
         yield {"rule": "inequality"}
         return
-    standing = room.written_standing
-    if standing is None:
+    standing, rows = room.standing, room.rows_through(entry.name)
+    if standing is None or not rows:
         return
-    owners = list(dict.fromkeys(one.owner for one in room.problem.relations))
-    place = {name: owners.index(room.owner(name)) for name in room.equations}
-    last = owners.index(entry.name)
-    size = sum(place[row] <= last for row in standing.rows)
-    dependent = [name for name in standing.dependent if place[name] <= last]
+    size = len(set(rows).intersection(standing.rows))
+    dependent = [name for name in standing.dependent if name in set(rows)]
     upto = replace(standing, rows=standing.rows[:size], columns=standing.columns[:size], dependent=dependent)
     upto.accounted = standing.accounted or not dependent
     if (backed := backing(room, upto)) is not None:
         yield {"rule": "independent", "minor": room.minor(upto), **backed}
-    if last == len(owners) - 1:
+    if len(rows) == len(room.equations):
         yield {"rule": "independent", "minor": room.minor(upto), "last": True}
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from dofkit.checker.trees import CheckError, Tree, add, negative, number, power, times
+from dofkit.checker.trees import CheckError, Tree, add, negative, number, power, symbol, times
 from dofkit.checker.values import derivative
 from dofkit.methods.certificates.forms import integrable_names, involutive_rows, pairing, reach, words_of
 from dofkit.methods.certificates.found_points import FoundPoint
@@ -218,10 +218,16 @@ def _points_of(room: Room, name: str) -> Iterator[FoundPoint | None]:
 
 def _turning_form(room: Room, name: str, field: str) -> Iterator[Told]:
     form, point = room.form(name), room.point
-    if form is None or point is None:
+    if point is None:
         return
-    if room.differs(form.get("t", number(0)), point):
+    left = room.scenery.left(name)
+    rates = {v: times(symbol(v), derivative(left, v)) for v in room.scenery.evidence.velocities if v in left.symbols}
+    turned = form.get("t", number(0)) if form else derivative(left, "t")
+    if field == "catastatic" and form is None:
+        turned = add(*rates.values())
+    if room.differs(turned, point):
         yield {"at": point.name}
+    if form is None:
         return
     for a, b in combinations(form, 2) if field == "scleronomic" else ():
         back = negative(times(form[b], derivative(form[a], "t")))

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from dofkit.base.records import dataclass
 from dofkit.checker.label_rules import form_of
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.trees import CheckError, Tree
@@ -204,14 +203,18 @@ class Room(RoomParts):
     @cached_property
     def standing(self) -> Standing | None:
         """The main point with rows among all equations, the finite ones first; the others by steps if possible."""
-        relation = self.scenery.evidence.relation
-        return self.accounted(sorted(self.equations, key=lambda name: relation(name).kind != "finite"))
+        return self.accounted(self.finite_first)
 
     @cached_property
-    def written_standing(self) -> Standing | None:
-        """The same with the rows in the order in which they were written."""
-        found = self.standing
-        return found if found is None or found.order == self.equations else self.accounted(self.equations)
+    def finite_first(self) -> list[str]:
+        """The equations in the order in which one is independent of those before it."""
+        relation = self.scenery.evidence.relation
+        return sorted(self.equations, key=lambda name: relation(name).kind != "finite")
+
+    def rows_through(self, owner: str) -> list[str]:
+        """The equations up to the last one of a constraint."""
+        last = max((k for k, name in enumerate(self.finite_first) if self.owner(name) == owner), default=-1)
+        return self.finite_first[: last + 1]
 
     def solving(self, columns: Sequence[str]) -> Standing | None:
         """The finite rows with just these columns; None where these do not do."""

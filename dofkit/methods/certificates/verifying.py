@@ -25,14 +25,31 @@ Given = Mapping[str, Any] | str | bytes | os.PathLike[str]
 
 
 def verify(scene: SceneLike | None, certificate: Given) -> Verification:
-    """Recheck every claim of a certificate by a second program, which shares nothing with the engines.
+    """Return which claims of a certificate hold, by a program that shares nothing with the engines.
 
-    ``scene``: a Scene, a path, a catalog name or a mapping; None: the scene in the certificate. ``certificate``: a
-    mapping, a path, or JSON. Returns how many of how many claims were verified, which failed and why, and what the
-    certificate leaves uncovered. Raises `SceneError` where there is no such scene, `ArgumentError` for what is no
-    certificate, and ``CheckError``, a ValueError, where the scene or the certificate cannot be read, or the certificate
-    is of another scene.
+    Parameters
+    ----------
+    scene
+        A Scene, a path, a catalog name or a mapping; None for the scene in the certificate.
+    certificate
+        A mapping, a path, or JSON.
 
+    Returns
+    -------
+    Verification
+        The numbers of claims and of verified claims, the failed ones with the reason, and what is not covered.
+
+    Raises
+    ------
+    SceneError
+        If there is no such scene.
+    ArgumentError
+        If ``certificate`` is no certificate.
+    CheckError
+        A ValueError: if the scene or the certificate cannot be read, or belongs to another scene.
+
+    Examples
+    --------
     >>> import dofkit
     >>> report = dofkit.classify("four-bar-linkage", certificate=True)
     >>> dofkit.verify("four-bar-linkage", report.certificate).failed

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 
 from dofkit.base.errors import TextError
-from dofkit.base.records import dataclass
 from dofkit.expressions import tree as ex
 from dofkit.expressions.differentials import accelerations_of, cleared, in_velocities
 from dofkit.expressions.tree import Expr

@@ -8,9 +8,9 @@ derived flag): right for a system in involution at a regular point, and for no o
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, Protocol
 
-from dofkit.base.records import dataclass
 from dofkit.exact.ring.instructions import Point, Scalar
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.ring.ring import Ring

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import Verdict
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from dofkit.base.records import dataclass
 from dofkit.base.verdicts import Verdict
 from dofkit.exact.engines import Engines
 from dofkit.methods.names import Question

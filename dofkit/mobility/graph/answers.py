@@ -14,10 +14,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from dofkit.base.surface import handed_on
 from dofkit.mobility.graph.answer import GraphAnswer, Proof
+from dofkit.mobility.graph.line import LineGraph
 from dofkit.mobility.graph.links import Joint, Link, LinkageError, read
+from dofkit.mobility.graph.plane import PlaneGraph
 from dofkit.mobility.graph.result import Group, Hinge, Linkage
+from dofkit.mobility.graph.space import SpaceGraph
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -25,17 +27,38 @@ if TYPE_CHECKING:
 __all__ = ["Group", "Hinge", "Linkage", "LinkageError", "Proof", "linkage", "redundant_links"]
 
 
-#: What answers in each dimension, and where it lives: imported when it is first asked for.
-_GRAPHS = {1: ("line", "LineGraph"), 2: ("plane", "PlaneGraph"), 3: ("space", "SpaceGraph")}
+#: The class that answers in each dimension.
+_GRAPHS: dict[int, type[GraphAnswer]] = {1: LineGraph, 2: PlaneGraph, 3: SpaceGraph}
 
 
 def linkage(links: Iterable[Link] | nx.Graph[Any], dimension: int = 2, joints: Iterable[Joint] = ()) -> Linkage:
-    """How joints in general position can move that keep the distances of some pairs.
+    """Return how joints in general position can move if links keep the distances of some pairs.
 
-    ``links``: pairs of hashable joints, or a networkx graph; ``joints``: further ones, which need no link. A pair may
-    occur more than once. Of a dependent set the last link is the redundant one. The same links in the same order give
-    the same answer in every run. Raises LinkageError for what is no list of links, or a dimension beyond 1, 2 and 3.
+    Parameters
+    ----------
+    links
+        Pairs of hashable joints, or a networkx graph. A pair may occur more than once.
+    dimension
+        1, 2 or 3.
+    joints
+        Further joints, which need no link.
 
+    Returns
+    -------
+    Linkage
+        Rank, freedom, redundant links and rigid clusters. Of a dependent set the last link is the redundant one.
+
+    Raises
+    ------
+    LinkageError
+        If ``links`` are no links, or the dimension is not 1, 2 or 3.
+
+    References
+    ----------
+    G. Laman, On graphs and rigidity of plane skeletal structures, 1970.
+
+    Examples
+    --------
     >>> braced = linkage(zip("ABCDAB", "BCDACD"))
     >>> braced.rank, braced.freedom, braced.redundant, braced.clusters
     (5, 3, [('B', 'D')], [['A', 'B', 'C', 'D']])
@@ -43,22 +66,32 @@ def linkage(links: Iterable[Link] | nx.Graph[Any], dimension: int = 2, joints: I
     if not isinstance(dimension, int) or dimension not in (1, 2, 3):
         raise LinkageError(f"links lie in 1, 2 or 3 dimensions, not {dimension!r}")
     graph = read(links, joints)
-    return Linkage(dimension, graph, _graph_of(dimension)(len(graph.joints), graph.ends))
+    return Linkage(dimension, graph, _GRAPHS[dimension](len(graph.joints), graph.ends))
 
 
 def redundant_links(links: Iterable[Link] | nx.Graph[Any], dimension: int) -> list[Link]:
-    """The links that others make superfluous in general position, in the order given.
+    """Return the links that are redundant in general position, in the order given.
 
-    Of a dependent set the last written is the redundant one: a link is redundant if and only if those
-    before it already fix its length to first order. Raises LinkageError for what is no list of links.
+    A link is redundant if and only if the links before it already fix its length.
 
+    Parameters
+    ----------
+    links, dimension
+        As for `linkage`.
+
+    Returns
+    -------
+    list of links
+        As they were given.
+
+    Raises
+    ------
+    LinkageError
+        As for `linkage`.
+
+    Examples
+    --------
     >>> redundant_links([("A", "B"), ("B", "C"), ("C", "D"), ("D", "A"), ("A", "C"), ("B", "D")], 2)
     [('B', 'D')]
     """
     return linkage(links, dimension).redundant
-
-
-def _graph_of(dimension: int) -> type[GraphAnswer]:
-    module, name = _GRAPHS[dimension]
-    found: type[GraphAnswer] = handed_on(__name__, {name: f"dofkit.mobility.graph.{module}"}, name)
-    return found

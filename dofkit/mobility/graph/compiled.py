@@ -6,14 +6,13 @@ The functions are the same ones. Compiled they run on arrays, plain on lists, wh
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
 from types import FunctionType, ModuleType
 from typing import Any
 
 import numpy as np
-
-from dofkit.base.records import dataclass
 
 #: Links from which compiling, or reading what was compiled before, takes less time than it saves.
 WORTH_COMPILING = 40_000

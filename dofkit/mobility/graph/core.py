@@ -8,11 +8,11 @@ what its others do. Dependences are then found on a matrix of the joints left, a
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from dofkit.base.records import dataclass
 from dofkit.exact.matrices.dense import Factored, factored, prime_at, product, residues
 from dofkit.mobility.graph.decompose import Ends
 

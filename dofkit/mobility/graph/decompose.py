@@ -7,10 +7,9 @@ others. Two parts that share one joint only turn freely about it: their ranks ad
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import networkx as nx
-
-from dofkit.base.records import dataclass
 
 Ends = Sequence[tuple[int, int]]
 

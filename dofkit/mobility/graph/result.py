@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
 from dofkit.base.display import Displayed
-from dofkit.base.records import dataclass
 from dofkit.base.wording import many
 from dofkit.mobility.graph.answer import GraphAnswer, Proof, Question
 from dofkit.mobility.graph.links import Graph, Joint, Link, LinkageError
@@ -34,11 +33,13 @@ class Hinge(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Linkage(Displayed):
-    """How joints in general position can move that keep the distances of ``links``.
+    """The mobility of joints in general position whose links keep their lengths; made by `dofkit.linkage`.
 
-    What takes time is found when it is asked for: circuits, groups, clusters and hinges. Numbers count independent
-    velocities; links and joints are those that were given, in their order. Made by `dofkit.linkage`.
+    Numbers count independent velocities. Links and joints are those that were given, in their order. Circuits, groups,
+    clusters and hinges are computed when they are first asked for.
 
+    Examples
+    --------
     >>> import dofkit
     >>> square = dofkit.linkage([("A", "B"), ("B", "C"), ("C", "D"), ("D", "A")], dimension=2)
     >>> square.rank, square.freedom, square.redundant

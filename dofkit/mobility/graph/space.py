@@ -8,10 +8,10 @@ not 0 at a point is not 0. What depends there is proved by counting where that i
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
 
-from dofkit.base.records import dataclass
 from dofkit.mobility.graph.answer import Proof, Question
 from dofkit.mobility.graph.core import Core, core_of
 from dofkit.mobility.graph.decompose import Ends, PeeledGraph, decompose
@@ -103,10 +103,14 @@ class SpaceGraph:
             return Proof("proved", _PEELED)
         doubtful = [part.chance for part in self._cores.values() if part.chance]
         if doubtful:
-            return Proof("probable", f"{_INDEPENDENT}; some dependences are probable, wrong with a chance below "
+            return Proof("probable", f"{_INDEPENDENT}; some dependences are probable, with a chance of error below "
                                      f"{sum(doubtful):.1e}")  # fmt: skip
         if question == "clusters" and not self._bodies[1]:
-            return Proof("probable", "some clusters keep their distances in random motions, not by the links they have")
+            return Proof(
+                "probable",
+                "some clusters keep their distances in random infinitesimal motions, but not because of their "
+                "own links alone",
+            )
         return Proof("proved", f"{_INDEPENDENT}, and more than 3n - 6 links on n joints, or hinged bodies, depend")
 
 
@@ -144,7 +148,7 @@ def _sure(links: Sequence[int], ends: Ends) -> tuple[Core, float]:
         chances = [_doubt([*circuit, i], ends) for i, circuit in core.circuits.items()]
         if None not in chances:
             return core, sum(c for c in chances if c is not None)
-    raise ArithmeticError("random positions were special again and again")
+    raise ArithmeticError("repeated random positions were not generic")
 
 
 def _doubt(circuit: Sequence[int], ends: Ends) -> float | None:

@@ -59,5 +59,5 @@ class Large:
     def bodies(self) -> tuple[list[list[int]], bool]:
         """One where all is rigid. Raises LinkageError where it is not."""
         if len(self._links) - len(self.dependent) < 3 * len(self._joints) - 6:
-            raise LinkageError(f"rigid clusters of {len(self._links)} links in space are too many to tell apart")
+            raise LinkageError(f"rigid clusters of {len(self._links)} links in space are too many to separate")
         return [self._joints], True

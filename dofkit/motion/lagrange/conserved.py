@@ -43,10 +43,11 @@ def conserved(derived: Derived) -> Iterator[Conserved]:
     timeless = _zero(derived, diff(derived.lagrangian, ex.TIME))
     if model.names and idle and timeless and all(_workless(c, derived) for c in model.constraints):
         function, total = energy_function(derived)
-        reason = "time does not enter the Lagrangian, and neither other forces nor constraints do work."
+        reason = "L has no explicit time dependence, and all non-conservative and constraint forces are workless."
         if not total:
             reason = (
-                "time does not enter the Lagrangian, and no other forces act; this is sum qdot p - L, and not T + V."
+                "L has no explicit time dependence, and no non-conservative force acts; this is the Jacobi integral "
+                "sum p qdot - L, which differs from T + V."
             )
         yield Conserved(name="energy" if total else "h", quantity=to_text(function), reason=reason)
 

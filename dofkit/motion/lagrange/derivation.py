@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
-from dofkit.base.records import dataclass
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge

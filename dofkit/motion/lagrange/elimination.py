@@ -7,11 +7,10 @@ two branches, of which one is taken: that through the reference configuration, e
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
@@ -94,7 +93,7 @@ class Eliminator:
         found = self._attempt(relations, names, preferred, self.care.roots)
         if found is None:
             found = self._attempt(relations, names, preferred, 0) or Elimination()
-            many = "Several relations are quadratic: they keep multipliers, which hold on every branch."
+            many = "Several relations are quadratic; they keep multipliers, so that the equations hold on every branch."
             found = replace(found, notes=(*found.notes, many))
         return found
 
@@ -122,7 +121,9 @@ class Eliminator:
                 value, why = self.choose(candidate.name, value, ordered(candidate.other), solved)
                 notes.append(why)
             elif not _never_zero(candidate.over, self.positive):
-                notes.append(f"{candidate.name} was solved for where {to_text(_unsigned(candidate.over))} is not 0.")
+                notes.append(
+                    f"The solution for {candidate.name} is valid where {to_text(_unsigned(candidate.over))} is not 0."
+                )
             mapping = {ex.coordinate(candidate.name): value}
             try:
                 solved = {n: substitute(e, mapping) for n, e in solved.items()} | {candidate.name: value}
@@ -234,7 +235,7 @@ def by_potential(
 
 
 def _branch_note(name: str, taken: Expr, other: Expr, why: str) -> str:
-    return f"{name} = {to_text(taken)} holds on one branch ({why}); on the other one {name} = {to_text(other)}."
+    return f"{name} = {to_text(taken)} on the chosen branch ({why}); on the other branch, {name} = {to_text(other)}."
 
 
 def _all(name: str, value: Expr, solved: Mapping[str, Expr]) -> dict[Expr, Expr]:

@@ -6,10 +6,9 @@ T = sum m v.v/2 + w.J w/2, every body's centre of mass at its origin.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 
 from dofkit.base.errors import Fault
-from dofkit.base.records import dataclass
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import HALF, ZERO, Expr
 from dofkit.expressions.vectors import Vec, square
@@ -81,11 +80,13 @@ class EnergyReader:
 
     def _as_written(self, what: str, entries: Sequence[Numbered]) -> None:
         kinds = " and ".join(dict.fromkeys(force.type for _, force in entries))
-        self.notes.append(f"`energies` gives {what}: the {kinds} among the forces is taken to be in it already.")
+        self.notes.append(f"`energies` gives {what}, taken to include the {kinds} listed under `forces`.")
 
     def _assumed_centres(self) -> None:
         if self.scene.bodies:
-            self.notes.append("Each body's centre of mass is taken to be at its origin, its inertia about that.")
+            self.notes.append(
+                "The centre of mass of each body is taken to be at its origin, and its inertia about that point."
+            )
 
     def _kinetic(self) -> Iterator[Expr]:
         bodies = [*(None for _ in self.scene.particles), *self.scene.bodies]

@@ -6,13 +6,12 @@ multiplier where not, as non-holonomic ones always do; redundant ones are left o
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from dofkit.base.arguments import seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, by_processor, check, left, limited
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.records import dataclass
 from dofkit.classification.passes import Examined, studied
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
@@ -50,25 +49,52 @@ JOINTS_TRYING, MOST_WRITTEN = 20.0, 2000
 #: Seconds for sorting a Lagrangian, and the nodes of one that is too long for that.
 SORTING, MOST_NODES = 2.0, 1500
 #: Said where the elimination was cut short.
-LONG = "More could be eliminated, but the equations would be too long to read: some constraints keep a multiplier."
+LONG = "Further elimination would make the equations too long to read, so some constraints keep a multiplier."
 
 #: Said where a tree is too large.
 TOO_LONG = (
-    "in the angles and displacements of {} joints the Lagrangian has {} parts, and at most {} are differentiated in "
-    "the time there is: weld some of the joints, or take a part of the tree"
+    "in the angles and displacements of {} joints the Lagrangian has {} parts, and at most {} can be differentiated "
+    "in the time available: weld some of the joints, or analyse a part of the tree"
 )
 #: Said where texts are longer than a scene's may be.
-LENGTHY = f"Some of these texts have more than {MAX_CHARACTERS} characters, which no scene reads."
+LENGTHY = f"Some of these formulas have more than {MAX_CHARACTERS} characters, more than a scene can hold in one text."
 
 
 def lagrange(scene: SceneLike, linearize: bool = False, budget: float | None = None) -> MotionReport:
-    """Lagrange's equations d/dt dL/dqdot - dL/dq = Q + sum lam a of a scene.
+    """Return Lagrange's equations d/dt dL/dqdot - dL/dq = Q + sum lambda a of a scene.
 
-    ``scene``: a Scene, a path, a catalog name or a mapping; ``budget``: seconds. ``linearize``: also M, C and K at an
-    equilibrium, or a note that says why not. Returns a `MotionReport` of texts: one equation for each coordinate that
-    is kept; units are those of the scene. Raises `SceneError` with every fault of the scene, `NoEquationsError` where
-    the equations cannot be given, saying why (nothing is guessed), and `ArgumentError` for what is no scene.
+    Here L = T - V, Q are the non-conservative generalized forces, a the coefficients of the constraints that are not
+    eliminated, and lambda their multipliers.
 
+    Parameters
+    ----------
+    scene
+        A Scene, a path, a catalog name or a mapping, with ``energies``, or with masses and forces.
+    linearize
+        Whether to add M, C and K of the linearization about an equilibrium.
+    budget
+        Seconds.
+
+    Returns
+    -------
+    MotionReport
+        Equations as texts, one for each coordinate that is kept, in the units of the scene.
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be read.
+    NoEquationsError
+        If no equations can be given; the message says why.
+    ArgumentError
+        If ``scene`` is no scene.
+
+    References
+    ----------
+    J. L. Lagrange, Mecanique analytique, 1788.
+
+    Examples
+    --------
     >>> import dofkit
     >>> pendulum = {"coordinates": ["theta"], "parameters": {"m": "positive", "l": "positive", "g": "positive"}}
     >>> energies = {"kinetic": "m l^2 thetadot^2/2", "potential": "-m g l cos(theta)"}
@@ -216,7 +242,7 @@ def read(scene: Scene) -> MotionSource:
         raise SceneError(faults, scene.name)
     if not _tells_of_motion(scene):
         message = (
-            "the scene has neither a kinetic energy in `energies` nor masses: there is nothing to derive motion from"
+            "the scene has neither a kinetic energy in `energies` nor masses, so no equations of motion can be derived"
         )
         hint = "add `energies: {kinetic: ..., potential: ...}`, or a `mass` to its particles and bodies"
         raise SceneError((Fault(message, hint=hint),), scene.name)
@@ -263,6 +289,7 @@ def _report(derived: Derived, small: Linearized | None, more: tuple[str, ...]) -
         multipliers=list(derived.multipliers),
         eliminated={n: to_text(e) for n, e in model.elimination.solved.items()},
         left_out=list(model.left_out),
+        non_conservative=[n for n, force in zip(model.names, derived.handover.forces, strict=True) if force != 0],
         cyclic=cyclic(derived),
         conserved=list(conserved(derived)),
         linearized=small,

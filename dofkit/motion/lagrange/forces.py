@@ -6,10 +6,9 @@ V = -sum m g.r + k (d - d0)^2/2 for each spring; Rayleigh's D = c ddot^2/2 for e
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Literal
 
-from dofkit.base.records import dataclass
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import HALF, ZERO, Expr
@@ -67,7 +66,7 @@ class ForceReader:
                 place = world.frame(force.body, "body").position
             else:
                 hint = "name its `point` or `body`, or give `energies: {forces: ...}`"
-                world.fault("where the force acts is not said", hint=hint)
+                world.fault("the point at which the force acts is missing", hint=hint)
                 continue
             vector = _vector(world, force.value, force.direction, "value", downward=False)
             for q in world.table.coordinates:
@@ -97,7 +96,7 @@ class ForceReader:
             rest = moving(world, force.rest_length, "rest_length")
         elif ends[0].reference is not None and ends[1].reference is not None:
             rest = length(minus(ends[1].reference, ends[0].reference))
-            self.notes.append("A spring without `rest_length` is unstretched in the drawing.")
+            self.notes.append("A spring without `rest_length` is unstretched in the reference configuration.")
         else:
             world.fault("a spring needs its `rest_length` here", hint="write its length without load, perhaps 0")
             return ZERO
@@ -155,7 +154,7 @@ def _vector(world: World, value: object, direction: object, key: str, downward: 
     zero: Vec = (ZERO,) * d
     if isinstance(value, tuple):
         if len(value) != d:
-            world.fault(f"{len(value)} components given where the dimension is {d}", key)
+            world.fault(f"this vector has {len(value)} components, and the dimension of the scene is {d}", key)
             return zero
         return tuple(moving(world, part, key, i) for i, part in enumerate(value))
     size = needed(world, value, key, "of gravity" if downward else "of a force")

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import last_columns, sparse
 from dofkit.exact.points.field import field_point

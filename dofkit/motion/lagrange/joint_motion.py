@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
-from dofkit.base.records import dataclass
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import Names, parse_relations, to_text, valid_name
@@ -40,7 +40,7 @@ from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, Connection, System
 
 #: Said of the coordinates.
-COUNTED = "Angles and displacements of joints count from the drawing: {}."
+COUNTED = "Joint angles and displacements are measured from the reference configuration: {}."
 _AXES = tuple(unit(i, 3) for i in range(3))
 
 

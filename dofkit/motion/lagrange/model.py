@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
-from dofkit.base.records import dataclass
 from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.passes import Examined
 from dofkit.exact.errors import NoValueError, raising_no_value
@@ -109,7 +108,7 @@ def modelled(study: Examined, energy: Energy, names: Names, care: Care = ELIMINA
         if model is not None:
             return model
     raise NoEquationsError(
-        "which of the constraints are independent was not decided, so no equations of motion are given"
+        "it is undecided which of the constraints are independent, so no equations of motion are given"
     )
 
 
@@ -131,7 +130,7 @@ def _possible(study: Examined) -> None:
     own = {c.name for c in study.system.coordinates}
     if any(coordinates_of(r.piece) - own for r in study.outcome.rows):
         raise NoEquationsError(
-            "a constraint on accelerations brings constants of integration: write what it integrates to"
+            "a constraint on accelerations brings constants of integration: write its integral instead"
         )
     if report.consistent is False:
         names = ", ".join(report.conflicting) or "its constraints"
@@ -139,7 +138,8 @@ def _possible(study: Examined) -> None:
     several = [c.name for c in report.constraints if BRANCH_WARNING.format(name=c.name) in report.warnings]
     if several:
         raise NoEquationsError(
-            f"{', '.join(several)} holds on several branches, and each has its own motions: write the one that is meant"
+            f"{', '.join(several)} is satisfied on several branches, each with its own motions: write the branch"
+            " that is meant"
         )
     if report.consistent is None or report.dof is None or report.velocity_dof is None:
         why = "; ".join(dict.fromkeys(r for a in study.outcome.answers for r in a.reasons)) or "it was not decided"
@@ -201,12 +201,14 @@ def _built(
         return None
     notes = [*reduced.notes, *elimination.notes]
     if any(isinstance(c, Nonlinear) for c in chosen):
-        notes.append("Nonlinear relations between velocities act by Chetaev's rule: along their gradient by velocity.")
+        notes.append(
+            "Constraints nonlinear in the velocities follow Chetaev's rule: their force is along the velocity gradient."
+        )
     used = sorted(str(c.args[1]) for c in elimination.constants)
     if used:
-        notes.append(f"Constants of integration, which the initial state sets: {', '.join(used)}.")
+        notes.append(f"Constants of integration, fixed by the initial conditions: {', '.join(used)}.")
     notes += [n for n in study.report.warnings if "branch" in n]
-    notes += [f"Left out of the scene: {told}." for told in study.system.left_out]
+    notes += [f"Not modelled: {told}." for told in study.system.left_out]
     return LagrangeModel(
         study,
         tuple(kept),

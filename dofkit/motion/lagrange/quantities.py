@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 from dofkit.base.errors import Fault
-from dofkit.base.records import dataclass
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.scene.drawing import Drawing

@@ -33,7 +33,7 @@ def degenerate(derived: Derived) -> bool:
         ):
             raise NoEquationsError(f"there is no motion: Lagrange's equation for {name} reads {to_text(e)} = 0")
     if model.names and not any(s.args[0] == "velocity" for s in derived.lagrangian.symbols):
-        raise NoEquationsError("no velocity occurs in the kinetic energy: there is nothing to derive motion from")
+        raise NoEquationsError("the kinetic energy holds no velocity, so no equations of motion can be derived")
     rows = _rows(derived)
     if not rows:
         return False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import Field, PrivateAttr
 
@@ -50,9 +50,12 @@ class MotionReport(DisplayedFormulas, ToldModel):
 
     ``coordinates`` are those kept; ``eliminated`` ones are functions of them. ``forces`` are dL/dq plus the
     non-conservative ones; ``equations`` end in ``= 0``, one for each coordinate; ``constraints`` are those that keep a
-    multiplier, in the order of ``multipliers``; ``left_out``: redundant ones. ``cyclic``: coordinates that do not occur
+    multiplier, in the order of ``multipliers``; ``left_out``: redundant ones. ``non_conservative``: the coordinates
+    along which a force acts that is no part of the Lagrangian. ``cyclic``: coordinates that do not occur
     in the Lagrangian. ``verdict``: how sure the classification is that the constraints are used by.
     """
+
+    _in_brief: ClassVar[tuple[str, ...]] = ("scene", "equations", "verdict")
 
     scene: str
     coordinates: list[str]
@@ -64,6 +67,7 @@ class MotionReport(DisplayedFormulas, ToldModel):
     multipliers: list[str]
     eliminated: dict[str, str] = Field(default_factory=dict)
     left_out: list[str] = Field(default_factory=list)
+    non_conservative: list[str] = Field(default_factory=list)
     cyclic: list[str] = Field(default_factory=list)
     conserved: list[Conserved] = Field(default_factory=list)
     action: str = QP

@@ -34,7 +34,7 @@ def without_roots(
             here = None if root is None else _figure(substitute(root, {**reference, ex.TIME: ex.ZERO}))
             if root is not None and here:
                 new = ordered(root if here > 0 else -root)
-                notes.append(f"The equations hold while {to_text(new)} > 0, as it is in the drawing.")
+                notes.append(f"The equations are valid while {to_text(new)} > 0, as in the reference configuration.")
         memo[node] = new
     return memo[e], tuple(dict.fromkeys(notes))
 

@@ -42,13 +42,13 @@ def linearized(derived: Derived) -> Linearized:
     no equilibrium is known.
     """
     if any(ex.TIME in e.symbols for e in (*derived.model.holonomic, *derived.model.nonholonomic)):
-        raise NoEquationsError("time enters the constraints, so that the system does not rest")
+        raise NoEquationsError("the constraints depend on time, so there is no equilibrium")
     found = list(islice(equilibria(derived), MOST))
     if not found:
         if any(ex.TIME in e.symbols for e in derived.equations.values()):
-            raise NoEquationsError("time enters the equations, and no place of rest is known")
+            raise NoEquationsError("the equations depend on time, and no equilibrium is known")
         hint = "give one as the scene's `configuration`"
-        raise NoEquationsError(f"no equilibrium is known, neither the reference configuration nor 0 is one: {hint}")
+        raise NoEquationsError(f"no equilibrium was found; neither the reference configuration nor 0 is one: {hint}")
     bridge = Bridge(derived.model.names, derived.model.positive)
     for equilibrium in found:
         told = _matrices(derived, equilibrium, bridge)
@@ -66,7 +66,7 @@ def _matrices(derived: Derived, at: Equilibrium, bridge: Bridge) -> Matrices | N
     for kind in kinds:
         rows = [[still(diff(e, ex.sym(kind, n)), known) for n in names] for e in derived.equations.values()]
         if any(ex.TIME in e.symbols for row in rows for e in row):
-            raise NoEquationsError("time enters the equations at the equilibrium, so that they are not linearized")
+            raise NoEquationsError("the equations depend on time at the equilibrium")
         whole.append(_matrix(bridge, rows))
     if not derived.multipliers:
         return Matrices(names, *whole)
@@ -92,7 +92,9 @@ def _allowed(derived: Derived, at: Equilibrium, bridge: Bridge) -> tuple[list[in
     rows = [[still(diff(g, ex.coordinate(n)), at.place) for n in names] for g in model.holonomic]
     for r in model.nonholonomic:
         if any(not still(diff(r, ex.coordinate(n)), at.place).is_zero for n in names):
-            raise NoEquationsError("a constraint between velocities changes with the place where nothing moves")
+            raise NoEquationsError(
+                "a velocity constraint has a term without velocities that depends on the configuration"
+            )
         rows.append([still(diff(r, ex.velocity(n)), at.place) for n in names])
     whole = _matrix(bridge, rows)
     for tied in islice(combinations(range(len(names) - 1, -1, -1), len(rows)), CHOICES):

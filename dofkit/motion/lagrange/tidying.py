@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from dataclasses import dataclass
 from fractions import Fraction
 from math import comb, prod
 from typing import Any
 
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, left
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, Poly, is_identically_zero, lowest_terms
 from dofkit.exact.ring.ring import Ring

@@ -44,30 +44,49 @@ def configurations(
     values: Mapping[str, float] | None = None,
     both: bool = True,
 ) -> list[dict[str, float]]:
-    """Configurations along a finite motion of ``scene``, in order: every coordinate's value, and that of ``t``.
+    """Return configurations along a finite motion of a scene, in order.
 
-    ``scene``: a Scene, a path, a catalog name, a mapping or a System. Returns at most ``2 steps + 1`` mappings from
-    names to numbers, lengths in the scene's units and angles in radians.
+    The motion begins at the reference configuration, or at a generic one if there is none, and continues as straight as
+    the constraints allow until it closes, ends, or violates an inequality that was satisfied at the start.
 
-    They begin at the reference configuration, or at a generic one where there is none, and go ``steps`` steps forward
-    and (``both``) as many backward; fewer where the motion ends. A step is the length of the way, sqrt(sum dq^2) with
-    places measured by the scene's size and turns in radians; where time occurs it is a step in ``t``. A motion with
-    one freedom that closes up ends where it began. With several freedoms it begins along the tangent nearest to that
-    of the coordinate ``along`` (the first that can move) and goes on as straight as the constraints let it.
+    Parameters
+    ----------
+    scene
+        A Scene, a path, a catalog name, a mapping or a System.
+    steps
+        The number of steps forward, and (``both``) backward.
+    step
+        The arc length sqrt(sum dq^2) of a step, with positions divided by the scene's size and angles in radians; where
+        time occurs, the step in ``t``.
+    along
+        With several freedoms: the coordinate whose direction the motion starts in; by default the first that can move.
+    values
+        Numbers for parameters without a value (otherwise chosen at random), and for coordinates, near which the first
+        configuration is sought.
+    both
+        Whether to go backward too.
 
-    ``values``: numbers for parameters that have none (else chosen at random, and told with the coordinates), and for
-    coordinates, near which the first configuration is looked for.
+    Returns
+    -------
+    list of dict
+        At most ``2 steps + 1`` mappings from the names of coordinates (and ``t``) to numbers: lengths in the scene's
+        units, angles in radians. Each satisfies the holonomic equations g, hidden ones included, to 1e-12 |grad g|
+        times the size; a differential constraint is satisfied at the midpoint of every chord, a sixteenth of a step
+        long.
 
-    Finite relations, those hidden in differential ones included, hold in every configuration to 1e-12 of their
-    gradient times the size; a one-form holds on every chord at its midpoint, so along the motion to the third order of
-    a step's sixteenth. A way ends before an inequality
-    is broken that held at the beginning. Raises `NoMotionError` where nothing moves, the scene is
-    inconsistent, or its motions are undecided, and `SceneError` and `ArgumentError` as `load` does.
+    Raises
+    ------
+    NoMotionError
+        If nothing can move, the scene is inconsistent, or its motion is undecided.
+    SceneError, ArgumentError
+        As for `load`.
 
+    Examples
+    --------
     >>> import dofkit
     >>> circle = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 25"], "configuration": {"x": 3, "y": -4}}
-    >>> found = dofkit.configurations(circle, steps=2, step=0.5)
-    >>> [round(c["x"] ** 2 + c["y"] ** 2, 9) for c in found]
+    >>> path = dofkit.configurations(circle, steps=2, step=0.5)
+    >>> [round(q["x"] ** 2 + q["y"] ** 2, 9) for q in path]
     [25.0, 25.0, 25.0, 25.0, 25.0]
     """
     if steps < 0 or not step > 0:

@@ -9,10 +9,10 @@ time occurs it is what advances.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
-from dofkit.base.records import dataclass
 from dofkit.configuration.local.neighbourhood import damped
 from dofkit.motion.sampled.poses import FAULTS, Array, Pose, PoseRelations
 

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from flint import arb
 
-from dofkit.base.records import dataclass
 from dofkit.exact.points.balls import BallPoint, FloatPoint, jacobian
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring

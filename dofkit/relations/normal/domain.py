@@ -6,9 +6,8 @@ A relation that is rewritten (a factor dropped, a square root squared) is the ol
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Literal
+from dataclasses import dataclass
 
-from dofkit.base.records import dataclass
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.real_search import RealSearch
@@ -18,11 +17,10 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
+from dofkit.expressions.domains import DomainSense, of_function, of_power
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.normal.zero_set import never_vanishes
-
-Sense = Literal[">=", ">", "!="]
 
 
 @dataclass(frozen=True)
@@ -33,7 +31,7 @@ class DomainCondition:
     """
 
     expr: Expr
-    sense: Sense
+    sense: DomainSense
     adjoining: bool = False
 
     @property
@@ -64,29 +62,9 @@ def _inside(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
 
 def _own(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
     if e.op == "pow":
-        base, exponent = e.args
-        if exponent.op != "num":
-            yield DomainCondition(base, ">")
-        elif exponent.args[0].denominator % 2 == 0:
-            yield DomainCondition(base, ">=" if exponent.args[0] > 0 else ">")
-        elif exponent.args[0] < 0:
-            yield DomainCondition(base, "!=")
-    if e.op == "fn":
-        yield from _of_function(e.args[0], e.args[1:], outermost)
-
-
-def _of_function(name: str, arguments: tuple[Expr, ...], outermost: bool) -> Iterator[DomainCondition]:
-    u = arguments[0]
-    if name == "log":
-        yield DomainCondition(u, ">")
-    elif name in ("asin", "acos"):
-        yield DomainCondition(ex.ONE - u * u, ">=")
-    elif name in ("tan", "sec") and not outermost:
-        yield DomainCondition(ex.fn("cos", u), "!=")
-    elif name in ("cot", "csc") and not outermost:
-        yield DomainCondition(ex.fn("sin", u), "!=")
-    elif name == "atan2":
-        yield DomainCondition(u * u + arguments[1] * arguments[1], "!=")
+        yield from (DomainCondition(*required) for required in of_power(*e.args))
+    elif e.op == "fn" and not (outermost and e.args[0] in ("tan", "sec", "cot", "csc")):
+        yield from (DomainCondition(*required) for required in of_function(*e.args))
 
 
 def _denominator(e: Expr, positive: frozenset[Expr]) -> Expr | None:

@@ -14,6 +14,7 @@ from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero.analyticity import ENTIRE, is_analytic
 from dofkit.exact.zero.identity import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
@@ -25,10 +26,8 @@ from dofkit.relations.normal.zero_set import never_vanishes
 SOLE_NOTE = (
     "it holds at one value only, where its gradient may vanish: that the coordinate has this value is the equation"
 )
-#: Functions that are analytic on the whole line.
-ENTIRE = frozenset({"exp", "sin", "cos", "sinh", "cosh", "tanh", "atan"})
-#: Functions that have one value at every complex number but those of a set without an interior.
-UNIFORM = frozenset({"exp", "sin", "cos", "sinh", "cosh", "tanh", "tan", "cot", "sec", "csc"})
+#: Functions beside which an equation of one coordinate is no polynomial.
+TRANSCENDENTAL = ENTIRE | {"atan"}
 #: Where zeros are looked for: up to this size, at so many places to a unit; steps to halve an interval.
 REACH, PLACES, HALVINGS = 10, 8, 40
 #: Zeros that are tried have at most this denominator, or are such a multiple of pi.
@@ -39,7 +38,7 @@ ORDERS = 4
 
 def sole_zero(e: Expr) -> Expr | None:
     """The value of its only coordinate at which ``e`` vanishes, and it does so nowhere else; None where not seen."""
-    if len(e.symbols) != 1 or not e.functions & ENTIRE or not analytic_everywhere(e):
+    if len(e.symbols) != 1 or not e.functions & TRANSCENDENTAL or not is_analytic_in_coordinates(e, poles=False):
         return None
     (s,) = e.symbols
     derivatives = [e]
@@ -72,32 +71,10 @@ def _has_one_sign(e: Expr) -> bool:
     return never_vanishes(e, frozenset())
 
 
-def analytic_everywhere(e: Expr) -> bool:
-    """Is it made of sums, products, whole powers and functions that are analytic on the whole line?"""
-    if e.op in ("num", "sym", "const"):
-        return e.op != "sym" or e.args[0] == "coordinate"
-    if e.op == "pow":
-        exponent = e.args[1]
-        return exponent.op == "num" and exponent.args[0] >= 0 and exponent.args[0].denominator == 1 and _all(e.args[:1])
-    return (e.op in ("add", "mul") or (e.op == "fn" and e.args[0] in ENTIRE)) and _all(ex.children(e))
-
-
-def _all(parts: Sequence[Expr]) -> bool:
-    return all(map(analytic_everywhere, parts))
-
-
-def analytic_where_defined(e: Expr) -> bool:
-    """Is it analytic on the complex numbers less a countable closed set, by quotients and such functions as tan?
-
-    What is left is connected: a function that is 0 on an interval is 0 wherever it is defined.
-    """
-    if e.op in ("num", "sym", "const"):
-        return e.op != "sym" or e.args[0] == "coordinate"
-    if e.op == "pow":
-        exponent = e.args[1]
-        return exponent.op == "num" and exponent.args[0].denominator == 1 and analytic_where_defined(e.args[0])
-    known = e.op in ("add", "mul") or (e.op == "fn" and e.args[0] in UNIFORM)
-    return known and all(map(analytic_where_defined, ex.children(e)))
+def is_analytic_in_coordinates(e: Expr, *, poles: bool) -> bool:
+    """Return whether ``e`` holds coordinates only, is no unknown function and is analytic in them."""
+    known = all(s.args[0] == "coordinate" for s in e.symbols) and "call" not in e.functions
+    return known and is_analytic(e, e.symbols, poles=poles)
 
 
 def candidates(relations: Sequence[Expr], s: Expr) -> Iterator[Expr]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dofkit.base.records import dataclass
+from dataclasses import dataclass
+
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition

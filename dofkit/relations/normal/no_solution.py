@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations, islice
 from typing import Any
@@ -18,7 +19,6 @@ from typing import Any
 from flint import ctx, fmpq_mat, fmpz_poly
 
 from dofkit.base.deadline import check
-from dofkit.base.records import dataclass
 from dofkit.exact.boxes.box_program import Box, BoxProgram
 from dofkit.exact.boxes.contraction import contract
 from dofkit.exact.boxes.functions import constant

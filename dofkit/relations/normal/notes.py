@@ -12,3 +12,4 @@ ROOTS_NOTE = (
 )
 SIGNS_NOTE = "what stands in abs() may have either sign"
 QUADRATIC_NOTE = "over the reals the relation between velocities splits into linear ones"
+INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"

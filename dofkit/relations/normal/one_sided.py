@@ -10,7 +10,7 @@ from functools import lru_cache
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.exact.boxes.box_program import BoxProgram
 from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError
-from dofkit.exact.errors import NoValueError
+from dofkit.exact.errors import NoValueError, PoleError
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
@@ -39,14 +39,17 @@ def holds_somewhere(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool | 
 
     Parameters may have any value, those of ``positive`` a positive one; an unknown function may be any.
     """
-    plain = _with_constant_functions(e)
-    if any(_holds_at(plain, strict, point) for point in _points(plain, positive)):
+    try:
+        plain = _with_constant_functions(e)
+    except PoleError:  # a divisor holds derivatives of unknown functions only
+        plain = None
+    if plain is not None and any(_holds_at(plain, strict, point) for point in _points(plain, positive)):
         return True
     if never_holds(e, strict, positive) or _never_by_bounds(e, strict, positive) or no_solution([], positive, [e]):
         return False
     if _negative_everywhere(e, positive):
         return False
-    return True if _holds_along_slack(plain, strict, positive) else None
+    return True if plain is not None and _holds_along_slack(plain, strict, positive) else None
 
 
 def _with_constant_functions(e: Expr) -> Expr:

@@ -78,11 +78,11 @@ class Cam(ConstraintBase):
         found = world.relations(self.curve, "curve", names=replace(names, coordinates=frozenset(OWN)), allow=FINITE)
         if len(world.faults) > before:
             return None
-        if [sense for _, sense in found] != ["="] or not used:
+        if [relation.sense for relation in found] != ["="] or not used:
             hint = "such as x^2 + y^2 = 4; an inequality or a chain is no profile"
             world.fault("a profile is one equation in x and y", "curve", hint=hint)
             return None
-        return found[0][0]
+        return found[0].expr
 
     def _check(self, world: World, frame: Frame, point: Placed, drawn: DrawnContact) -> None:
         """A point that is off the profile where both are drawn is a fault that shows by how much."""

@@ -98,15 +98,15 @@ class Coupling(ConstraintBase):
         found = world.relations(self.text, "text", names=own, allow=FINITE)
         if measured is None or len(world.faults) > before:
             return
-        senses = {sense for _, sense in found}
+        senses = {relation.sense for relation in found}
         if "=" in senses and len(found) > 1:
             world.fault(
                 "a coupling is one equation, or bounds", "text", hint="write another coupling for the other one"
             )
             return
-        if "=" not in senses and not self._within_half_turns(world, [e for e, _ in found], measured):
+        if "=" not in senses and not self._within_half_turns(world, [relation.expr for relation in found], measured):
             return
-        for e, sense in found:
+        for e, sense, *_ in found:
             if sense == "=" and not self._fits(world, e, measured):
                 return
             yield Relation(_in_turns(e, measured) or _in_arcs(e, measured), sense)

@@ -179,7 +179,9 @@ def distance(world: World, first: Placed, second: Placed, given: Expr | None) ->
     elif drawn is not None:
         squared = drawn
         if drawn.is_zero:
-            world.warnings.append(f"the points {first.label} and {second.label} of a link are drawn at one place")
+            world.warnings.append(
+                f"the points {first.label} and {second.label} of a link coincide in the reference configuration"
+            )
     else:
         squared = world.fresh("L")
     world.apart(first, second, squared)

@@ -40,8 +40,7 @@ class Equation(ConstraintBase):
     variation: ClassVar[TypeVariation] = TypeVariation(texts=("text",))
 
     def relations(self, world: World) -> Iterator[Relation]:
-        for e, sense in world.equations(self.text, "text"):
-            yield Relation(e, sense)
+        yield from world.equations(self.text, "text")
 
     def texts(self) -> Iterator[str]:
         yield self.text
@@ -113,14 +112,15 @@ class On(ConstraintBase):
         for i, member in enumerate(self.members):
             point = world.point(member, "members", i)
             stands = {coordinate(letter): part for letter, part in zip(letters, _position(point), strict=True)}
-            for j, (e, sense) in enumerate(read):
+            for j, (e, sense, *_, domain) in enumerate(read):
                 part = f"at {show_point(member)}" + (f", text {j + 1}" if len(read) > 1 else "")
                 try:
                     found = substitute(e, stands)
+                    there = tuple((substitute(u, stands), required) for u, required in domain)
                 except NoValueError:
                     world.fault(f"the text has no value at {show_point(member)}", "members", i)
                     return
-                yield Relation(found, sense, part)
+                yield Relation(found, sense, part, domain=there)
 
     def notes(self, world: World) -> Iterator[str]:
         if world.dimension != 3 or self.curve is None:

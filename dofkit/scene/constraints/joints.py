@@ -27,7 +27,7 @@ from dofkit.scene.ledger import LAW
 from dofkit.scene.parts import show_vector
 from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation
 from dofkit.scene.world import Direction, World
-from dofkit.system import Kinematics, Relation, VelocityRow
+from dofkit.system import DRIVE, Kinematics, Relation, VelocityRow
 
 _UP = {2: "[1, 0]", 3: "[0, 0, 1]"}
 #: Independent motions of a body, d(d+1)/2.
@@ -260,7 +260,7 @@ def slide(first: Frame, second: Frame, place: Vec, direction: Vec) -> tuple[Expr
 
 def displacement_law(moved: tuple[Expr, Expr], axis: Direction, law: Expr) -> Relation:
     """Displacement along the axis less the law: n.X - |n| f = 0, cleared."""
-    return Relation(difference(moved[0], mul(length(axis.vector), moved[1], law)), part="drive")
+    return Relation(difference(moved[0], mul(length(axis.vector), moved[1], law)), part=DRIVE)
 
 
 def crossing(axis: Direction) -> tuple[Vec, Vec]:
@@ -284,7 +284,7 @@ def angle_law(first: Frame, second: Frame, axis: Direction, law: Expr) -> Relati
         now = second.carry(u)
         sine, cosine = dot(first.carry(w), now), mul(size, dot(first.carry(u), now))
         e = difference(mul(sine, fn("cos", law)), mul(cosine, fn("sin", law)))
-    return Relation(e, part="drive")
+    return Relation(e, part=DRIVE)
 
 
 def angle_of(first: Frame, second: Frame, axis: Direction) -> Expr:

@@ -30,7 +30,7 @@ from dofkit.scene.frames import Frame
 from dofkit.scene.joint_geometry import JointGeometry, mentioned_by_moving, mentioned_together
 from dofkit.scene.symbols import RING, Stroke, Symbol, axle, box, cylinder, prism, rail
 from dofkit.scene.world import World
-from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
+from dofkit.system import DRIVE, Kinematics, Relation, TypeFacts, VelocityRow
 
 
 def _revolute_rows(at: Kinematics) -> Iterator[VelocityRow]:
@@ -78,7 +78,7 @@ class Revolute(Driven):
     def law(self, first: Frame, second: Frame, drawn: JointGeometry, driven: Expr) -> Relation:
         if drawn.axes:
             return angle_law(first, second, drawn.axis, driven)
-        return Relation(difference(difference(second.angle, first.angle), driven), part="drive")
+        return Relation(difference(difference(second.angle, first.angle), driven), part=DRIVE)
 
 
 def _prismatic_rows(at: Kinematics) -> Iterator[VelocityRow]:

@@ -29,7 +29,7 @@ class Roll(ConstraintBase):
     """
 
     type: Literal["roll"] = Field(description="a disc or sphere that rolls without slipping, contact included")
-    examples: ClassVar[Mapping[int, str]] = {0: "{type: roll, body: crank, radius: 1}"}
+    examples: ClassVar[Mapping[int, str]] = {0: "{type: roll, body: wheel, radius: 1}"}
     understood: ClassVar[tuple[str, ...]] = ("wheel", "rolling", "disc", "no-slip")
     body: str = Field(description="the body; its origin is its centre")
     radius: Value = Field(description="its radius")

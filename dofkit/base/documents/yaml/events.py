@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
 
 from ruamel.yaml import YAML
@@ -20,7 +20,6 @@ from dofkit.base.documents.fast_flow import DEEPEST, Path, Places, twice
 from dofkit.base.documents.scalars import BadScalarError, joined, plain
 from dofkit.base.documents.yaml.syntax import fault_of
 from dofkit.base.errors import Fault
-from dofkit.base.records import dataclass
 
 #: Aliases may add this many values in all.
 MOST_ALIASED = 200_000

@@ -38,4 +38,4 @@ def write(results: Iterator[Result], prepared: Prepared, target: Target, roster:
     (target / "index.html").write_text(rendered("overview.html", page=overview.page()), encoding="utf-8")
 
 
-HTML = Format("html", write, needs_path=True, folder=lambda path: True, write_known=write)
+HTML = Format("html", write, needs_path=True, endings=(), write_known=write)

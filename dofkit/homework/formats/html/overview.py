@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from dofkit.base.records import dataclass
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.html.pages import BADGES, percent, question_text

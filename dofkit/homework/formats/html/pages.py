@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import NamedTuple
 
-from dofkit.base.records import dataclass
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import number, open_points, plain
 from dofkit.homework.own_sheets import NobodysSheetError, own

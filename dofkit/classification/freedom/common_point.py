@@ -1,0 +1,271 @@
+"""One configuration at one time for the whole system: every equation is satisfied, and has a value as it was written.
+
+Blocks share no coordinate, but the time, parameters and unknown functions: x^2 = t - 3 and y^2 = 2 - t are satisfied at
+some time each, and at no time together. And what was cancelled keeps its domain: y = x/x has no value at x = 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from types import MappingProxyType
+from typing import NamedTuple
+
+from flint import arb
+
+from dofkit.base.components import components
+from dofkit.base.verdicts import weakest
+from dofkit.configuration.components import explicit_relations
+from dofkit.configuration.reality import BALL_COLUMNS
+from dofkit.configuration.witness import Witness, of_real_point
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.ring.program import values
+from dofkit.exact.zero.analyticity import is_analytic
+from dofkit.expressions import tree as ex
+from dofkit.expressions.enclosures import interval_of
+from dofkit.expressions.renaming import coordinates_in
+from dofkit.expressions.text import Names, parse_expression, to_text
+from dofkit.expressions.tree import Expr
+from dofkit.relations.answer import Answer
+from dofkit.relations.blocks import Block, Row, expressions, uses_time
+from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.joint_equations import JointEquation
+from dofkit.relations.normal.domain import DomainCondition
+from dofkit.relations.normal.pieces import Finite
+from dofkit.relations.setting import Setting
+
+APART = "each part of the system can be satisfied at some time, but no common time was found"
+OUTSIDE = "no configuration was found at which all equations have a value as they were written"
+#: The digits to which a decimal of a witness is right.
+DIGITS_BALL = arb(10) ** -24
+
+
+class CommonPoint(NamedTuple):
+    """The blocks and their answers at one point; ``witness``: of coordinates that only domains mention.
+
+    A block has the conditions that it was not found to satisfy.
+    ``nowhere``: constraints beside no block whose domain is empty; ``unsettled``: those of which that is not known.
+    """
+
+    blocks: list[Block]
+    answers: list[Answer]
+    witness: Witness = MappingProxyType({})
+    nowhere: tuple[int, ...] = ()
+    unsettled: tuple[int, ...] = ()
+
+
+def at_one_point(
+    blocks: Sequence[Block],
+    answers: Sequence[Answer],
+    domain: Sequence[tuple[int, DomainCondition]],
+    setting: Setting,
+    answered: Callable[[Block], Answer],
+) -> CommonPoint:
+    """Return the answers, where all blocks are consistent, held against one point of the system.
+
+    ``domain``: where each constraint, as it was written, has a value. What does not hold at the blocks' witnesses is
+    put beside the rows that share a coordinate with it, and these are ``answered`` again.
+    """
+    written = _with_conditions(blocks, domain)
+    kept, found = list(blocks), simultaneous(written, answers, setting, answered)
+    if any(a.consistent is not True for a in found):
+        return CommonPoint(kept, found)
+    point = _point(found, setting)
+    outside = [(i, c) for i, c in domain if not _is_strict_at(c, point)]
+    names = [*(_names(block) for block in written), *(_names_of(c, i) for i, c in outside)]
+    own: dict[Expr, str] = {}
+    failed: dict[bool | None, list[int]] = {False: [], None: []}
+    for numbers in components(names) if outside else ():
+        members = [i for i in numbers if i < len(blocks)]
+        added = [outside[i - len(blocks)] for i in numbers if i >= len(blocks)]
+        if not added:
+            continue
+        conditions = tuple(dict.fromkeys(c for _, c in added))
+        merged = _merged([written[i] for i in members], conditions, setting)
+        told = answered(merged)
+        free = len(merged.coordinates) - sum(len(blocks[i].coordinates) for i in members)
+        if told.consistent and told.dof == free + sum(found[i].dof or 0 for i in members):
+            own |= told.witness or {}
+            for i in members:
+                found[i] = replace(found[i], witness=told.witness, verdict=weakest(found[i].verdict, told.verdict))
+            continue
+        consistent = False if told.consistent is False else None
+        if not members:
+            failed[consistent] += [i for i, _ in added]
+        for i in members:
+            kept[i], found[i] = written[i], _not_consistent(found[i], told, OUTSIDE)
+    together = simultaneous(written, found, setting, answered)
+    return CommonPoint(kept, together, own, tuple(failed[False]), tuple(failed[None]))
+
+
+def _names(block: Block) -> frozenset[Hashable]:
+    return frozenset((*block.coordinates, *(row.constraint for row in block.rows)))
+
+
+def _names_of(c: DomainCondition, owner: int) -> frozenset[Hashable]:
+    """The coordinates of a condition; of one without coordinates, its constraint."""
+    return coordinates_in(c.expr) or frozenset((owner,))
+
+
+def _with_conditions(blocks: Sequence[Block], domain: Sequence[tuple[int, DomainCondition]]) -> list[Block]:
+    """The blocks with the conditions that hold no other coordinates than theirs, or none beside their constraints."""
+    found = list(blocks)
+    for owner, c in domain:
+        names = coordinates_in(c.expr)
+        for k, block in enumerate(found):
+            own = names <= {*block.coordinates} if names else any(row.constraint == owner for row in block.rows)
+            if own and c not in block.conditions:
+                found[k] = replace(block, conditions=(*block.conditions, c))
+    return found
+
+
+def _point(answers: Sequence[Answer], setting: Setting) -> dict[Expr, arb]:
+    """The values of the witnesses as balls."""
+    texts = {s: text for a in answers for s, text in (a.witness or {}).items()}
+    exact = {s: e for s, e in (setting.reference or {}).items() if s in texts and to_text(e) == texts[s]}
+    return {s: _ball(text, exact.get(s)) for s, text in texts.items()}
+
+
+def _ball(text: str, exact: Expr | None) -> arb:
+    try:
+        value = arb(text)
+    except ValueError:
+        known = interval_of(parse_expression(text, Names()) if exact is None else exact)
+        return arb("nan") if known is None else known
+    return value + arb(0, 1) * (1 + abs(value)) * DIGITS_BALL if {".", "e"} & {*text} else value
+
+
+def _is_strict_at(c: DomainCondition, point: Mapping[Expr, arb]) -> bool:
+    """Return whether a condition is proved to be satisfied at a point, and not as an equation; other symbols are 0."""
+    value = interval_of(c.expr, {s: point.get(s, arb(0)) for s in c.expr.symbols})
+    return value is not None and not value.contains(0) and (c.sense == "!=" or bool(value > 0))
+
+
+def simultaneous(
+    blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting, answered: Callable[[Block], Answer]
+) -> list[Answer]:
+    """Return the answers with witnesses that have the time and the parameters in common.
+
+    Where none are found, blocks are ``answered`` as one: the answers are inconsistent, or undecided, where that is.
+    """
+    result = list(answers)
+    if any(a.consistent is not True for a in answers):
+        return result
+    shared = [_shared_symbols(block) for block in blocks]
+    for numbers in components(shared):
+        group = [i for i in numbers if shared[i]]
+        if len(group) < 2 or _is_common([result[i].witness for i in group], [shared[i] for i in group]):
+            continue
+        group = [i for i in group if _restricts(blocks[i], result[i])]
+        if len(group) < 2:
+            continue
+        found = _with_common_values([blocks[i] for i in group], [result[i] for i in group], shared, setting)
+        together = found or _as_one([blocks[i] for i in group], [result[i] for i in group], setting, answered)
+        for i, a in zip(group, together, strict=True):
+            result[i] = a
+    return result
+
+
+def _shared_symbols(block: Block) -> frozenset[Expr]:
+    """The time, the named parameters and, as symbols, the names of the unknown functions of a block."""
+    rows = tuple(row for row in block.rows if not isinstance(row.piece, JointEquation))
+    written = [*expressions(Block(block.coordinates, rows)), *(c.expr for c in block.conditions)]
+    symbols = frozenset[Expr]().union(*(e.symbols for e in written))
+    named = {s for s in symbols if s.args[0] == "parameter" and not s.args[1].startswith("_")}
+    calls = {n for e in written if "call" in e.functions for n in ex.nodes(e) if n.op == "call"}
+    functions = {ex.parameter(f"{n.args[0]}(...)") for n in calls}
+    return frozenset({*named, *functions, *((ex.TIME,) if uses_time(block) else ())})
+
+
+def _is_common(witnesses: Sequence[Witness | None], shared: Sequence[frozenset[Expr]]) -> bool:
+    """Return whether all witnesses are known, with one value of everything that is shared."""
+    known: dict[Expr, str] = {}
+    for witness, symbols in zip(witnesses, shared, strict=True):
+        if witness is None or any(known.setdefault(s, witness[s]) != witness[s] for s in symbols & witness.keys()):
+            return False
+    return not any(s.args[1].endswith("(...)") for symbols in shared for s in symbols)
+
+
+def _restricts(block: Block, a: Answer) -> bool:
+    """Return whether a block may be satisfied at some times, or for some parameters, only."""
+    if a.linear or not (block.finite or a.hidden or block.nonlinear or block.conditions):
+        return False
+    relations = _relations(block, a)
+    if block.nonlinear or block.conditions or len(relations) > BALL_COLUMNS:
+        return True
+    smooth = all(is_analytic(g, g.symbols, poles=False) for g in relations)
+    return not smooth or bool(explicit_relations(relations).left)
+
+
+def _relations(block: Block, a: Answer) -> list[Expr]:
+    return [*(row.piece.expr for row in block.finite if isinstance(row.piece, Finite)), *a.hidden]
+
+
+def _with_common_values(
+    blocks: Sequence[Block], answers: Sequence[Answer], shared: Sequence[frozenset[Expr]], setting: Setting
+) -> list[Answer] | None:
+    """Return the answers with witnesses at the values of one of them; None where none of these serves all."""
+    if any(block.nonlinear or a.witness is None for block, a in zip(blocks, answers, strict=True)):
+        return None
+    common = frozenset[Expr]().union(*shared)
+    for chosen in answers:
+        given = {s: Fraction(text) for s, text in (chosen.witness or {}).items() if s in common}
+        witnesses = [_witness_at(block, a, given, setting) for block, a in zip(blocks, answers, strict=True)]
+        if None not in witnesses:
+            return [replace(a, witness=w) for a, w in zip(answers, witnesses, strict=True)]
+    return None
+
+
+def _witness_at(block: Block, a: Answer, given: Mapping[Expr, Fraction], setting: Setting) -> Witness | None:
+    """Return a certified regular point of a block at given values of time and parameters; None where none was found."""
+    witness = a.witness or {}
+    if all(Fraction(witness[s]) == value for s, value in given.items() if s in witness):
+        return witness
+    conditions = [c.expr for c in block.conditions]
+    chart = make_chart(block, replace(setting, reference=None), a.hidden, conditions)
+    unknowns = [s for s in chart.unknowns if s not in given]
+    search = RealSearch(chart.ring, chart.nodes, unknowns, chart.positive, chart.symbols)
+    try:
+        real = search.search(0, {s: float(v) for s, v in given.items()})
+        if real is None or not real.certified or not real.consistent or real.solved < real.rank:
+            return None
+        at = values(chart.ring, real.point)
+    except (NoValueError, OverflowError, ValueError):
+        return None
+    inside = (at[chart.ring.node(e)] for e in conditions)
+    within = all(v != 0 if c.sense == "!=" else v > 0 for v, c in zip(inside, block.conditions, strict=True))
+    regular = bool(block.forms) or chart.coordinates - real.rank == a.dof
+    return of_real_point(chart, real) if within and regular else None
+
+
+def _as_one(
+    blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting, answered: Callable[[Block], Answer]
+) -> list[Answer]:
+    """Return the answers where the blocks are consistent as one block, with as much freedom; else that they are not."""
+    merged = _merged(blocks, (), setting)
+    together = answered(merged) if len(merged.coordinates) <= BALL_COLUMNS else Answer(None)
+    if together.consistent and together.dof == sum(a.dof or 0 for a in answers):
+        sure = together.verdict
+        return [replace(a, witness=together.witness, verdict=weakest(a.verdict, sure)) for a in answers]
+    return [_not_consistent(a, together, APART) for a in answers]
+
+
+def _not_consistent(a: Answer, together: Answer, why: str) -> Answer:
+    """Return the answer to a block where it is inconsistent together with others, or it is not known whether it is."""
+    impossible = together.consistent is False
+    told = Answer(False if impossible else None, verdict=together.verdict if impossible else "undecided")
+    reasons = [*together.reasons, why]
+    return replace(told, argument=together.argument if impossible else None, reasons=reasons, method=a.method)
+
+
+def _merged(blocks: Sequence[Block], conditions: Sequence[DomainCondition], setting: Setting) -> Block:
+    """Return several blocks as one, with more conditions."""
+    order = {c.name: k for k, c in enumerate(setting.roles)}
+    every = tuple(dict.fromkeys((*(c for block in blocks for c in block.conditions), *conditions)))
+    mentioned = {n for b in blocks for n in b.coordinates}.union(*(coordinates_in(c.expr) for c in every))
+    rows: list[Row] = [row for block in blocks for row in block.rows]
+    rows.sort(key=lambda row: not isinstance(row.piece, Finite))
+    names = sorted(mentioned, key=lambda name: (order.get(name, len(order)), name))
+    return Block(tuple(names), tuple(rows), every)

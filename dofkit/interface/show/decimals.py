@@ -1,0 +1,121 @@
+"""Printed formulas with decimals in place of fractions, for scenes that are written with decimals."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from decimal import Decimal, localcontext
+from fractions import Fraction
+from typing import Any, TypeVar
+
+from pydantic import BaseModel
+
+from dofkit.scene.scene import Scene
+
+#: The fields of a scene with numbers and formulas of the user.
+_OF_SCENE = ("parameters", "particles", "bodies", "constraints", "forces", "energies", "configuration")
+#: The fields of reports and of equations of motion with formulas that dofkit wrote.
+_FORMULAS = frozenset(
+    (
+        *("integral", "integrating_factor", "reason", "where", "what", "basis", "feasible_at"),
+        *("lagrangian", "momenta", "forces", "equations", "conserved", "eliminated", "linearized"),
+    )
+)
+#: A whole number below a fraction bar, and a product or a group in parentheses before it.
+_DIVISOR = re.compile(r"/(?:(?P<alone>\d+)|\((?P<first>\d+)\*(?P<rest>[^()]*)\))(?![\w.^(])")
+_COEFFICIENT = re.compile(r"(\d+)(?:\*|$)(?!\*)")
+_LONGEST = 12
+#: What stands before a name of the user.
+_QUOTES = ("'", "`", '"')
+_TEXT_WITH_DECIMAL = re.compile(r"\d\.\d|(?<![\w.])\.\d")
+
+Shown = TypeVar("Shown", bound=BaseModel)
+
+
+def as_the_scene(shown: Shown, scene: Scene) -> Shown:
+    """Return a report or equations of motion, with decimals in their formulas if the scene is written with decimals."""
+    if not any(_has_decimal(getattr(scene, name)) for name in _OF_SCENE):
+        return shown
+    converted: Shown = _converted(shown, False)
+    return converted
+
+
+def _has_decimal(value: Any) -> bool:
+    """Return whether a value holds a decimal: in a text, or as a number whose decimals end."""
+    if isinstance(value, BaseModel):
+        return any(_has_decimal(part) for part in value.__dict__.values())
+    if isinstance(value, Mapping):
+        return any(_has_decimal(part) for part in value.values())
+    if isinstance(value, (list, tuple)):
+        return any(_has_decimal(part) for part in value)
+    if isinstance(value, Fraction):
+        return value.denominator > 1 and _decimal(value) is not None
+    return isinstance(value, str) and _TEXT_WITH_DECIMAL.search(value) is not None
+
+
+def _converted(value: Any, inside: bool) -> Any:
+    """Return a value with decimals in its texts, of models in those of some fields only."""
+    if isinstance(value, BaseModel):
+        parts = {name: _converted(part, inside or name in _FORMULAS) for name, part in value.__dict__.items()}
+        return value.model_copy(update=parts)
+    if isinstance(value, dict):
+        return {name: _converted(part, inside) for name, part in value.items()} if inside else value
+    if isinstance(value, list):
+        return [_converted(part, inside) for part in value]
+    return with_decimals(value) if inside and isinstance(value, str) else value
+
+
+def with_decimals(text: str) -> str:
+    """Return a formula with its terminating fractions as decimals.
+
+    >>> with_decimals("13*x^2/800 - sin(y - 1/10)/10 + x/3")
+    '0.01625*x^2 - 0.1*sin(y - 0.1) + x/3'
+    """
+    start = 0
+    while match := _DIVISOR.search(text, start):
+        begin = _product_start(text, match.start())
+        product = _product(text[begin : match.start()], match)
+        if product is None or text[begin - 1 : begin] in _QUOTES:
+            start = match.end()
+        else:
+            text = text[:begin] + product + text[match.end() :]
+            start = begin + len(product)
+    return text
+
+
+def _product(above: str, match: re.Match[str]) -> str | None:
+    """Return a quotient with a decimal coefficient, or None where its decimals do not end."""
+    coefficient = _COEFFICIENT.match(above)
+    factors = above[coefficient.end() :] if coefficient else above
+    divisor = int(match["alone"] or match["first"])
+    value = _decimal(Fraction(int(coefficient[1]) if coefficient else 1, divisor)) if divisor > 1 else None
+    if value is None or not above:
+        return None
+    below = f"/{match['rest']}" if match["rest"] else ""
+    if "*" in below:
+        below = f"/({match['rest']})"
+    if value == "1":
+        return f"{factors or value}{below}"
+    return f"{value}*{factors}{below}" if factors else f"{value}{below}"
+
+
+def _product_start(text: str, end: int) -> int:
+    """Return where the product begins that ends before ``end``: after a space, an opening parenthesis or a sign."""
+    depth, start = 0, end
+    while start:
+        character = text[start - 1]
+        if depth == 0 and character in " (,=+-'`\"[{;<>":
+            break
+        depth += (character == ")") - (character == "(")
+        start -= 1
+    return start
+
+
+def _decimal(value: Fraction) -> str | None:
+    """Return a fraction as a decimal, or None where its decimals do not end soon."""
+    with localcontext() as context:
+        context.prec = 50
+        quotient = Decimal(value.numerator) / value.denominator
+    if Fraction(quotient) != value or -int(quotient.as_tuple().exponent) > _LONGEST:
+        return None
+    return f"{quotient.normalize():f}"

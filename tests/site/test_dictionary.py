@@ -1,0 +1,94 @@
+"""The texts that users read, held against the dictionary of the glossary: one word for one thing.
+
+To test the texts of another package, add its folder to ``ROOMS``. A phrase that is legitimate English somewhere is let
+through by a row of ``ALLOWED``, with the reason.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+from shared.documented import DOCUMENTS, ROOT, SITE, name_of
+
+GLOSSARY = SITE / "reference" / "glossary.md"
+PACKAGE = ROOT / "dofkit"
+#: The packages whose texts are written by the dictionary.
+ROOMS: tuple[str, ...] = ("exact", "expressions", "site")
+_ROW = re.compile(r"^\| (?P<write>[^|]+) \| (?P<instead>`[^|]+) \|$", re.MULTILINE)
+_CODE = re.compile(r"^```.*?^```$|`[^`]*`", re.MULTILINE | re.DOTALL)
+
+
+class Allowed(NamedTuple):
+    """A phrase that may stand in a place: a document's name, or a file below the package."""
+
+    phrase: str
+    place: str
+    reason: str
+
+
+ALLOWED: tuple[Allowed, ...] = ()
+MOST_ALLOWED = 20
+
+
+def dictionary() -> dict[str, str]:
+    """Return what to write, by each phrase that is to be avoided."""
+    table = GLOSSARY.read_text(encoding="utf-8").partition("## How dofkit writes")[2]
+    return {phrase: row["write"] for row in _ROW.finditer(table) for phrase in re.findall(r"`([^`]+)`", row["instead"])}
+
+
+def documents() -> Iterator[tuple[str, str]]:
+    """Yield (name, prose) of the README and every page, without code; of the glossary what precedes the dictionary."""
+    for document in DOCUMENTS:
+        text = document.read_text(encoding="utf-8")
+        yield name_of(document), _CODE.sub("``", text.partition("## How dofkit writes")[0])
+
+
+def literals(folder: Path) -> Iterator[tuple[str, str]]:
+    """Yield (file, text) of every string in a folder's code that has several words and is no docstring."""
+    for path in sorted(folder.rglob("*.py")):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        bare = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+        for node in ast.walk(tree):
+            text = node.value if isinstance(node, ast.Constant) and id(node) not in bare else None
+            if isinstance(text, str) and " " in text.strip():
+                yield str(path.relative_to(PACKAGE)), text
+
+
+def broken(texts: Iterator[tuple[str, str]]) -> Iterator[str]:
+    """Yield a line for every phrase of the dictionary that occurs in the texts and is not allowed there."""
+    phrases = dictionary()
+    pattern = re.compile(rf"\b({'|'.join(map(re.escape, sorted(phrases, key=len, reverse=True)))})\b", re.IGNORECASE)
+    let_through = {(allowed.phrase, allowed.place) for allowed in ALLOWED}
+    for place, text in texts:
+        for match in pattern.finditer(" ".join(text.split())):
+            phrase = match[0].lower()
+            if (phrase, place) not in let_through:
+                yield f"{place}: `{phrase}`: write `{phrases[phrase]}` ({text.strip()[:60]!r})"
+
+
+def test_the_dictionary_is_read() -> None:
+    phrases = dictionary()
+    assert len(phrases) > 30
+    assert phrases["to first order"].startswith("instantaneous freedom")
+    assert not list(broken(iter([("a", "What comes\nfrom b")])))
+    assert list(broken(iter([("a", "It follows\nfrom b")])))
+
+
+def test_documents_are_written_by_the_dictionary() -> None:
+    assert not list(broken(documents())), "\n".join(["", *broken(documents())])
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_texts_of_the_package_are_written_by_the_dictionary(room: str) -> None:
+    found = list(broken(literals(PACKAGE / room)))
+    assert not found, "\n".join(["", *found])
+
+
+def test_exceptions_are_few_and_have_reasons() -> None:
+    assert len(ALLOWED) <= MOST_ALLOWED
+    assert all(allowed.reason for allowed in ALLOWED)

@@ -1,0 +1,71 @@
+"""Robustness: no text makes a command fail, and asking for evidence takes no answer away."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import example, given, settings
+from shared.equation_texts import scenes
+from shared.known_scenes import VARIED, few, report_of, scene_of, stem
+
+import dofkit
+from dofkit.methods.certificates.lowering import told_fields
+from dofkit.methods.classify import with_certificate
+from dofkit.methods.stages import classified
+
+#: Seconds for one scene of any texts.
+SECONDS = 2.0
+
+
+def scene(*texts: str) -> dict[str, Any]:
+    return {
+        "coordinates": ["s", "x", "y"],
+        "parameters": {"a": "positive", "m": "real"},
+        "functions": {"g": ["s"], "h": ["s", "t"]},
+        "constraints": [*texts],
+    }
+
+
+@settings(max_examples=150)
+@example(scene("sin(s)/s = 1"))
+@example(scene("abs(g(s)) = g(s)"))
+@example(scene("(1 - m)/g'(s) <= 0"))
+@given(scenes())
+def test_no_text_makes_classify_fail(document: dict[str, Any]) -> None:
+    """A scene is answered, or refused with its faults."""
+    try:
+        given = dofkit.load(document)
+        report = classified(given, SECONDS)
+    except dofkit.SceneError:
+        return
+    assert len(report.constraints) == len(document["constraints"])
+
+
+@pytest.mark.parametrize("path", few("evidence", VARIED, 12), ids=stem)
+def test_asking_for_evidence_takes_no_answer_away(path: Path) -> None:
+    """A claim may become weaker only where the checker contradicts it, which happens in none of these scenes."""
+    report = report_of(path)
+    asked = with_certificate(scene_of(path), report)
+    assert [*told_fields(asked)] == [*told_fields(report)]
+    assert asked.warnings == report.warnings
+
+
+def test_evidence_counts_geometric_equations_before_their_rates() -> None:
+    """A tackle, its lengths written after its speeds: 2 xdot + ydot = 0 follows from 2 x + y = L."""
+    report = dofkit.classify(
+        {
+            "coordinates": ["x", "y"],
+            "parameters": {"L": "positive"},
+            "constraints": ["2 xdot + ydot = 0", "2 x + y = L"],
+        },
+        certificate=True,
+    )
+    assert report.redundant == ["c1"]
+    assert [entry.independent for entry in report.constraints] == [0, 1]
+    assert {report.verdicts[field].verdict for field in ("redundant", "redundancies")} == {"proved"}
+    assert {entry.verdicts["independent"].verdict for entry in report.constraints} == {"proved"}
+    assert report.warnings == []
+    assert report.certificate is not None
+    assert not any(path.endswith("independent") for path in report.certificate["uncovered"])
