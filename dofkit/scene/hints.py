@@ -7,11 +7,15 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
+from pydantic import ValidationError
+
 from dofkit.base.errors import Fault
 from dofkit.base.spelling import nearest
+from dofkit.models.scene_text import on_one_line
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.constraints.equations import Equation
-from dofkit.scene.synonyms import dimension_of, other_keys
+from dofkit.scene.fields import meant_key
+from dofkit.scene.synonyms import Path, dimension_of, other_keys
 
 UNKNOWN_KEY = "unknown key"
 UNKNOWN_TYPE = "there is no constraint type"
@@ -27,6 +31,10 @@ _HINTS = (
 _ENOUGH = re.compile(
     r"`|'[^']*[:=]|column|^(?:the (?:particles|bodies) are|declared|rename|leave|choose|check|delete|keep|move)"
 )
+#: A longer line is not shown as what to write.
+LONGEST_LINE = 160
+#: Keys that hold the two ends of a string for those who give its pulleys by `over`.
+_ENDS = ("between", "members", "points")
 _FORCES = ("spring", "damper", "force", "gravity")
 #: A line by the key that it gives; of some keys one for each dimension.
 LINES: dict[str, str | tuple[str, str, str]] = {
@@ -47,36 +55,108 @@ LINES: dict[str, str | tuple[str, str, str]] = {
 }  # fmt: skip
 
 
-def without_echoes(faults: Iterable[Fault]) -> list[Fault]:
-    """The faults less those that a misspelt key explains: the key that it should have been is not missing."""
+def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fault]:
+    """Return the faults without those that another one explains.
+
+    A misspelt key explains that the right one is missing, and one line that mends a constraint is shown once.
+    """
     faults = list(faults)
     meant = {
         (fault.where[:-1], match[1])
         for fault in faults
         if fault.message.startswith(UNKNOWN_KEY) and (match := re.fullmatch(r"did you mean '(.*)'\?", fault.hint or ""))
     }
-    return [
+    kept = [
         fault
         for fault in faults
         if not (fault.where and "needs" in fault.message and (fault.where[:-1], fault.where[-1]) in meant)
     ]
+    first: dict[Path, Fault] = {}
+    for fault in sorted(kept, key=lambda fault: not fault.message.startswith(UNKNOWN_KEY)):
+        first.setdefault(fault.where[:2], fault)
+    return [
+        fault
+        for fault in kept
+        if fault.where[:1] != ("constraints",) or fault is first[fault.where[:2]] or not _mended(value, fault.where)
+    ]
 
 
 def _meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
-    """The constraint type that a word most likely means, by the keys that stand beside it; None for no idea."""
+    """Return the constraint type that a word most likely means, by the keys that stand beside it; None for no idea."""
     words = {kind: (kind, *cls.synonyms, *cls.understood) for kind, cls in TYPES.items()}
-    word = word.lower() if isinstance(word, str) else ""
-    near = nearest(word, dict.fromkeys(one for known in words.values() for one in known))
+    near = nearest(word.lower(), {one for known in words.values() for one in known}) if isinstance(word, str) else None
     fields = {kind: TYPES[kind].model_fields for kind, known in words.items() if near in known}
     return max(fields, key=lambda kind: sum(key in fields[kind] for key in entry), default=None)
 
 
 def type_advice(word: object, entry: Mapping[str, Any]) -> str | None:
-    """What to write instead of a word that is no constraint type, where that is known."""
-    if word in _FORCES:
+    """Return what to write instead of a word that is no constraint type, or of none, where that is known."""
+    if isinstance(word, str) and word in _FORCES:
         return f"write it under `forces`: `forces: [{{type: {word}, between: [A, B]}}]`; a force constrains nothing"
-    found = _meant_type(word, entry)
-    return None if found is None else f"did you mean '{found}'?"
+    kinds = _likely_types(word, entry)
+    if len(kinds) == 1:
+        return f"did you mean '{kinds[0]}'?"
+    return f"the types with these keys are {', '.join(kinds)}" if kinds else None
+
+
+def _likely_types(word: object, entry: Mapping[str, Any]) -> list[str]:
+    """Return the type that a word means, or else the types with the keys of an entry, misspelt ones only if need be."""
+    meant = _meant_type(word, entry)
+    able = [] if meant else [kind for kind in TYPES if _with_right_keys(kind, entry)]
+    exact = [kind for kind in able if set(entry) - {"type"} <= TYPES[kind].model_fields.keys()]
+    return [meant] if meant else exact or able
+
+
+def _mended(value: Mapping[str, Any], where: Path) -> str | None:
+    """Return the line that a faulty constraint should be, where every key of it has one meaning; else None."""
+    entry, d = (
+        _entry_at(value, where[1]) if where[:1] == ("constraints",) and len(where) > 1 else None,
+        dimension_of(value),
+    )
+    if not isinstance(entry, Mapping):
+        return None
+    word = entry.get("type")
+    kinds = [word] if isinstance(word, str) and word in TYPES else _likely_types(word, entry)
+    able = (_with_right_keys(kind, entry) for kind in kinds if d in TYPES[kind].dimensions)
+    right = next((found for found in able if found is not None), None)
+    if right is None or right == entry:
+        return None
+    line = on_one_line(right)
+    return line if len(line) <= LONGEST_LINE else None
+
+
+def _with_right_keys(kind: str, entry: Mapping[str, Any]) -> dict[str, Any] | None:
+    """Return an entry as a constraint of a type, its keys and their form put right; None where that cannot be done."""
+    fields, given = TYPES[kind].model_fields, dict(entry)
+    if kind == "string" and "over" in given:
+        over, ends = given.pop("over"), [given.pop(key) for key in ("along", *_ENDS) if key in given]
+        over = list(over) if isinstance(over, (list, tuple)) else [over]
+        two = len(ends) == 1 and isinstance(ends[0], (list, tuple)) and len(ends[0]) == 2
+        given["along"] = [ends[0][0], *over, ends[0][1]] if two else over
+    if kind == "slot" and isinstance(given.get("between"), (list, tuple)) and len(given["between"]) == 2:
+        given["point"], given["body"] = given.pop("between")
+    right: dict[str, Any] = {"type": kind}
+    for key, part in given.items():
+        meant = key if key in fields else meant_key(key, tuple(field for field in fields if field not in given))
+        if key != "type" and (meant is None or meant in right):
+            return None
+        if key != "type":
+            right[str(meant)] = part
+    renamed = {key: part if key in entry else _in_form(key, part) for key, part in right.items()}
+    for attempt in (renamed, {key: _in_form(key, part) for key, part in right.items()}):
+        try:
+            TYPES[kind].model_validate(attempt)
+        except ValidationError:
+            continue
+        return attempt
+    return None
+
+
+def _in_form(key: str, part: Any) -> Any:
+    """Return what is given for a key as a list or as one name, as that key takes it."""
+    if key in ("between", "members", "along"):
+        return [part] if isinstance(part, str) else part
+    return part[0] if key in ("point", "body") and isinstance(part, (list, tuple)) and len(part) == 1 else part
 
 
 def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
@@ -91,16 +171,18 @@ def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
 
 
 def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
-    told = _said_twice(fault, value) or _direction(fault, value) or fault.hint
-    told = told or next((hint for pattern, hint in _HINTS if re.search(pattern, fault.message)), None)
-    if told is not None and _ENOUGH.search(told):
-        return told
-    line = _line(fault, told or "", value)
+    hint = _said_twice(fault, value) or _direction(fault, value) or fault.hint
+    hint = hint or next((hint for pattern, hint in _HINTS if re.search(pattern, fault.message)), None)
+    if hint is not None and _ENOUGH.search(hint):
+        return hint
+    mended = _mended(value, fault.where)
+    line = mended or _line(fault, hint or "", value)
     if line is None:
-        return told or "'dofkit schema' lists what can stand here"
-    if told is None:
-        return f"for example `{line}`"
-    return f"{told}{'' if told.endswith('?') else ';'} for example `{line}`"
+        return hint or "'dofkit schema' lists what can stand here"
+    if mended and (hint is None or not hint.startswith(("did you mean", "the types"))):
+        return f"write `{line}`"
+    shown = f"write `{line}`" if mended and hint and hint.endswith("?") else f"for example `{line}`"
+    return shown if hint is None else f"{hint}{'' if hint.endswith('?') else ';'} {shown}"
 
 
 def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:

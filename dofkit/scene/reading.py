@@ -170,7 +170,7 @@ class SceneFile:
     def _error(self, faults: Iterable[Fault]) -> SceneError:
         taken = {(fault.line, fault.column) for fault in self.document.faults}
         told = []
-        for fault in without_echoes(faults):
+        for fault in without_echoes(faults, self._words.value):
             found = self._with_place(fault)
             if fault.line is not None or (found.line, found.column) not in taken:
                 told.append(found)
@@ -209,7 +209,7 @@ def _from_mapping(source: Mapping[str, Any], name: str | None) -> Scene:
         value["name"] = name
     scene, faults = _scene_and_faults(value, True)
     if scene is None or faults:
-        told = [with_hint(fault, value) for fault in without_echoes(faults)]
+        told = [with_hint(fault, value) for fault in without_echoes(faults, value)]
         raise SceneError(_first_faults([replace(f, where=words.written(f.where)) for f in told]), name)
     return scene
 
