@@ -31,6 +31,7 @@ _HINTS = (
 _ENOUGH = re.compile(
     r"`|'[^']*[:=]|column|^(?:the (?:particles|bodies) are|declared|rename|leave|choose|check|delete|keep|move)"
 )
+_SUGGESTED = re.compile(r"did you mean '(\w+)'\?")
 #: A longer line is not shown as what to write.
 LONGEST_LINE = 160
 #: Keys that hold the two ends of a string for those who give its pulleys by `over`.
@@ -53,6 +54,13 @@ LINES: dict[str, str | tuple[str, str, str]] = {
     "kinetic": 'kinetic: "1/2 m xdot^2"', "potential": 'potential: "m g x"', "mass": "mass: m", "inertia": "inertia: J",
     "name": "name: pendulum", "title": 'title: "A pendulum"',
 }  # fmt: skip
+#: So many names are listed in a line that declares them.
+MOST_DECLARED = 12
+#: The sections of a scene that `dofkit explain` knows.
+SECTIONS = (
+    "dimension", "parameters", "functions", "particles", "bodies", "coordinates", "constraints", "forces", "energies",
+    "tolerance", "configuration", "expect",
+)  # fmt: skip
 
 
 def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fault]:
@@ -64,13 +72,14 @@ def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fa
     meant = {
         (fault.where[:-1], match[1])
         for fault in faults
-        if fault.message.startswith(UNKNOWN_KEY) and (match := re.fullmatch(r"did you mean '(.*)'\?", fault.hint or ""))
+        if fault.message.startswith(UNKNOWN_KEY) and (match := _SUGGESTED.fullmatch(fault.hint or ""))
     }
     kept = [
         fault
         for fault in faults
         if not (fault.where and "needs" in fault.message and (fault.where[:-1], fault.where[-1]) in meant)
     ]
+    kept = _undeclared_at_once(kept, value)
     first: dict[Path, Fault] = {}
     for fault in sorted(kept, key=lambda fault: not fault.message.startswith(UNKNOWN_KEY)):
         first.setdefault(fault.where[:2], fault)
@@ -79,6 +88,29 @@ def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fa
         for fault in kept
         if fault.where[:1] != ("constraints",) or fault is first[fault.where[:2]] or not _mended(value, fault.where)
     ]
+
+
+def _undeclared_at_once(faults: list[Fault], value: Mapping[str, Any]) -> list[Fault]:
+    """Return the faults with one for all bodies of a scene that declares none, and one for all particles."""
+    for section, what in (("bodies", "body"), ("particles", "particle")):
+        missing = {
+            fault: match[1] for fault in faults if (match := re.match(f"there is no {what} '(.+)'$", fault.message))
+        }
+        if not missing or value.get(section) or any((fault.hint or "").startswith("did") for fault in missing):
+            continue
+        first, names = next(iter(missing)), list(dict.fromkeys(missing.values()))
+        listed = ", ".join(names[:MOST_DECLARED]) + (", ..." if len(names) > MOST_DECLARED else "")
+        message = first.message if len(names) == 1 else f"the {section} {listed} are not declared"
+        told = replace(first, message=message, hint=f"declare `{section}: [{listed}]`")
+        faults = [told if fault is first else fault for fault in faults if fault is first or fault not in missing]
+    return faults
+
+
+def meant_section(fault: Fault) -> str | None:
+    """Return the section that an unknown key of a scene should be, where one is meant."""
+    suggested = _SUGGESTED.match(fault.hint or "")
+    unknown = len(fault.where) == 1 and fault.message.startswith(UNKNOWN_KEY)
+    return suggested[1] if unknown and suggested else None
 
 
 def _meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
@@ -167,12 +199,28 @@ def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
     )
     if len(fault.where) > 2 and keys[-1] not in ("text", "name", "type") and keys[-1] not in message:
         message = f"`{keys[-1]}`: {message}"
-    return replace(fault, message=message, hint=_hint(fault, {} if value is None else value))
+    given = {} if value is None else value
+    return replace(fault, message=message, hint=_hint(fault, given), see=_see(fault, given))
+
+
+def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:
+    """Return the type of constraint or the section of a scene that a fault is about, where there is one."""
+    where = fault.where
+    suggested = _SUGGESTED.match(fault.hint or "")
+    if where[:1] == ("constraints",) and len(where) > 1:
+        kind = _type_at(value, where[1]) or (suggested[1] if suggested else None)
+        return kind if kind in TYPES and kind != Equation.kind() else None
+    section = meant_section(fault) or next(iter(where), None)
+    return section if section in SECTIONS else None
 
 
 def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
     hint = _said_twice(fault, value) or _direction(fault, value) or fault.hint
     hint = hint or next((hint for pattern, hint in _HINTS if re.search(pattern, fault.message)), None)
+    undeclared = re.match(r"`(\w+)` is not declared$", fault.message)
+    if undeclared and hint and re.match("the declared|no names", hint):
+        name = undeclared[1]
+        return f"declare it: `coordinates: [{name}]`, or `parameters: [{name}]` for a constant; {hint}"
     if hint is not None and _ENOUGH.search(hint):
         return hint
     mended = _mended(value, fault.where)
@@ -205,7 +253,9 @@ def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
 def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:
     """A line that would work in the place of a fault: of a constraint, or of a key."""
     where, d = fault.where, dimension_of(value)
-    suggested = re.fullmatch(r"did you mean '(\w+)'\?", told)
+    suggested = _SUGGESTED.fullmatch(told)
+    if suggested and suggested[1] not in TYPES and suggested[1] not in LINES:
+        return None
     missing = re.search(r"needs [`'](\w+)[`']", fault.message)
     if where[:1] == ("constraints",) and len(where) > 1:
         kind = suggested[1] if suggested and suggested[1] in TYPES else _type_at(value, where[1])

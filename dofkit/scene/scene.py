@@ -126,7 +126,7 @@ class Scene(Displayed, WrittenModel):
         (), description="what the model that it was made of has besides, and why it is left out"
     )
     dimension: Annotated[Literal[1, 2, 3], BeforeValidator(_dimension)] = Field(
-        3, description="d, the dimension of the world"
+        3, description="the dimension of the world: 1, 2 or 3"
     )
     parameters: Annotated[
         dict[str, Value],
@@ -142,7 +142,7 @@ class Scene(Displayed, WrittenModel):
     particles: Annotated[tuple[AnyParticle, ...], Listed] = Field((), description="names, or mappings")
     bodies: Annotated[tuple[AnyBody, ...], Listed] = Field((), description="names, or mappings")
     coordinates: Annotated[tuple[str, ...], Listed] = Field(
-        (), description="further configuration coordinates, of no particle or body"
+        (), description="configuration coordinates that belong to no particle or body"
     )
     constraints: Annotated[tuple[_AnyConstraint, ...], Listed] = Field(
         (), description="mappings with a `type`; a plain text is an equation"

@@ -16,6 +16,7 @@ import dofkit
 from dofkit.base.documents import read_document
 from dofkit.base.documents.document import MOST_SLOW, _from_block, _from_flow, _from_yaml
 from dofkit.base.errors import Fault, SceneError
+from dofkit.interface.explanations import explanations_of
 from dofkit.scene.found_files import find
 from dofkit.scene.reading import MOST_FAULTS, SceneFile, load, loads
 from dofkit.scene.scene import Scene
@@ -208,6 +209,7 @@ def test_every_fault_has_its_place_and_says_what_to_do(case: str) -> None:
         assert fault.hint
         assert "Input should" not in fault.message
         assert len(fault.message) < 300
+        assert fault.see is None or explanations_of(fault.see)
 
 
 def test_all_faults_come_at_once_in_the_order_of_the_file() -> None:
@@ -232,6 +234,42 @@ def test_all_faults_come_at_once_in_the_order_of_the_file() -> None:
         "did you mean 'text'?",
         "did you mean 'configuration'?",
     ]
+
+
+#: Scenes with one mistake, in which other things seem wrong because of it -> the line of the fault, and its hint.
+WITH_ECHOES = {
+    "a misspelt section": ("coordinates: [r, x]\nparams: {R: 2}\nconstraints: [x = R r]\n", 2, "'parameters'"),
+    "a synonym of a section": (
+        "points: [A, B]\nconstraints: [{type: link, between: [A, B]}, x_A = 0]\n", 1, "'particles'",
+    ),
+    "a section of joints": (
+        "dimension: 2\nbodies: [a]\njoint: [{type: hinge, between: [ground, a], at: [0, 0]}]\n", 3, "'constraints'",
+    ),
+    "no bodies": (
+        "dimension: 2\njoints:\n- {type: pin, between: [ground, a], at: [0, 0]}\n"
+        "- {type: pin, between: [a, b], at: [1, 0]}\n", 3, "`bodies: [a, b]`",
+    ),
+    "no particles": (
+        "constraints: [{type: link, between: [A, B]}, {type: link, between: [B, C]}]\n", 1, "`particles: [A, B, C]`",
+    ),
+    "a misspelt joint of a coupling": (
+        "dimension: 2\nbodies: [a, b]\njoints:\n- {name: p, type: pinn, between: [ground, a], at: [0, 0]}\n"
+        "- {name: q, type: pin, between: [ground, b], at: [1, 0]}\n- {type: coupling, joints: [p, q], text: q = 2 p}\n",
+        4, "'revolute'",
+    ),
+    "two keys of one constraint": (
+        "particles: [A, B]\nconstraints: [{type: link, betwen: [A, B], lenght: 2}]\n", 2,
+        "between: [A, B], length: 2}`",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", WITH_ECHOES)
+def test_a_mistake_is_one_fault(case: str) -> None:
+    text, line, hint = WITH_ECHOES[case]
+    (fault,) = faults(text)
+    assert fault.line == line
+    assert hint in (fault.hint or ""), fault
 
 
 def test_faults_without_end_are_counted() -> None:
@@ -326,7 +364,7 @@ def test_a_misspelt_body_where_a_point_is_needed_is_named() -> None:
     assert "did you mean the body 'crank'? name one of its points: `{on: crank, at: [0, 0]}`" in str(found.value)
     with pytest.raises(dofkit.SceneError) as found:
         dofkit.load({**scene, "constraints": [{"type": "weld", "between": ["crnk", "rod"]}]})
-    assert "did you mean 'crank'? for example `between: [crank, rod]`" in str(found.value)
+    assert "did you mean 'crank'?" in str(found.value)
 
 
 def test_a_length_that_cannot_be_read_is_a_fault_of_every_link() -> None:

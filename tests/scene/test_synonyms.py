@@ -11,8 +11,9 @@ import pytest
 
 import dofkit
 from dofkit.base.errors import Fault, SceneError
+from dofkit.interface.explanations import explanations_of
 from dofkit.scene.constraints import TYPES
-from dofkit.scene.hints import LINES
+from dofkit.scene.hints import LINES, SECTIONS
 from dofkit.scene.synonyms import standard_words, synonyms
 
 PLANE = {"name": "s", "dimension": 2}
@@ -206,6 +207,12 @@ def test_a_hint_shows_one_line_that_would_work(name: str) -> None:
     )
     hints = [fault.hint or "" for fault in faults(text)]
     assert any(line in hint for hint in hints), hints
+
+
+def test_every_section_is_explained() -> None:
+    assert set(SECTIONS) < set(dofkit.Scene.model_fields)
+    for word in (*SECTIONS, *TYPES):
+        assert explanations_of(word)
 
 
 def test_no_other_word_for_a_type_is_a_type() -> None:
