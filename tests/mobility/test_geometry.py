@@ -156,7 +156,7 @@ def test_an_equation_that_repeats_a_link_fits_at_the_drawing_only() -> None:
     report = dofkit.classify(dofkit.load(scene))
     assert report.generic is not None
     assert report.generic.differs is not None
-    assert report.generic.differs.endswith("; what c2 says is consistent with the others at the reference configuration only")
+    assert report.generic.differs.endswith("consistent with the others at the reference configuration only")
 
 
 def test_points_in_one_plane_of_space() -> None:
@@ -503,10 +503,8 @@ def test_bars_nearly_in_line_are_said_to_be(height: str, said: bool) -> None:
         }
     )
     assert (report.dof, report.instantaneous_dof) == (2, 2)
-    found = [
-        re.search(r"nearly dependent at the reference configuration \(singular values of (\S+) beside", w) for w in report.warnings
-    ]
-    values = [float(match[1]) for match in found if match]
+    small = r"nearly dependent at the reference configuration \(singular values of (\S+) beside"
+    values = [float(match[1]) for match in (re.search(small, w) for w in report.warnings) if match]
     assert bool(values) == said
     assert all(1e-6 < v < 2.9e-6 for v in values)
 
