@@ -25,7 +25,7 @@ _HINTS = (
     (r"^a text is needed", "put it in double quotes"),
     (r"is 1, 2 or 3", "write 1, 2 or 3"),
     (r"number", "write a number such as 2, 0.5 or 1e-3"),
-    (r"^at (?:least|most) \d+ entries", "add or take away entries"),
+    (r"^at (?:least|most) \d+ entries", "add or delete entries"),
 )
 #: Hints that show what to write already, or need no line.
 _ENOUGH = re.compile(
@@ -124,7 +124,7 @@ def _meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
 def type_advice(word: object, entry: Mapping[str, Any]) -> str | None:
     """Return what to write instead of a word that is no constraint type, or of none, where that is known."""
     if isinstance(word, str) and word in _FORCES:
-        return f"write it under `forces`: `forces: [{{type: {word}, between: [A, B]}}]`; a force constrains nothing"
+        return f"write it under `forces`: `forces: [{{type: {word}, between: [A, B]}}]`; a force is not a constraint"
     kinds = _likely_types(word, entry)
     if len(kinds) == 1:
         return f"did you mean '{kinds[0]}'?"
@@ -238,9 +238,7 @@ def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:
     key = fault.where[-1] if fault.where and fault.message.startswith(UNKNOWN_KEY) else ""
     kind = _type_at(value, fault.where[1]) if fault.where[:1] == ("constraints",) and len(fault.where) == 3 else None
     meant = other_keys(kind).get(str(key)) if kind is not None else None
-    return (
-        None if meant is None else f"`{key}` is another word for `{meant}`, which is given too: leave one of them out"
-    )
+    return None if meant is None else f"`{key}` is a synonym of `{meant}`, which is given too: leave one of them out"
 
 
 def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
@@ -254,12 +252,12 @@ def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:
     """A line that would work in the place of a fault: of a constraint, or of a key."""
     where, d = fault.where, dimension_of(value)
     suggested = _SUGGESTED.fullmatch(told)
-    if suggested and suggested[1] not in TYPES and suggested[1] not in LINES:
+    if not where or (suggested and suggested[1] not in TYPES and suggested[1] not in LINES):
         return None
     missing = re.search(r"needs [`'](\w+)[`']", fault.message)
     if where[:1] == ("constraints",) and len(where) > 1:
         kind = suggested[1] if suggested and suggested[1] in TYPES else _type_at(value, where[1])
-        whole = missing or len(where) == 2 or where[-1] == "type" or fault.message.startswith(UNKNOWN_KEY)
+        whole = missing or len(where) == 2 or where[-1] in ("type", "text") or fault.message.startswith(UNKNOWN_KEY)
         if kind is None or d not in TYPES[kind].dimensions:
             return TYPES[_likely(_entry_at(value, where[1]), d)].example(d)
         if whole:

@@ -202,7 +202,9 @@ def _model_document(file: ModelFile) -> Document:
 def _from_mapping(source: Mapping[str, Any], name: str | None) -> Scene:
     deep = _too_deep(source)
     if deep is not None:
-        raise SceneError((Fault(f"nested deeper than {DEEPEST} levels", deep, hint="write the scene flat"),), name)
+        raise SceneError(
+            (Fault(f"nested deeper than {DEEPEST} levels", deep, hint="write the scene with fewer levels"),), name
+        )
     words = standard_words(source)
     value = words.value
     if name is not None and value.get("name") is None:
@@ -326,5 +328,5 @@ def _first_faults(faults: list[Fault]) -> tuple[Fault, ...]:
     if len(faults) <= MOST_FAULTS:
         return tuple(faults)
     more = len(faults) - MOST_FAULTS
-    last = replace(faults[MOST_FAULTS], message=f"and {more} further faults from here on", hint="mend these first")
+    last = replace(faults[MOST_FAULTS], message=f"and {more} further faults from here on", hint="correct these first")
     return (*faults[:MOST_FAULTS], last)

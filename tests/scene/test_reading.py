@@ -152,7 +152,7 @@ BAD = {
     "extra comma": (b"coordinates: [x,, y]\n", 1, 17, "','"),
     "colon in text": (b"title: a: b\n", 1, 9, "':'"),
     "bad indent": (b"coordinates:\n- x\n y: 1\n", 3, 3, "':'"),
-    "list after a value": (b"coordinates: [x]\n- y\n", 2, 1, "fit"),
+    "list after a value": (b"coordinates: [x]\n- y\n", 2, 1, "align"),
     "at sign": (b"title: @me\n", 1, 8, "@"),
     "percent": (b"title: %me\n", 1, 8, "%"),
     "star": (b"title: *\n", 1, 9, "*"),

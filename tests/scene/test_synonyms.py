@@ -187,7 +187,7 @@ SHOWN: dict[str, tuple[str, str]] = {
     "no radius": ("{A}[{type: roll, body: a}]", "`{type: roll, body: wheel, radius: 1}`"),
     "two words for one thing": (
         "{A}[{type: hinge, between: [ground, a], at: [0, 0, 0], axis: x, direction: y}]",
-        "`direction` is another word for `axis`",
+        "`direction` is a synonym of `axis`",
     ),
     "a joint of space in the plane": (
         "dimension: 2\n{A}[{type: ball, between: [ground, a], at: [0, 0]}]", "`{type: revolute, between",

@@ -86,7 +86,7 @@ def _coincident_rows(at: Kinematics) -> Iterator[VelocityRow]:
 class Coincident(ConstraintBase):
     """A - B = 0: d relations."""
 
-    type: Literal["coincident"] = Field(description="two points that stay together")
+    type: Literal["coincident"] = Field(description="two points that coincide")
     examples: ClassVar[Mapping[int, str]] = {0: "{type: coincident, between: [A, B]}"}
     between: Ends = Field(description="the two points")
     facts: ClassVar[TypeFacts] = TypeFacts(_coincident_rows, joint=True, merged=True)
@@ -177,7 +177,9 @@ def _check_on_line(world: World, point: Placed, place: Vec, axis: Direction) -> 
     offsets = [dot(u, minus(stands, place)) for u in axis.across]
     if not world.any_differs(offsets):
         return
-    message = f"the drawing puts {point.label} at {figures(stands)}, off the line through {figures(place)}"
+    message = (
+        f"in the reference configuration {point.label} is at {figures(stands)}, off the line through {figures(place)}"
+    )
     hint = "move the point or the line, or set `tolerance` if it is measured"
     world.misfit(_apart(minus(stands, place), axis.vector), message, "point", hint=hint)
 
