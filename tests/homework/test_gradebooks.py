@@ -116,7 +116,7 @@ def test_moodle_without_a_roster(prepared: Prepared, tmp_path: Path) -> None:
     found, apart = tables("moodle", prepared, tmp_path, *given)
     assert found == [
         ["useremail", "Sheet 1", "Sheet 1 (feedback)"],
-        ["ada@uni.example", "2", "Points: 2 of 10.\n\np.f: 2 of 2. Right.\nRead as: 1"],
+        ["ada@uni.example", "2", "Points: 2 of 10.\n\np.f: 2 of 2. Correct.\nRead as: 1"],
     ]
     assert [row[0] for row in apart[1:]] == ["S2", "0", "b@uni.example"]
     found, apart = tables("moodle", prepared, tmp_path, result("S2"), result("0"), REFUSED)
@@ -150,7 +150,7 @@ def test_what_is_doubtful_is_listed_apart(name: str, prepared: Prepared, tmp_pat
     found, apart = tables(name, prepared, tmp_path, *given, known=roster(CANVAS, tmp_path))
     assert [row[-1] for row in found[2:]] == (["1"] if name == "canvas" else [])
     assert [row[-1] for row in apart[1:]] == ["it names 'bob'"]
-    assert standing(given[0]).startswith("This is not final, for it names 'bob'.\nPoints: 2 of 10.")
+    assert standing(given[0]).startswith("This result is not final: it names 'bob'.\nPoints: 2 of 10.")
 
 
 HOSTILE = [
@@ -256,7 +256,7 @@ def test_whose_it_is_at_a_platform() -> None:
     ada = Participant("ada@x", name="Ada Lovelace", email="ada@x", other="7")
     assert [by_platform([ada], name) for name in ("", "Ada", "ADA@x", "7", "Lovelace, Ada")] == [None] * 5
     assert by_platform([], "bob") is None
-    assert "ada@x's, and names 'bob'" in str(by_platform([ada], "bob"))
+    assert "ada@x's, but names 'bob'" in str(by_platform([ada], "bob"))
 
 
 def test_canvas_numbers_its_files_by_its_own_ids(tmp_path: Path) -> None:

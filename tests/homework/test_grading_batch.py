@@ -274,7 +274,7 @@ def test_a_roster_says_whose_a_submission_is(
         ("ada@x", True, 2.0), ("bob@x", False, 2.0), ("eve@x", True, 2.0), ("zoe", True, 2.0),
     ]  # fmt: skip
     assert status == 0
-    assert "bob.yaml: it was handed in as bob@x's, and names 'Ada Lovelace'" in told[1]["doubt"]
+    assert "bob.yaml: it was submitted as bob@x's, but names 'Ada Lovelace'" in told[1]["doubt"]
     out = tmp_path / "grades.csv"
     assert lines_of(capsys, *command, "--format", "moodle", "--out", str(out))[0] == 0
     table = [line.split(",")[:2] for line in out.read_text().splitlines()]
@@ -691,4 +691,4 @@ def test_what_fails_outside_an_answer_is_the_error_of_that_submission(monkeypatc
     monkeypatch.setattr(Grader, "_decision", lambda self, *a: _breaks() if a[2] == "7" else whole(self, *a))
     results = [grader.grade(of_value({"student": n, "answers": {"p": {"f": n}}}, n)) for n in ("1", "7", "1")]
     assert [r.error is None for r in results] == [True, False, True]
-    assert (results[1].student, results[1].error) == ("7", "dofkit failed on this submission (KeyError)")
+    assert (results[1].student, results[1].error) == ("7", "an internal error occurred (KeyError)")

@@ -87,11 +87,11 @@ def test_a_sheet_says_what_is_asked_and_what_things_are_called() -> None:
     text = "Rod: [[rod]], length [[rod.length]], of $\\frac{1}{2}$."
     told = written_sheet(sheet(pendulum(text=text, points=4, names={"l": "L"})), drawing()).markdown
     assert "Rod: link (0, 0)-A, length l, length $l$, of $\\frac{1}{2}$." in told
-    assert "- $x_A$, $y_A$: the place of A." in told
-    assert "- $l$: a positive constant." in told
-    assert "`l` may also be called `L`." in told
-    assert "1. `pendulum.f` How many degrees of freedom does the system have? (points: 1)" in told
-    assert "2. `pendulum.rod` Which equation or equations say what the constraint `rod` demands? (points: 3)" in told
+    assert "- $x_A$, $y_A$: position of A." in told
+    assert "- $l$: positive constant." in told
+    assert "`l` may also be written as `L`." in told
+    assert "1. `pendulum.f` How many degrees of freedom does the system have? (1 point)" in told
+    assert "2. `pendulum.rod` Which equation or equations express the constraint `rod`? (3 points)" in told
     assert told.count("![Figure 1](figures/pendulum.svg)") == 1
 
 
@@ -152,7 +152,7 @@ def test_a_lecturer_is_told_what_a_sheet_does_not_say() -> None:
 
 def test_every_kind_of_question_can_be_explained() -> None:
     for cls in KINDS.values():
-        assert cls.wanted.endswith("?")
+        assert cls.wanted.endswith(("?", "."))
         assert cls.how.endswith(".")
         assert cls.examples
 

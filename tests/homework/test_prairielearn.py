@@ -133,7 +133,7 @@ def test_a_file_that_names_another_student_takes_nobodys_place(sheet: Path) -> N
                    ("bob@x", "2", given(), 0))  # fmt: skip
     ada, bob = results(sheet, table)
     assert (ada["student"], bob["student"], bob["score"], bob["doubt"]) == ("ada@x", "bob@x", 4.0, None)
-    assert "handed in as ada@x's, and names 'bob@x'" in ada["doubt"]
+    assert "handed in as ada@x's, but names 'bob@x'" in ada["doubt"]
 
 
 @pytest.mark.sweep

@@ -183,7 +183,7 @@ def test_answers_are_told_as_typed_and_bounded() -> None:
 @pytest.mark.parametrize(
     ("scene", "constraint", "said"),
     [
-        (ROD, "rod", "For example: x_A^2 + y_A^2 - l^2 = 0."),
+        (ROD, "rod", "A correct answer is x_A^2 + y_A^2 - l^2 = 0."),
         ({"coordinates": ["x"], "constraints": [{"name": "c", "type": "equation", "text": "x = 2"}]}, "c", "x = 2."),
     ],
 )
@@ -297,7 +297,7 @@ def test_without_a_name_it_was_the_review(course: Course) -> None:
     course.grade("--reviewed", str(course.fill({UNREAD: "4"})))
     (item,) = (i for i in course.results()["bo"]["items"] if i["question"] == "rod")
     assert (item["decided_by"], item["status"], item["feedback"]) == (
-        "review", "right", "A person has looked at this answer.",
+        "review", "right", "A person has reviewed this answer.",
     )  # fmt: skip
 
 

@@ -18,7 +18,7 @@ from shared.documented import DOCUMENTS, ROOT, SITE, name_of
 GLOSSARY = SITE / "reference" / "glossary.md"
 PACKAGE = ROOT / "dofkit"
 #: The packages whose texts are written by the dictionary.
-ROOMS: tuple[str, ...] = ("exact", "expressions", "site")
+ROOMS: tuple[str, ...] = ("exact", "expressions", "homework", "site")
 _ROW = re.compile(r"^\| (?P<write>[^|]+) \| (?P<instead>`[^|]+) \|$", re.MULTILINE)
 _CODE = re.compile(r"^```.*?^```$|`[^`]*`", re.MULTILINE | re.DOTALL)
 

@@ -60,7 +60,7 @@ def _write(results: Iterator[Result], prepared: Prepared, target: Target, roster
             if not is_cell(who) or who == "0" or (member is None and ("@" in who) != (column == "useremail")):
                 apart.add(result, f"there is no {column} of theirs")
                 continue
-            told = escape(feedback(result), quote=False)
+            told = escape(feedback(result, prepared.assignment.language), quote=False)
             rows.writerow([who, number(result.score or 0.0), cell(told)])
 
 

@@ -31,7 +31,7 @@ _OF_EQUATIONS = {
     "STRONGER": "It implies the constraint, but forbids more.",
     "DIFFERENT": "Another constraint.",
     "ROUNDED": "The constraint with a number that was rounded, where the exact one was asked for.",
-    "EMPTY": "Nothing satisfies it together with the other constraints.",
+    "EMPTY": "No configuration satisfies it together with the other constraints.",
     "UNDECIDED": "Whether it is the same constraint could not be decided.",
     "INTEGRABLE": "The constraint integrates to a finite relation, and it was said not to.",
     "NOT_INTEGRABLE": "The constraint does not integrate to a finite relation, and one was given.",
