@@ -81,7 +81,7 @@ def _stopped(error: TextError, problem: str, asked: QuestionBase, given: Given, 
 
 @lru_cache(maxsize=8)
 def _prepared(path: str, changed: int) -> Prepared:
-    """The names of an assignment; nothing is asked of them but how texts read."""
+    """The names of an assignment; no question of the assignment has this name of them but how texts read."""
     del changed
     value = json.loads(Path(path).read_text(encoding="utf-8"), parse_float=Decimal)
     assignment = Assignment.model_validate(value)

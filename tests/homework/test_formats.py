@@ -378,8 +378,8 @@ def test_the_overview(prepared: Prepared, tmp_path: Path) -> None:
              result("d", RIGHT, OPEN), REFUSED]  # fmt: skip
     shown = " ".join(pages(prepared, tmp_path, given)["index.html"].shown.split())
     assert "5 submissions 3.33 mean of 10 points 4 median 1 answer to review 1 not gradable" in shown
-    assert "3 submissions by points; 1 with answers in review is not counted" in shown
-    assert "p.f the degrees of freedom 1 / 2 ✓ 2 correct ✗ 2 incorrect" in shown
+    assert "3 submissions by points. 1 with answers awaiting review is not included" in shown
+    assert "p.f the number of degrees of freedom 1 / 2 ✓ 2 correct ✗ 2 incorrect" in shown
     assert "(rod) 2.67 / 8 ◐ 2 partly correct ? 1 not readable … 1 awaiting review" in shown
     assert (
         "2 The same set of configurations, but written so that its differential vanishes there (squared). IRR" in shown
@@ -391,7 +391,7 @@ def test_whose_it_is_stands_on_the_pages(prepared: Prepared, tmp_path: Path) -> 
     given = [result("ada", RIGHT), result("bob", RIGHT).model_copy(update={"doubt": f"it names {MARKUP}"})]
     found = pages(prepared, tmp_path, given)
     shown = " ".join(found["index.html"].shown.split())
-    assert f"Submissions of which a person has to say whose they are Student Why bob it names {MARKUP}" in shown
+    assert f"Submissions whose student is uncertain Student Why bob it names {MARKUP}" in shown
     assert "1 submission by points" in shown
     assert f"It is not certain whose submission this is. it names {MARKUP}" in " ".join(
         found["students/bob.html"].shown.split()

@@ -74,7 +74,7 @@ def test_canvas_without_a_roster(prepared: Prepared, tmp_path: Path) -> None:
     assert found == [HEADER, ["Points Possible", "", "", "", "", "10"], ["ada", "", "", "ada", "", "2"]]
     assert apart == [
         ["student", "points so far", "of", "open points", "why"],
-        ["bob", "2", "10", "8", "it is not final: 8 points are open"],
+        ["bob", "2", "10", "8", "it is not final: 8 points are undecided"],
         ["ada", "", "10", "0", "it could not be graded: line 3: <b>no</b> JSON"],
     ]
 
@@ -92,8 +92,8 @@ def test_canvas_by_its_own_gradebook(prepared: Prepared, tmp_path: Path) -> None
         ["103", "103", "S3", "eve", "M2", "0"],
     ]
     assert [(row[0], row[-1]) for row in apart[1:]] == [
-        ("mallory", "they are not in the roster"),
-        ("S1", "they have a row already"),
+        ("mallory", "the student is not in the roster"),
+        ("S1", "the student already has a row"),
     ]
 
 
@@ -177,7 +177,7 @@ def test_without_a_path_they_are_told_on_standard_error(prepared: Prepared, caps
     stream = io.StringIO()
     FORMATS["canvas"].write(iter([result("bob", open_points=8)]), prepared, stream)
     assert "bob" not in stream.getvalue()
-    assert capsys.readouterr().err == "not in the table: bob: it is not final: 8 points are open\n"
+    assert capsys.readouterr().err == "not in the table: bob: it is not final: 8 points are undecided\n"
 
 
 # rosters
@@ -204,10 +204,10 @@ def test_headers_of_rosters(text: str, student: str, tmp_path: Path) -> None:
     ("text", "why"),
     [
         ("", "is empty"),
-        ("points,grade\n1,2\n", "tells nobody apart: its header is points, grade"),
-        ("name,email\nAda,a@x\nBob,A@X\n", "line 3: 'A@X' stands in line 2 too"),
-        ("name\nAda\nada\n", "line 3: 'ada' stands in line 2 too"),
-        ("name,email\nAda,\nAda,\n", "line 3: 'Ada' stands in line 2 too"),
+        ("points,grade\n1,2\n", "does not identify anyone: its header is points, grade"),
+        ("name,email\nAda,a@x\nBob,A@X\n", "line 3: 'A@X' also occurs in line 2"),
+        ("name\nAda\nada\n", "line 3: 'ada' also occurs in line 2"),
+        ("name,email\nAda,\nAda,\n", "line 3: 'Ada' also occurs in line 2"),
     ],
 )
 def test_rosters_that_cannot_be_used(text: str, why: str, tmp_path: Path) -> None:

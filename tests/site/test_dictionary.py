@@ -31,7 +31,10 @@ class Allowed(NamedTuple):
     reason: str
 
 
-ALLOWED: tuple[Allowed, ...] = ()
+ALLOWED: tuple[Allowed, ...] = (
+    Allowed("can be dropped", "homework/answers/denials.py", "the words of students, which are read"),
+    Allowed("finite relation", "homework/answers/denials.py", "the words of students, which are read"),
+)
 MOST_ALLOWED = 20
 
 

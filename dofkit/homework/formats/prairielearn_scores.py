@@ -34,7 +34,7 @@ def write_scores(results: Iterator[Result], prepared: Prepared, target: Path, ha
     rows = submitted_in(handback.sources, prepared.columns())
     if not rows:
         raise FormatError(
-            f"{target} takes points back to PrairieLearn by its own table: grade the CSV that its page Downloads has, "
+            f"{target} returns points to PrairieLearn in its own table: grade the CSV from its Downloads page,  "
             "of submissions for manual grading or of final submissions"
         )
     known: dict[str, SubmittedRow] = {}
@@ -47,7 +47,7 @@ def write_scores(results: Iterator[Result], prepared: Prepared, target: Path, ha
             row = known.get(result.student)
             if not _is_asked(result, row):
                 continue
-            why = "there is no submission of theirs in the table" if row is None else _withheld(result, row)
+            why = "the table has no submission of this student" if row is None else _withheld(result, row)
             if row is None or why is not None:
                 apart.add(result, str(why))
                 continue

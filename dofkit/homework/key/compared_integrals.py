@@ -1,4 +1,4 @@
-"""An answer beside the finite relation that a differential constraint integrates to, its constant anywhere or left out.
+"""An answer beside the integral of a differential constraint, its constant anywhere or left out.
 
 `y = C x` is an integral of y dx - x dy = 0 because on every curve of this family the form vanishes, and because the
 family has a curve through every point. So the constant is a coordinate of its own that does not change.

@@ -72,15 +72,15 @@ class IntegralQuestion(QuestionBase):
         "write: none."
     )
     examples: ClassVar[tuple[str, ...]] = ("u^2 - w^3 = C", "u w^2 = C")
-    ask: Literal["integral"] = Field(description="the finite relation that a differential constraint integrates to")
+    ask: Literal["integral"] = Field(description="the integral of a differential constraint")
     constraint: str = Field(description="the name of the constraint")
 
     def faults(self, key: Key) -> Iterator[Fault]:
         yield from _unknown((self.constraint,), key)
         entry = key.constraints.get(self.constraint)
         if entry is not None and entry.form not in ("pfaffian", "nonlinear"):
-            hint = "ask for the integral of a differential constraint"
-            yield Fault(f"'{self.constraint}' is not differential", ("constraint",), hint=hint)
+            hint = "`integral` asks about a differential constraint"
+            yield Fault(f"'{self.constraint}' is not a differential constraint", ("constraint",), hint=hint)
 
     def read(self, answer: Given, key: Key) -> str:
         if is_none(answer, _says_relation):

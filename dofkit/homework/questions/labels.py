@@ -37,10 +37,10 @@ class LabelQuestion(QuestionBase):
         "non-holonomic, scleronomic",
         "holonomic, scleronomic",
     )
-    ask: Literal["label"] = Field(description="the labels of a constraint")
+    ask: Literal["label"] = Field(description="the classification of a constraint")
     constraint: str = Field(description="the name of the constraint")
     parts: Annotated[tuple[Part, ...], Listed, Field(min_length=1)] = Field(
-        ("holonomic", "scleronomic"), description="which labels are asked for"
+        ("holonomic", "scleronomic"), description="which parts of the classification are asked for"
     )
 
     def faults(self, key: Key) -> Iterator[Fault]:

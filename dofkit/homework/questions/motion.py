@@ -196,7 +196,7 @@ class MotionQuestion(_MotionQuestion):
     wanted: ClassVar[str] = "What are the equations of motion?"
     how: ClassVar[str] = "Equations of motion: write xddot for an acceleration, one equation per line."
     examples: ClassVar[tuple[str, ...]] = ("M uddot + kappa u^3 = 0", "chiddot + nu^2 sin(chi)^2 = 0")
-    ask: Literal["motion"] = Field(description="an equation of motion, or all")
+    ask: Literal["motion"] = Field(description="an equation of motion, or all of them")
     coordinate: str | None = Field(None, description="the coordinate whose equation is asked for")
 
     def asked(self, about: str) -> Said:

@@ -61,7 +61,7 @@ class Redundant(QuestionBase):
     )
     how: ClassVar[str] = "Constraints: write their names, separated by commas; if there are none, write: none."
     examples: ClassVar[tuple[str, ...]] = ("bar_17, bar_23",)
-    ask: Literal["redundant"] = Field(description="constraints that can be dropped together, as many as possible")
+    ask: Literal["redundant"] = Field(description="a largest set of redundant constraints")
 
     def read(self, answer: Given, key: Key) -> str:
         return " or ".join(", ".join(self._names(one, key)) or "none" for one in alternatives(answer))

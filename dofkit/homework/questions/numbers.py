@@ -96,7 +96,7 @@ class Dof(NumberQuestion):
     wanted: ClassVar[str] = "How many degrees of freedom does the system have?"
     how: ClassVar[str] = "The number of degrees of freedom: write an integer."
     examples: ClassVar[tuple[str, ...]] = ("f = 12", "f = 15", "f = 18")
-    ask: Literal["dof"] = Field(description="the degrees of freedom")
+    ask: Literal["dof"] = Field(description="the number of degrees of freedom")
 
     def advice(self, key: Key) -> str:
         return _VELOCITIES if key.convention == "velocity" else _CONFIGURATION
@@ -118,7 +118,7 @@ class VelocityDof(NumberQuestion):
     wanted: ClassVar[str] = "How many independent generalized velocities are there?"
     how: ClassVar[str] = "The number of independent generalized velocities: write an integer."
     examples: ClassVar[tuple[str, ...]] = ("12", "15", "18")
-    ask: Literal["velocity_dof"] = Field(description="the number of independent velocities")
+    ask: Literal["velocity_dof"] = Field(description="the number of independent generalized velocities")
 
     def advice(self, key: Key) -> str:
         return _VELOCITIES
@@ -142,13 +142,13 @@ class VelocityDof(NumberQuestion):
 
 
 class CountQuestion(NumberQuestion):
-    """k: the number of independent finite constraint equations, coordinates less the configuration's dimension."""
+    """k: the number of independent holonomic equations, coordinates less the configuration's dimension."""
 
     letters: ClassVar[frozenset[str]] = frozenset({"k", "r", "m", "nc", "constraints", "bindungen"})
     wanted: ClassVar[str] = "How many independent holonomic constraint equations are there?"
     how: ClassVar[str] = "The number of constraint equations: write an integer."
     examples: ClassVar[tuple[str, ...]] = ("k = 12", "k = 15", "k = 18")
-    ask: Literal["k"] = Field(description="the number of independent finite constraint equations")
+    ask: Literal["k"] = Field(description="the number of independent holonomic equations")
 
     def advice(self, key: Key) -> str:
         return "Count the independent holonomic equations; non-integrable equations in the velocities do not count."
