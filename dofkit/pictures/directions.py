@@ -61,7 +61,7 @@ def phase_sketch(stage: StagedScene) -> Sketch:
     if len(names) < len(distribution.names):
         axes += f" Not shown: {', '.join(n for n in distribution.names if n not in names)}."
     if distribution.timed:
-        axes += " Time is held fixed."
+        axes += " Time is fixed."
     note = f"{_growth(report, found)}; s{axes}"
     return Sketch(
         title=f"{stage.scene.title or stage.scene.name}: directions",

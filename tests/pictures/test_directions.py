@@ -88,7 +88,7 @@ def test_what_is_not_linear_in_velocities_has_no_directions(text: str) -> None:
 
 def test_it_is_told_that_time_stands_still() -> None:
     scene = {"coordinates": ["x", "y", "z"], "constraints": ["dz = x dy + t dx"]}
-    assert "Time is held fixed." in dofkit.phase(scene).sketch.notes[0]
+    assert "Time is fixed." in dofkit.phase(scene).sketch.notes[0]
     assert not any("Time" in note for note in dofkit.phase(HEISENBERG).sketch.notes)
 
 
