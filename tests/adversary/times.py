@@ -58,8 +58,8 @@ def homogeneous(rng: random.Random, size: int) -> Case:
 
 
 def inhomogeneous(rng: random.Random, size: int) -> Case:
-    """Terms of different degrees in the velocities: the equation in differentials needs dt, so it is rheonomic. The
-    velocities form a surface that is not flat: non-holonomic."""
+    """Terms of different degrees in the velocities, without t: scleronomic. The velocities form a surface that is not
+    flat: non-holonomic."""
     k = rng.choice((2, 3, 4, 5, 7))
     text = rng.choice(
         (
@@ -69,7 +69,7 @@ def inhomogeneous(rng: random.Random, size: int) -> Case:
             "xdot^2 + ydot^2 = zdot",
         )
     )
-    return Case(plain("x y z", [text]), truths(3, 2, holonomic=False, scleronomic=False))
+    return Case(plain("x y z", [text]), truths(3, 2, holonomic=False, scleronomic=True))
 
 
 def cancelled(rng: random.Random, size: int) -> Case:

@@ -24,9 +24,8 @@ def scene(*constraints: Any, coordinates: list[str] | None = None, **more: Any) 
 
 def drop(rank: int, to: int, velocities: int) -> str:
     more = velocities + rank - to
-    allowed = "1 velocity is" if more == 1 else f"{more} velocities are"
-    said = f"the rank of the constraints drops from {rank} to {to}: "
-    return f"{said}to first order {allowed} allowed there instead of {velocities}"
+    freedom = f"the instantaneous freedom is {more} there instead of {velocities}"
+    return f"the rank of the constraints drops from {rank} to {to}: {freedom}"
 
 
 def flat(there: str, elsewhere: str) -> str:

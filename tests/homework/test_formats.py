@@ -381,9 +381,7 @@ def test_the_overview(prepared: Prepared, tmp_path: Path) -> None:
     assert "3 submissions by points. 1 with answers awaiting review is not included" in shown
     assert "p.f the number of degrees of freedom 1 / 2 ✓ 2 correct ✗ 2 incorrect" in shown
     assert "(rod) 2.67 / 8 ◐ 2 partly correct ? 1 not readable … 1 awaiting review" in shown
-    assert (
-        "2 The same set of configurations, but written so that its differential vanishes there (squared). IRR" in shown
-    )
+    assert "2 The same set of configurations, but the gradient vanishes on it, as for a squared equation. IRR" in shown
     assert "p.rod 8 points The time was not enough. d Points" in shown
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from ruamel.yaml import YAML
+import yaml
 
 from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import load_assignment
@@ -34,7 +34,7 @@ OPEN = frozenset({"unreadable", "needs_review", "missing"})
 
 @cache
 def document(name: str) -> Any:
-    return YAML(typ="safe").load((FOLDER / f"{name}.yaml").read_text(encoding="utf-8"))
+    return yaml.safe_load((FOLDER / f"{name}.yaml").read_text(encoding="utf-8"))
 
 
 @cache

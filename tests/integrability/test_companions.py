@@ -69,7 +69,7 @@ def test_whom_a_form_needs(coordinates: str, constraints: list[str], name: str, 
     entry = next(e for e in classified(coordinates, *constraints).constraints if e.name == name)
     assert entry.holonomic
     assert entry.holonomic_alone is False
-    assert f"only together with {' and '.join(repr(n) for n in needs)}" in entry.reason
+    assert f"together with {' and '.join(repr(n) for n in needs)} it is integrable" in entry.reason
 
 
 @pytest.mark.parametrize(
@@ -89,7 +89,7 @@ def test_what_a_form_says_modulo_the_others(coordinates: str, constraints: list[
     report = classified(coordinates, *constraints)
     assert not any(e.holonomic for e in report.constraints)
     assert all(e.integral is None for e in report.constraints)
-    said = {e.name: e.reason.partition("with them it says ")[2].rstrip(".") for e in report.constraints}
+    said = {e.name: e.reason.partition("together with them it implies ")[2].rstrip(".") for e in report.constraints}
     assert {name: text for name, text in said.items() if text} == modulo
 
 

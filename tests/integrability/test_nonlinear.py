@@ -330,7 +330,7 @@ def test_the_reason_tells_what_is_left_of_it() -> None:
     rolling = report_of(scene("x y psi theta phi", *ROLLING, "xdot^2 + ydot^2 = a^2 psidot^2", parameters=SIZES))
     assert "integrable modulo the others" in rolling["constraints"][2]["reason"]
     helix = report_of(scene("x y z", "zdot = y xdot", "xdot = 0", "zdot^2 + xdot ydot = 0"))
-    assert "It follows from c1, c2." in helix["constraints"][2]["reason"]
+    assert "It is implied by c1, c2." in helix["constraints"][2]["reason"]
 
 
 def test_more_constraints_than_are_tried_one_by_one_are_left_open(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -365,4 +365,4 @@ def test_at_a_reference_velocities_are_those_that_it_allows(
 def test_a_reference_outside_the_domain_is_told(constraint: str) -> None:
     at = {"x": 0, "y": -1, "z": 0}
     report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": [constraint], "configuration": at})
-    assert report.dof is None or any("nothing is said of the reference itself" in told for told in report.warnings)
+    assert report.dof is None or any("not for the reference configuration itself" in told for told in report.warnings)

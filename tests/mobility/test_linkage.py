@@ -23,7 +23,7 @@ from dofkit.mobility.graph.answers import LinkageError
 
 Link = tuple[Any, Any]
 Pairs = Sequence[tuple[int, int]]
-#: A prime at which random positions are special with a chance below 1e-15.
+#: A prime at which random positions are special with a chance of error below 1e-15.
 P = 2**61 - 1
 
 
@@ -430,7 +430,7 @@ def test_a_dependence_that_no_count_proves_is_probable(monkeypatch: pytest.Monke
     monkeypatch.setattr(space, "hinged_bound", lambda _: 10**9)
     told = dofkit.linkage(BANANAS, 3)
     assert (told.rank, told.verdict) == (17, "probable")
-    assert "chance below" in told.proof("redundant").reason
+    assert "chance of error below" in told.proof("redundant").reason
 
 
 def test_a_core_too_large_for_a_dense_matrix(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -442,7 +442,7 @@ def test_a_core_too_large_for_a_dense_matrix(monkeypatch: pytest.MonkeyPatch) ->
         assert (told.rank, told.redundant, told.circuit_places) == (known.rank, known.redundant, known.circuit_places)
         assert told.verdict == ("probable" if len(told.redundant) > len(links) - len(set(links)) else "proved")
     assert dofkit.linkage(complete("ABCDEF"), 3).clusters == [list("ABCDEF")]
-    with pytest.raises(LinkageError, match="too many to tell apart"):
+    with pytest.raises(LinkageError, match="too many to separate"):
         _ = dofkit.linkage(BANANAS, 3).clusters
 
 

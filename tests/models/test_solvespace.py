@@ -84,7 +84,7 @@ def test_a_constraint_that_is_not_read_is_a_warning() -> None:
     sketch = square()
     sketch.add(110, lambda q: [0j])
     report = dofkit.classify(load(sketch.text()))
-    assert any("less freedom: constraint c005-same-orientation" in told for told in report.warnings)
+    assert any("the true freedom may be smaller: constraint c005-same-orientation" in told for told in report.warnings)
 
 
 def test_text_keeps_its_shape() -> None:

@@ -461,7 +461,7 @@ def test_every_entry_is_of_one_piece(path: Path) -> None:
         assert entry.bilateral is (entry.form != "inequality")
         assert entry.form != "finite" or (entry.holonomic and entry.holonomic_alone)
         assert entry.form != "inequality" or entry.holonomic is False
-        assert (entry.catastatic is None) is (entry.form != "pfaffian")
+        assert (entry.catastatic is None) is (entry.form not in ("pfaffian", "nonlinear"))
         assert entry.holonomic or not entry.holonomic_alone
         assert not entry.exact or (entry.holonomic_alone and entry.integrating_factor is None)
         assert entry.integral is None or entry.holonomic

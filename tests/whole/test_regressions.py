@@ -110,7 +110,7 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
     ("no solution, however small exp is", scene("z = 0", "z + exp(-200 x) = 0"), {"dof": None}),
     ("a factor of time alone", scene("t*(x-y)=0"), {"dof": 2, "scleronomic": True}),
     ("a factor of time alone before a form", scene("t*(dz - y dx) = 0"), {"scleronomic": True, "holonomic": False}),
-    ("an unknown factor of time", scene("f(t)*(dz - y dx) = 0", functions={"f": ["t"]}), {"scleronomic": False}),
+    ("an unknown factor of time", scene("f(t)*(dz - y dx) = 0", functions={"f": ["t"]}), {"scleronomic": True}),
     ("time turns the form", scene("cos(t) dx + sin(t) dy = 0"), {"scleronomic": False}),
     ("x = a and x = -a", scene("x=a", "x=-a", parameters={"a": "nonzero"}), {"consistent": False}),
     ("a ball that holds 0 has squares", scene("z=0", "x^2+y^2+z^2=1", "x^2+y^2=1"), {"dof": 1, "redundant": ["c3"]}),

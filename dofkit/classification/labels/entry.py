@@ -165,13 +165,15 @@ def _of_every_form(labels: EntryLabels, rows: Sequence[LabelledRow], normals: Se
 
     Branches with an equation between numbers that differ do not count.
     """
+    if labels.in_system is not False:
+        return labels
     branches = [
         b for n in normals for b in n.branches if not any(isinstance(p, Finite) and p.expr.op == "num" for p in b)
     ]
     forms = [p for b in branches for p in b if isinstance(p, (Pfaffian, Nonlinear))]
     apart = [r for r in rows if r.label is not None and r.label.holonomic is False]
     every = len(forms) == 1 or len(forms) == len(apart)
-    return labels if every or labels.in_system is not False else labels._replace(in_system=None)
+    return labels if every else labels._replace(in_system=None)
 
 
 def _claims(

@@ -117,6 +117,6 @@ def remarks(prepared: Prepared) -> Iterator[str]:
             asked = [n for q in problem.questions if isinstance(q, EquationQuestion) for n in q.constraint]
             for name in dict.fromkeys(n for n in asked if scene[n].facts.written):
                 yield (
-                    f"problem '{problem.id}': the equation of '{name}' is asked for, and the scene has nothing but "
+                    f"problem '{problem.id}': the equation of '{name}' is asked for, and the scene contains only "
                     "this equation: describe the system in `text`"
                 )
