@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
 
+from dofkit.base.documents import read_document
 from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.grading import Grader
@@ -34,7 +34,7 @@ OPEN = frozenset({"unreadable", "needs_review", "missing"})
 
 @cache
 def document(name: str) -> Any:
-    return yaml.safe_load((FOLDER / f"{name}.yaml").read_text(encoding="utf-8"))
+    return read_document((FOLDER / f"{name}.yaml").read_bytes(), name).value
 
 
 @cache
