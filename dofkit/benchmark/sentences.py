@@ -104,7 +104,7 @@ def _tolerance(chart: ChartRun) -> str:
         "With the tolerance equal to the rounding dofkit finds what was rounded in "
         f"{_percent(ours.right, ours.trials)} of the trials and is wrong in {_percent(ours.wrong, ours.trials)}; "
         "singular values with that tolerance find it in "
-        f"{_percent(other.right, other.trials)}, and with the best one for all drawings in "
+        f"{_percent(other.right, other.trials)}, and with the best one for all scenes in "
         f"{_percent(other.best, 1)}."
     )
 
@@ -127,7 +127,7 @@ def _bits(chart: ChartRun) -> str:
         return ""
     ends = [max(needed), min(needed)]
     told = [f"{needed[gap]:g} bits for a gap of 10^{round(math.log10(gap))}" for gap in ends]
-    return f"Balls by themselves are never wrong from {told[0]} and from {told[1]} on."
+    return f"`balls` on its own is never wrong from {told[0]} and from {told[1]} on."
 
 
 def _primes(chart: ChartRun) -> str:
@@ -141,7 +141,7 @@ def _primes(chart: ChartRun) -> str:
         return f"`field` was wrong with no size of its primes, from {values[0]:g} bits on."
     count, asked = sum(s.wrong for s in steps), sum(s.trials for s in steps if s.value in wrong)
     above = next((v for v in values if v > wrong[-1]), None)
-    told = f"`field` by itself was wrong {count} times in {_spaced(asked)}, with primes of {_span(wrong)} bits"
+    told = f"`field` on its own was wrong {count} times in {_spaced(asked)}, with primes of {_span(wrong)} bits"
     told += "" if above is None else f", and never from {above:g} bits on"
     return told + (f"; with {_span(lost)} bits it decided nothing." if lost else ".")
 
@@ -168,8 +168,8 @@ def _reductions(chart: ChartRun) -> str:
     off, on = max(((o, w) for o, w in pairs if o.family == o.off), key=lambda pair: pair[0].seconds / pair[1].seconds)
     return (
         f"Left out one by one in {_spaced(len(pairs))} cases, the reductions change {changed or 'no'} "
-        f"answer{'s' * (changed > 1)}; the most that one saves of the time on scenes made for it is a factor of "
-        f"{off.seconds / on.seconds:.2g} ({titles[off.off]})."
+        f"answer{'s' * (changed > 1)}; on scenes made for it, one reduction saves at most a factor of "
+        f"{off.seconds / on.seconds:.2g} of the time ({titles[off.off]})."
     )
 
 

@@ -35,37 +35,38 @@ def provenance(ran: Ran) -> str:
 
 _CAPTIONS = {
     "fronts": (
-        "Each square is a method at the median time of the trials that it can answer, the whisker goes from the "
-        "10th to the 90th of 100 of them (one that timed out counts with the limit). Upwards, logarithmically, the "
-        "share of trials that are not answered rightly; of these wrong ones stand in red, and apart what is left "
-        "open: undecided, too slow, or not answered by such a method. The grey stair joins the methods that were "
-        "never wrong and that no other such one beats."
+        "Each square is a method at the median time of the trials that it can answer, the whisker goes from the 10th "
+        "to the 90th of 100 of them (one that timed out counts with the limit). Upwards, logarithmically, the share "
+        "of trials without the right answer; wrong answers are listed in red, and separately trials without an answer "
+        "(undecided, timed out or not applicable). The grey steps are the Pareto front of the methods that were never "
+        "wrong."
     ),
     "matrix": (
-        "Every cell shows the shares of the outcomes of a method on the trials of a family (beside them their "
-        "number). A number in red: so many per cent are wrong; in grey: none is, and so many are left open; none: "
-        "all are right. Under each heading the hardest families stand last, by the share that all methods together "
-        "do not get right."
+        "Every cell shows the shares of the outcomes of a method on the trials of a family (their number stands next "
+        "to it). A red number is the percentage of wrong answers; a grey one, where none is wrong, that of trials "
+        "without an answer; no number means that all are right. Under each heading the hardest families stand last, "
+        "by the share that all methods together do not get right."
     ),
     "cost": (
-        "Medians over the trials of a size. A cross: timed out (dotted line), larger sizes are not run. The "
-        "exponents are fitted by least squares on logarithms over the largest decade of sizes, and told where a "
-        "power law fits: with a standard error below a tenth of it. In grey the other methods; all families are in "
-        "chart.json."
+        "Medians over the trials of a size. A cross marks a trial that timed out (dotted line); larger sizes are not "
+        "run. The exponents are fitted by least squares on logarithms over the largest decade of sizes, and given "
+        "where a power law fits (standard error below a tenth of the exponent). The other methods are grey; all "
+        "families are in chart.json."
     ),
     "tolerance": (
-        "Singular drawings with coordinates rounded to so many digits; the truth is that of what was rounded. Each "
-        "bar shows the shares of ten trials. Left: ranks by singular values, where what is below that share of the "
-        "largest counts as 0. Right: dofkit, with that tolerance written in the scene. The triangle: the tolerance "
-        "equal to the rounding; a smaller one says of the drawing what does not hold."
+        "Singular configurations with coordinates rounded to the given number of digits; the right answer is that of "
+        "the unrounded geometry. Each bar shows the shares of ten trials. Left: ranks by singular values, where "
+        "values below that fraction of the largest count as 0. Right: dofkit, with that tolerance written in the "
+        "scene. The triangle marks the tolerance equal to the rounding; a smaller one is not true of the rounded "
+        "geometry."
     ),
     "bits": (
-        "Balls of one precision by themselves, on scenes that miss a special case by a gap: with too few bits no "
-        "ball tells the gap from 0, and who then takes it for 0 is wrong."
+        "Ball arithmetic of one precision on its own, on scenes that miss a special case by a gap: with too few bits "
+        "no ball distinguishes the gap from 0, and taking it for 0 is wrong."
     ),
     "reductions": (
-        "Each dot is a scene answered with one reduction switched off, against the same scene with all of them on, "
-        "both warm: blue, scenes made to have what the reduction leaves out, of growing size; grey, those of the "
-        "catalog. The bar is the median of the blue ones."
+        "Each dot compares a scene answered with one reduction switched off with the same scene and all of them on, "
+        "both after a first run. Blue: scenes made for the reduction, of growing size; grey: scenes of the catalog. "
+        "The bar is the median of the blue dots."
     ),
 }

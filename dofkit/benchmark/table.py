@@ -62,7 +62,7 @@ def sentences(chart: ChartRun) -> list[str]:
         return []
     trials, wrong = sum(score.trials for score in auto), sum(score.wrong for score in auto)
     open_ = sum(score.undecided + score.timed_out + score.cannot for score in auto)
-    found = [f"auto: {trials} trials, {wrong} wrong, {open_} left open"]
+    found = [f"auto: {trials} trials, {wrong} wrong, {open_} without an answer"]
     if not chart.against:
         return found
     sound = [row for row in chart.against if row.sound_ratio is not None]

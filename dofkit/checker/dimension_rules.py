@@ -150,7 +150,7 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
     dropped, every = names_told(claim), set(evidence.equations)
     order = [owner for owner in owners(evidence) if evidence.owned(owner)]
     if "without" in claim:
-        refuse(evidence.moving or "/dof at" not in verified or not order, "no dof of finite relations was verified")
+        refuse(evidence.moving or "/dof at" not in verified or not order, "no dof of holonomic equations was verified")
         for name in order:
             other = evidence.minor(claim["without"][name])
             whole = set(other.rows) == every.difference(evidence.owned(name))
@@ -283,7 +283,7 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
         verified[f"{claim['path']} at"] = evidence.is_about("here", minor.point)
     if rank < len(names):
         rows = [row for name in claim["covers"] for row in evidence.seen["covers", name]]
-        refuse(blocks or order or sorted(rows) != sorted(names), "one cover of all finite relations is needed")
+        refuse(blocks or order or sorted(rows) != sorted(names), "one cover of all holonomic equations is needed")
     if not evidence.moving or claim["path"] == "/velocity_dof":
         refuse(not whole, "each relation stands in one place")
         return size - rank

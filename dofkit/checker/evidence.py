@@ -98,7 +98,7 @@ class CheckedEvidence(CheckedRelations):
             wrong = still and not_zero(point.value(one.left))
             if states:
                 wrong |= not self.is_zero(total_derivative(one.left, self.variables) if still else one.left, point)
-            refuse(wrong, f"`{one.name}` does not hold at the point `{point.name}`, or not for its velocities")
+            refuse(wrong, f"`{one.name}` is not satisfied at the point `{point.name}`, or not by its velocities")
 
     def minor(self, given: Any, allowed: Collection[str] | None = None) -> CheckedMinor:
         """A minor, by its id or itself: rows that follow from ``allowed`` (or all relations), and are independent."""
@@ -288,7 +288,7 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> list[str]:
         tangent(evidence, fields, block["rows"])
         independent(evidence, fields, block["columns"], minor.point)
         total += min(len(own) - len(fields), len(block["rows"]))
-    refuse(not once or total != len(minor.rows), "each finite relation once, and the rank of the minor are needed")
+    refuse(not once or total != len(minor.rows), "each holonomic equation once, and the rank of the minor are needed")
     evidence.consequences += (Consequence(row, minor.rows, at=minor.point.name) for row in {*rows} - {*minor.rows})
     return rows
 
@@ -322,7 +322,7 @@ def isolated(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
     """
     minor, name = evidence.minor(given["minor"]), given["zero"]
     unfit = evidence.moving or evidence.problem.world.names.functions or evidence.holds_time((*minor.rows, name))
-    refuse(unfit or not {*minor.rows, name} <= {*evidence.finite}, "finite relations of the scene, without time")
+    refuse(unfit or not {*minor.rows, name} <= {*evidence.finite}, "holonomic equations of the scene, without time")
     evidence.on_set(minor.point, (*minor.rows, name))
     speeds = {q: minor.point.value(evidence.text(text)) for q, text in given["speeds"].items()}
     refuse(not speeds.keys() <= {*evidence.problem.coordinates} - {*minor.columns}, "speeds are of free coordinates")

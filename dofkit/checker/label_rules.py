@@ -198,7 +198,7 @@ def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
     refuse(evidence.met_by(function) or not moves, "the integral may be constant near the point")
     evidence.identity(evidence.relation(claim["step"]).left, function, "the integral of the step")
     others, whole = [*claim.get("integrals", [])], own(evidence, claim)
-    refuse(set(whole) <= set(evidence.finite), "a finite relation has no integral")
+    refuse(set(whole) <= set(evidence.finite), "a holonomic equation has no integral")
     if not others:
         evidence.follow([claim["step"]], {*evidence.finite, *whole}, point, "the constraint")
     else:
@@ -222,7 +222,7 @@ def integrable_part(evidence: CheckedEvidence, claim: Told, verified: Told) -> T
     for text, name in zip(found["basis"], steps, strict=True):
         left, one = told_integral(evidence, text), evidence.relation(name)
         refuse(not one.leaf, "a relation of the basis is an integral")
-        evidence.identity(evidence.text(left), one.left, "a relation of the basis as it is told")
+        evidence.identity(evidence.text(left), one.left, "a relation of the basis as claimed")
     return found
 
 
@@ -249,7 +249,7 @@ def consistent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
         place = point if together else evidence.point(places.get(one.name, places.get(one.owner, point.name)))
         equal_will_do = not one.strict and not evidence.is_open(one.left)
         met = place.value(one.left) > 0 or (equal_will_do and evidence.holds(one.name, place))
-        refuse(not met, f"the inequality `{one.name}` is not shown to hold at its point")
+        refuse(not met, f"the inequality `{one.name}` is not shown to be satisfied at its point")
     return True
 
 

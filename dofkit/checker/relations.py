@@ -184,7 +184,7 @@ class CheckedRelations(CheckedTexts):
     def _rate(self, step: dict[str, Any]) -> tuple[Tree | None, Consequence | None]:
         """What is constantly 0, or keeps its value, has the derivative 0."""
         of = self.relation(step["of"])
-        refuse(of.kind != "finite", "only a finite relation has a rate")
+        refuse(of.kind != "finite", "only a holonomic equation has a rate")
         return total_derivative(of.left, self.variables), Consequence(step["id"], (of.name,), (), (of.left,))
 
     def owned(self, owner: str | None, kinds: Collection[str] = ("finite", "velocity")) -> tuple[str, ...]:

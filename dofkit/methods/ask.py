@@ -226,7 +226,7 @@ def _redundancy(known: Study) -> Reply:
         found = all_needed(found, known.reduced, outcome)
     left = sorted({i for r in found for i in r.undecided})
     if left:
-        return Reply(None, "undecided", f"whether {known.names[left[0]]} follows from the others was not decided")
+        return Reply(None, "undecided", f"whether {known.names[left[0]]} is implied by the others was not decided")
     gone = sorted({i for r in found for i in r.redundant})
     return Reply([known.names[i] for i in gone], weakest(*(a.verdict for a in outcome.answers)))
 
@@ -237,7 +237,7 @@ def _equivalence(scene: Scene, answer: Mapping[str, str], engines: Engines) -> R
     answered_by, own = system.numbers_of(answer["constraint"]), range(len(scene.constraints), len(system.constraints))
     found = compare(system, answered_by, own, read.constants, engines).sameness
     if found is Sameness.UNDECIDED:
-        return Reply(None, "undecided", "it was not decided whether one follows from the other")
+        return Reply(None, "undecided", "it was not decided whether each implies the other")
     return Reply(found is Sameness.SAME, "probable", "" if found is Sameness.SAME else found.value)
 
 

@@ -12,7 +12,7 @@ from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodLabel, Meth
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, System
 
-CLOSED = "It is closed as written (all mixed partial derivatives agree), so it integrates to a finite relation."
+CLOSED = "It is closed as written (all mixed partial derivatives agree), so it integrates to a holonomic equation."
 NOT_CLOSED = (
     "It is not closed as written: the classroom's test of mixed partial derivatives calls it non-holonomic, but a "
     "factor may make it integrable, which only Frobenius' condition tells."
@@ -105,13 +105,12 @@ def _sentences(written: Written) -> list[str]:
         told = [f"T{_BELOW[1:].format(number)}."]
     else:
         told = [
-            f"The textbook count gives {many(number, 'degree')} of freedom: it takes every finite equation for "
-            "independent of the others, and for one freedom."
+            f"The textbook count gives {many(number, 'degree')} of freedom: it assumes that every holonomic "
+            "equation is independent and removes one."
         ]
     differential = len(written.forms) + sum(why != "inequality" for why in written.others.values())
     if differential:
         told.append(
-            f"It does not count {many(differential, 'differential equation')}, which may integrate to finite relations "
-            "or hide some."
+            f"It does not count {many(differential, 'differential equation')}, which may imply holonomic equations."
         )
     return told

@@ -248,7 +248,7 @@ def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Rationals
     if found is None:
         return cannot(NOWHERE)
     if any(found.samples[0].residuals):
-        return cannot("the drawing does not satisfy the equations")
+        return cannot("the reference configuration does not satisfy the equations")
     return found, numbers
 
 
@@ -271,7 +271,7 @@ def redundancy(scene: Scene, knobs: Knobs) -> MethodReply:
 
 
 def _unless_contradictory(told: MethodReply) -> MethodReply:
-    """Where nothing can hold, nothing is told of labels."""
+    """Where the constraints contradict each other there are no labels."""
     return MethodReply(None, told.reason, told.cannot)
 
 
@@ -284,6 +284,6 @@ def findings(system: System) -> MethodFindings:
     """What the rational point proves; where the drawing is the point, functions have their own values there."""
     looked = _look(system, Knobs())
     if isinstance(looked, MethodReply):
-        return MethodFindings({}, {}, [f"Nothing is told: {looked.reason}."])
+        return MethodFindings({}, {}, [f"No answer: {looked.reason}."])
     trusted = system.reference is not None or independent_generators(looked[0].rows.ring)
     return at_points(*looked, "proved", trusted)

@@ -108,7 +108,7 @@ def findings(system: System) -> MethodFindings:
     """The count in general position; it is the scene's own where all lengths were left out."""
     why = outside(system)
     if why is not None:
-        return MethodFindings({}, {}, [f"Nothing is told: {why}."])
+        return MethodFindings({}, {}, [f"No answer: {why}."])
     pairs = links(system)
     gone = redundant(system, 0) if pairs is not None else []
     equations = sum(len(c.relations) for c in system.constraints)
@@ -117,11 +117,11 @@ def findings(system: System) -> MethodFindings:
     dof, too_many = len(system.coordinates) - own, equations - own
     names = [system.constraints[i].name for i in gone]
     said = f"In general position there are {many(dof, 'degree')} of freedom, and {many(too_many, 'equation')} too many"
-    said += f" ({', '.join(names)} can be dropped)" if names else ""
+    said += f" (redundant: {', '.join(names)})" if names else ""
     generic = Generic(dof=dof, redundant_equations=too_many, differs=None, verdict=sure)
     answers = general_position(system)
     if answers is None:
-        more = "whether the given geometry is special (parallel, concurrent, collinear) a graph does not see."
+        more = "a graph does not show whether the given geometry is special (parallel, concurrent, collinear)."
         return MethodFindings({"generic": generic}, {}, [f"{said}; {more}"])
     verdict = weakest(*(a.verdict for a in answers))
     fields = {

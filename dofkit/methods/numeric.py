@@ -140,10 +140,10 @@ def findings(system: System) -> MethodFindings:
     """What singular values tell that are clearly parted: none is between rounding and what is clearly not 0."""
     looked, numbers = _look(system, Knobs())
     if looked is None:
-        return MethodFindings({}, {}, [f"{NOWHERE.format(STARTS)}: whether there is one is not told."])
+        return MethodFindings({}, {}, [f"{NOWHERE.format(STARTS)}: whether one exists is undecided."])
     sample = looked.samples[0]
     if any(not numbers.vanishes(r, [*row, 1.0]) for r, row in zip(sample.residuals, sample.finite, strict=True)):
-        return MethodFindings({}, {}, ["Nothing is told: the drawing does not satisfy the equations."])
+        return MethodFindings({}, {}, ["No answer: the reference configuration does not satisfy the equations."])
     sentence, clear = _gap([row[: looked.rows.n] for row in sample.rows])
     if system.tolerance is not None or any(v.kind == "sign" for v in looked.rows.ring.vars):
         clear = False

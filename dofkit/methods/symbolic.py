@@ -179,10 +179,14 @@ def findings(system: System) -> MethodFindings:
     """What SymPy says, as warnings only: none of it is sure."""
     symbols = Symbols(as_written(system))
     passes = passing(symbols)
-    where = "at the drawing" if symbols.drawing else "in the whole space, not only where the constraints hold"
+    where = (
+        "at the reference configuration"
+        if symbols.drawing
+        else "in all of space, not only where the constraints are satisfied"
+    )
     told = [
-        f"SymPy's rank gives {many(_freedom(symbols, passes), 'degree')} of freedom: it is that of the Jacobian "
-        f"{where}, and takes for non-zero what SymPy does not see to be 0."
+        f"SymPy's rank gives {many(_freedom(symbols, passes), 'degree')} of freedom: the rank of the Jacobian "
+        f"{where}, with every entry non-zero that SymPy does not simplify to 0."
     ]
     names = [c.name for c in system.constraints]
     for verb, said in ((True, "integrable"), (False, "not integrable")):

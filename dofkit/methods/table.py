@@ -51,30 +51,30 @@ METHODS: Mapping[MethodName, Method] = {
         "the textbook count f = N d - k, closedness for integrability, texts for equivalence",
         {
             "dof": Use(
-                "independent finite equations that are regular where they hold, and no differential ones",
+                "independent, regular holonomic equations without differential constraints",
                 "O(m): counting",
             ),
             "integrability": Use(
-                "closed forms, which integrate, and finite relations; not closed proves nothing",
+                "closed forms, which integrate, and holonomic equations; a form that is not closed proves nothing",
                 "O(k n^2) partial derivatives",
             ),
             "redundancy": Use("that something is redundant, where the count falls short of what is free", "O(m)"),
             "equivalence": Use("texts that are the same", "O(1): comparing texts"),
         },
-        "it takes every equation for independent and for one freedom, does not see what differential constraints "
-        "integrate to or hide, and does not tell which constraints are redundant",
+        "it assumes that every equation is independent and removes one freedom, does not see which equations "
+        "differential constraints imply, and does not identify redundant constraints",
         "proved",
         partial(_module, "count"),
     ),
     "graph": Method(
-        "generic counts of links and joints: pebble games, or ranks at random places",
+        "generic counts of links and joints: pebble games, or ranks at random positions",
         {
             "dof": Use("links and joints whose geometry is in general position", "almost O(n) for links in the plane"),
-            "integrability": Use("links and joints, which are finite", "O(m)"),
+            "integrability": Use("links and joints, which are holonomic", "O(m)"),
             "redundancy": Use("links and joints whose geometry is in general position", "almost O(n) for links"),
         },
-        "it sees who is joined to whom and not where: parallel, concurrent or collinear places are not told from "
-        "others, and equations that were written say nothing to it",
+        "it sees which bodies are joined and not where: it does not distinguish parallel, concurrent or collinear "
+        "geometry from generic geometry, and ignores written equations",
         "proved",
         partial(_module, "graph"),
     ),
@@ -87,10 +87,13 @@ METHODS: Mapping[MethodName, Method] = {
                 "the Lie algebra along one curve: O(n^3 k) for each part",
             ),
             "redundancy": Use("dependence at a generic point", _BY_BLOCKS),
-            "equivalence": Use("what holds at every complex solution", "two implications, each at a few random states"),
+            "equivalence": Use(
+                "equations that are satisfied at every complex solution",
+                "two implications, each at a few random states",
+            ),
         },
-        "it does not tell whether a real configuration exists (its numbers are those of the complex solutions), which "
-        "way a second-order form bends, nor anything of measured geometry; integrals are not sought",
+        "it does not decide whether a real configuration exists (its numbers are those of the complex solutions) or "
+        "what second-order terms imply, and does not treat measured geometry; integrals are not sought",
         "probable",
         partial(_engine, FIELD),
         FIELD,
@@ -101,36 +104,41 @@ METHODS: Mapping[MethodName, Method] = {
             "dof": Use("independence and full rank, which are proofs", "O(n^3) at real points, in 256 bits"),
             "integrability": Use("non-holonomy, which is a proof", "O(n^3 k) in 256 bits"),
             "redundancy": Use("independence", "O(n^3) in 256 bits"),
-            "equivalence": Use("that an answer is another relation", "two implications, each at a few real states"),
+            "equivalence": Use("that an answer is a different equation", "two implications, each at a few real states"),
         },
-        "it does not tell that relations contradict each other unless they do so as written, gives no growth vector, "
-        "and takes a difference too small for its precision for 0; integrals are not sought",
+        "it does not recognize that equations contradict each other unless they do so as written, gives no growth "
+        "vector, and takes a difference below its precision for 0; integrals are not sought",
         "proved",
         partial(_engine, BALLS),
         BALLS,
     ),
     "exact": Method(
-        "the Jacobian in rational numbers at the drawing, or at one rational point",
+        "the Jacobian in rational numbers at the reference configuration, or at one rational point",
         {
-            "dof": Use("velocities at the drawing; the freedom where all equations are independent there", "O(n^3)"),
+            "dof": Use(
+                "velocities at the reference configuration; the freedom where all equations are independent there",
+                "O(n^3)",
+            ),
             "integrability": Use("that a form fails Frobenius' test at a regular point", "O(n^3 k) at one point"),
-            "redundancy": Use("that nothing is, where all equations are independent at the drawing", "O(m n^2)"),
-            "equivalence": Use("that an answer is another relation", "one rational point"),
+            "redundancy": Use("that nothing is, where all equations are independent at that point", "O(m n^2)"),
+            "equivalence": Use("that an answer is a different equation", "one rational point"),
         },
         "it looks at one point, which may be special, knows rational numbers only, and neither follows a motion nor "
-        "sees finite relations that differential ones hide",
+        "sees holonomic equations that differential ones imply",
         "proved",
         partial(_module, "exact"),
     ),
     "numeric": Method(
-        "floating point: singular values above a tolerance, at the drawing or where Newton's method ends",
+        "floating point: singular values above a tolerance, at the reference configuration or at one "
+        "found by Newton's method",
         {
-            "dof": Use("velocities at a configuration, where a clear gap parts the singular values", "O(n^3)"),
+            "dof": Use("velocities at a configuration, where a clear gap separates the singular values", "O(n^3)"),
             "integrability": Use("nothing for sure: small is taken for 0", "O(n^3 k) at a few points"),
             "redundancy": Use("nothing for sure: small is taken for 0", "O(m n^3): a rank for each constraint"),
             "equivalence": Use("nothing for sure: small is taken for 0", "Newton's method at a few starts"),
         },
-        "it does not tell a small number from 0, a shake from a motion, or no solution from a search that failed",
+        "it does not distinguish a small number from 0, an infinitesimal motion from a finite one, or the absence of a "
+        "solution from a failed search",
         "numeric",
         partial(_module, "numeric"),
     ),

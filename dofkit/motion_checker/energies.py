@@ -118,7 +118,7 @@ class CheckedEnergies:
     def vector(self, entry: Entry, key: str, last: Tree) -> Vector:
         """A vector from its components, or from its size and direction (the last axis, or down)."""
         given, axis = entry[key], entry.get("direction")
-        refuse(key == "value" and self.d > 1 and axis is None and not isinstance(given, list), "no direction is told")
+        refuse(key == "value" and self.d > 1 and axis is None and not isinstance(given, list), "no direction is given")
         parts = given if isinstance(given, list) else axis or [*[ZERO] * (self.d - 1), last]
         found = tuple(map(self.text, parts))
         refuse(len(found) != self.d, "a vector has as many components as space")

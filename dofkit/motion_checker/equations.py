@@ -67,7 +67,8 @@ def _leaves(evidence: CheckedEvidence, claim: Told, put: Told, places: Told, lim
         factors = {name: evidence.text(text) for name, text in claim.get("c", {}).get(one.name, {}).items()}
         moving = [*factors.values(), *(limits[name] for name in factors if one.kind == "finite")]
         refuse(
-            any(map(evidence.met_by, moving)), "a cofactor holds velocities, or a finite relation follows from others"
+            any(map(evidence.met_by, moving)),
+            "a cofactor contains velocities, or a holonomic equation depends on others",
         )
         total = add(*(times(tree, limits[name]) for name, tree in factors.items()))
         evidence.identity(substituted(one.left, put), total, f"`{one.name}` where coordinates are put in")
@@ -75,11 +76,17 @@ def _leaves(evidence: CheckedEvidence, claim: Told, put: Told, places: Told, lim
     if places or limits:
         minor = evidence.minor(claim["minor"])
         evidence.is_about("here", minor.point)
-        refuse(len(minor.rows) != len(places) + len(limits), "a row for each eliminated coordinate and told constraint")
+        refuse(
+            len(minor.rows) != len(places) + len(limits),
+            "one row for each eliminated coordinate and claimed constraint is needed",
+        )
         chosen = {name: evidence.text(text) for name, text in claim.get("constants", {}).items()}
         met = [difference(symbol(q), substituted(tree, chosen)) for q, tree in places.items()]
         met += [tree for tree in limits.values() if not evidence.met_by(tree)]
-        refuse(not all(evidence.is_zero(tree, minor.point) for tree in met), "the point is not one of what is told")
+        refuse(
+            not all(evidence.is_zero(tree, minor.point) for tree in met),
+            "the point does not satisfy the claimed relations",
+        )
         for tree in used:
             minor.point.value(tree)
 

@@ -8,9 +8,9 @@ from dofkit.pictures.states import sure
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
 
-#: So many names are told.
+#: At most this many names are listed.
 MOST = 8
-OPEN = "undecided how many degrees of freedom"
+OPEN = "number of degrees of freedom undecided"
 
 
 def answer(report: Report) -> str:
@@ -23,7 +23,7 @@ def answer(report: Report) -> str:
     if report.consistent is False:
         told = f"no motion: {_names(report.conflicting)} contradict each other" if report.conflicting else "no motion"
     elif report.feasible is False:
-        told = f"no motion: {_names(report.infeasible)} cannot be met together"
+        told = f"no motion: {_names(report.infeasible)} cannot be satisfied together"
     else:
         told = ", ".join(_freedom(report))
     return told if told == OPEN else f"{told} ({report.verdict})"
@@ -36,11 +36,11 @@ def _freedom(report: Report) -> Iterator[str]:
     if velocities is not None and velocities != dof:
         yield f"{velocities} independent {'velocity' if velocities == 1 else 'velocities'}"
     if report.singular and report.instantaneous_dof is not None:
-        yield f"{report.instantaneous_dof} to first order at this singular drawing"
+        yield f"instantaneous freedom {report.instantaneous_dof} at this singular configuration"
     if dof is not None and report.consistent is None:
-        yield "if all constraints can hold at once"
+        yield "if the constraints are consistent"
     if report.feasible is None and not all(entry.bilateral for entry in report.constraints):
-        yield "if the all inequalities can be satisfied"
+        yield "if the inequalities can be satisfied"
 
 
 def alternative(scene: Scene, report: Report) -> str:
@@ -53,7 +53,7 @@ def alternative(scene: Scene, report: Report) -> str:
     wholly = report.redundant or []
     in_part = [entry.name for entry in report.constraints if entry.redundant_equations and entry.name not in wholly]
     if in_part:
-        told.append(f"Redundant in part{how}: {_names(in_part)}.")
+        told.append(f"Partly redundant{how}: {_names(in_part)}.")
     if report.growth_vector:
         told.append(f"Growth vector ({', '.join(map(str, report.growth_vector))}){sure(report, 'growth_vector')}.")
     return " ".join(told)
@@ -62,7 +62,8 @@ def alternative(scene: Scene, report: Report) -> str:
 def _counts(scene: Scene) -> Iterable[tuple[int, str, str]]:
     yield len(scene.bodies), "body", "bodies"
     yield len(scene.particles), "particle", "particles"
-    yield len(scene.coordinates), "further coordinate", "further coordinates"
+    further = "further " if scene.bodies or scene.particles else ""
+    yield len(scene.coordinates), f"{further}coordinate", f"{further}coordinates"
     yield len(scene.constraints), "constraint", "constraints"
 
 

@@ -24,9 +24,9 @@ ROUNDS, MET, STARTS = 60, 1e-9, 8
 MOST_COORDINATES = 400
 #: What carries the point that stands for the configuration, where there is nothing but coordinates.
 POINT = "configuration"
-EXAMPLES = "The scene gives no positions: these are examples."
-CHOSEN = "The scene gives no positions: these were chosen so as to meet its constraints."
-SCHEMATIC = "A schematic drawing: no positions were found that meet all constraints."
+EXAMPLES = "The scene gives no positions: those drawn are examples."
+CHOSEN = "The scene gives no positions: those drawn were chosen to satisfy its constraints."
+SCHEMATIC = "Schematic: no positions were found that satisfy all constraints."
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from dofkit.system import GROUND, Constraint, System
 MOST_SPREAD = 450
 #: More nodes than this have no names.
 MOST_NAMES = 90
-WHAT = "A graph: dots are bodies, particles and coordinates, boxes constraints."
+WHAT = "Constraint graph: dots are bodies, particles and coordinates; boxes are constraints."
 
 
 def graph_sketch(scene: Scene, system: System, report: Report, reason: str | None = None) -> Sketch:
@@ -39,7 +39,7 @@ def graph_sketch(scene: Scene, system: System, report: Report, reason: str | Non
         shapes += _node(report, node, spots[node], unit, named)
     notes = [] if reason is None else [reason]
     return Sketch(
-        title=f"{scene.title or scene.name}: what is held by what",
+        title=f"{scene.title or scene.name}: constraint graph",
         dimension=2,
         shapes=tuple(shapes),
         poses={GROUND: AT_REST},
@@ -103,7 +103,7 @@ def _node(report: Report, node: _Node, spot: Place, unit: float, named: bool) ->
 
 
 def circuits_of(report: Report) -> Mapping[str, list[str]]:
-    """Each redundant constraint with all that it follows from."""
+    """Each redundant constraint with those that it depends on."""
     return {entry.name: [entry.name, *entry.circuit] for entry in report.constraints if entry.circuit}
 
 
@@ -111,9 +111,9 @@ def _circuits_told(report: Report) -> Iterator[str]:
     circuits = circuits_of(report)
     for name, members in list(circuits.items())[:3]:
         others = " and others" if len(members) > 13 else ""
-        yield f"{name} follows from {', '.join(members[1:13])}{others}{sure(report, 'redundant')}."
+        yield f"{name} depends on {', '.join(members[1:13])}{others}{sure(report, 'redundant')}."
     if len(circuits) > 3:
-        yield f"and {len(circuits) - 3} further circuits; point at a constraint to see its own"
+        yield f"There are {len(circuits) - 3} more circuits: point at a constraint to highlight its own."
 
 
 def hover_script(report: Report) -> str:

@@ -21,6 +21,7 @@ from dofkit.system import GROUND, System
 MOST = 3
 #: So many lines of single coordinates fit on a sheet.
 MOST_GAUGES = 24
+GAUGES = "Each coordinate is on a line of its own, with marks at -1, 0 and 1."
 
 
 def is_bare(system: System) -> bool:
@@ -89,8 +90,8 @@ def gauge_sketch(stage: StagedScene) -> Sketch:
         poses=stage.arrangement.poses,
         size=2 * half,
         answer=answer(stage.report),
-        alternative=f"{alternative(stage.scene, stage.report)} Each line is a coordinate, from -1 over 0 to 1.",
-        notes=("Each coordinate on a line of its own; the marks are -1, 0 and 1.", *notes_of(stage)),
+        alternative=f"{alternative(stage.scene, stage.report)} {GAUGES}",
+        notes=(GAUGES, *notes_of(stage)),
         meanings=stage.meanings,
         axes=(),
     )

@@ -45,14 +45,12 @@ def phase_sketch(stage: StagedScene) -> Sketch:
     """The allowed directions of a scene's forms about its configuration, and what their brackets add."""
     report, system = stage.report, stage.system
     if len(system.coordinates) < 2 or not any(e.form in ("pfaffian", "nonlinear") for e in report.constraints):
-        raise NoFormsError(
-            "a picture of directions needs differential constraints, and two coordinates or more; `draw` shows the rest"
-        )
+        raise NoFormsError("a picture of directions needs differential constraints and at least two coordinates")
     if not is_linear(stage.arrangement):
         raise NoFormsError("a picture of directions needs constraints that are linear in the velocities")
     distribution = Distribution(stage.arrangement)
     if not distribution.fields:
-        raise NoFormsError("no direction was found in which something can move here")
+        raise NoFormsError("no admissible direction was found at this configuration")
     found = directions_of(distribution)
     shown = _shown(distribution, found)
     shapes = [*elements(distribution, shown, HALF)] if len(shown) > 1 else []
@@ -61,9 +59,9 @@ def phase_sketch(stage: StagedScene) -> Sketch:
     names = [distribution.names[k] for k in shown]
     axes = f"hown: {', '.join(names)}."
     if len(names) < len(distribution.names):
-        axes += f" Left out: {', '.join(n for n in distribution.names if n not in names)}."
+        axes += f" Not shown: {', '.join(n for n in distribution.names if n not in names)}."
     if distribution.timed:
-        axes += " Time stands still here."
+        axes += " Time is fixed."
     note = f"{_growth(report, found)}; s{axes}"
     return Sketch(
         title=f"{stage.scene.title or stage.scene.name}: directions",
@@ -83,7 +81,7 @@ def _growth(report: Report, found: Sequence[Direction3]) -> str:
     if report.growth_vector is not None:
         return f"Growth vector ({', '.join(map(str, report.growth_vector))}){sure(report, 'growth_vector')}"
     seen = (str(sum(d.order <= k for d in found)) for k in range(1, 1 + max(d.order for d in found)))
-    return f"No growth vector was decided; in floating point, at this place: ({', '.join(seen)})"
+    return f"The growth vector is undecided; in floating point it is ({', '.join(seen)}) at this point"
 
 
 def _told(distribution: Distribution, direction: Direction3) -> str:

@@ -192,12 +192,12 @@ def axes_marks(sketch: Sketch, view: View, margins: Margins) -> Iterator[Mark]:
 
 def ruler_of(sketch: Sketch, fit: PaperScale) -> tuple[float, str] | None:
     """A round length that can be read off, and its text; None where lengths mean nothing."""
-    if not sketch.units:
+    if not sketch.measurable:
         return None
     wanted = RULER / fit.scale
     power = 10.0 ** math.floor(math.log10(wanted))
     length = next(power * k for k in (5.0, 2.0, 1.0) if power * k <= wanted * (1 + 1e-9))
-    return length, f"{length:g} {sketch.units}"
+    return length, f"{length:g} unit{'' if length == 1 else 's'}"
 
 
 def _ruler_marks(sketch: Sketch, fit: PaperScale, margins: Margins) -> Iterator[Mark]:

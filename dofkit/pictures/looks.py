@@ -99,9 +99,9 @@ def keys_of(shapes: Iterable[Shape], meanings: Mapping[State, str] | None) -> li
         elif shape.role == "bracket":
             found.setdefault("bracket", ink)
         elif shape.role in ("locus", "surface") and shape.state == "plain":
-            found.setdefault("what an equation or inequality describes", _PLAIN["locus"])
+            found.setdefault("set of an equation or inequality", _PLAIN["locus"])
         elif shape.role == "tie" and shape.state == "plain":
-            found.setdefault("tied by an equation", ink)
+            found.setdefault("related by an equation", ink)
         elif shape.role == "force":
             found.setdefault("spring or damper (no constraint)", ink)
     return [(ink, text) for text, ink in found.items()]

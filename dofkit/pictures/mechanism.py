@@ -16,7 +16,7 @@ from dofkit.pictures.symbols import joint_shapes, name_of
 #: More names of constraints than this are left out, and so many equations are told below.
 MOST_NAMES, MOST_TEXTS = 24, 4
 _WEIGHT: tuple[State, ...] = ("plain", "moving", "redundant", "conflicting")
-FREE_PLACES = "A schematic drawing: the scene does not say where its joints are."
+FREE_PLACES = "Schematic: the scene gives no positions of its joints."
 
 
 def sketch_of(stage: StagedScene) -> Sketch:
@@ -36,7 +36,7 @@ def sketch_of(stage: StagedScene) -> Sketch:
         alternative=alternative(stage.scene, stage.report),
         notes=tuple(notes_of(stage)),
         meanings=stage.meanings,
-        units="of the scene's units of length" if stage.measurable else "",
+        measurable=stage.measurable,
     )
 
 
@@ -94,4 +94,4 @@ def equations_told(stage: StagedScene) -> Iterator[str]:
     for constraint in written[:MOST_TEXTS]:
         yield f"{constraint.name}: {constraint.text}"
     if len(written) > MOST_TEXTS:
-        yield f"and {len(written) - MOST_TEXTS} further equations"
+        yield f"{len(written) - MOST_TEXTS} more equations are not listed."

@@ -71,7 +71,7 @@ def _finite(stage: StagedScene, seen: _Seen) -> list[Clip]:
     turn = _turn(seen, frames, start, stage.size)
     shown = turn or _near(seen, frames, start, FAR * stage.size)
     thinned = [shown[k] for k in np.unique(np.linspace(0, len(shown) - 1, FRAMES).astype(int))]
-    name = "a finite motion, with all freedoms" if several else "a finite motion"
+    name = "a finite motion that uses all freedoms" if several else "a finite motion"
     return [Clip(name, tuple(thinned[:-1] if turn else thinned), bool(turn))] if len(thinned) > 1 else []
 
 

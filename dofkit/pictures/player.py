@@ -22,6 +22,7 @@ from dofkit.pictures.vector import CLASS, dark_style
 FRAME, EDGE, LINE = int(WIDTH * 1.5), 12.0, 22.0
 #: Part of the panel that a sketch of space fills, so that it can be turned.
 FILL = 0.94
+DRAG = "Drag the picture, or use the arrow keys, to turn it."
 
 
 def page_html(sketch: Sketch, clips: Sequence[Clip]) -> str:
@@ -33,12 +34,16 @@ def page_html(sketch: Sketch, clips: Sequence[Clip]) -> str:
         "answer": escape(sketch.answer),
         "alternative": escape(sketch.alternative, quote=True),
         "legend": _legend(sketch),
-        "notes": "".join(f"<p>{escape(note)}</p>" for note in sketch.notes),
+        "notes": "".join(f"<p>{escape(note)}</p>" for note in _notes(sketch)),
         "data": data,
         "script": (package / "player.js").read_text(encoding="utf-8"),
     }
     frame = (package / "player.html").read_text(encoding="utf-8")
     return re.sub("@([a-z]+)@", lambda found: parts[found[1]], frame)
+
+
+def _notes(sketch: Sketch) -> tuple[str, ...]:
+    return (DRAG, *sketch.notes) if sketch.dimension == 3 else sketch.notes
 
 
 def framed(page: str, height: float) -> str:
@@ -54,7 +59,11 @@ def page_height(sketch: Sketch, clips: Sequence[Clip]) -> float:
     """How many pixels `page_html` takes within a frame: title, answer, panel, buttons, legend, notes."""
     margins = margins_of(sketch)
     panel = (FRAME - 2 * EDGE) * (margins.high - margins.low) / WIDTH
-    lines = [1 + len(sketch.title) // 70, 1 + len(sketch.answer) // 85, *(1 + len(note) // 95 for note in sketch.notes)]
+    lines = [
+        1 + len(sketch.title) // 70,
+        1 + len(sketch.answer) // 85,
+        *(1 + len(note) // 95 for note in _notes(sketch)),
+    ]
     lines.append(bool(keys_of(sketch.shapes, sketch.meanings)) + 2 * bool(clips))
     return panel + LINE * sum(lines) + 4 * EDGE
 

@@ -97,12 +97,12 @@ def _poses(arrangement: Arrangement, motion: FreeMotion, far: float) -> dict[str
 
 
 def swings(arrangement: Arrangement, motions: Sequence[FreeMotion], size: float) -> list[Clip]:
-    """Each free motion by itself, to first order, to one side and back to the other."""
+    """Each infinitesimal motion on its own, to one side and back to the other."""
     found = []
     for k, motion in enumerate(motions[:MOST_MOTIONS]):
         of = f" {k + 1} of {len(motions)}" if len(motions) > 1 else ""
-        moved = "time runs" if motion.name == str(TIME.args[1]) else motion.name
-        name = f"free motion{of}, to first order: {moved}"
+        moved = "time" if motion.name == str(TIME.args[1]) else motion.name
+        name = f"infinitesimal motion{of}: {moved}"
         far = _reach(arrangement, motion, size)
         sides = [math.sin(2 * math.pi * j / SWING) for j in range(SWING)]
         found.append(Clip(name, tuple(_poses(arrangement, motion, far * s) for s in sides), closed=True))

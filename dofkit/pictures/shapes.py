@@ -77,9 +77,8 @@ class Sketch:
     """All of a picture but its paper.
 
     ``dimension`` of the world drawn; ``poses`` of what carries its shapes; ``size``: how far it reaches; ``notes`` are
-    told below it, ``alternative`` to who cannot see it. ``axes``: names of the three directions; ``units``: of lengths,
-    empty where lengths mean nothing. ``meanings``: what the legend says of states; None:
-    there is no legend.
+    told below it, ``alternative`` to who cannot see it. ``axes``: names of the three directions; ``measurable``: do
+    lengths mean something? ``meanings``: what the legend says of states; None: there is no legend.
     """
 
     title: str
@@ -91,7 +90,7 @@ class Sketch:
     alternative: str
     notes: tuple[str, ...] = ()
     axes: tuple[str, ...] = ("x", "y", "z")
-    units: str = ""
+    measurable: bool = False
     meanings: Mapping[State, str] | None = field(default_factory=dict)
 
     def at(self, vertex: Vertex, poses: Poses | None = None) -> Array:

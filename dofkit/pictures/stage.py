@@ -24,8 +24,8 @@ SYMBOL, CROWDED, LEAST = 0.032, 0.2, 0.014
 APART = 7.0
 #: More coordinates than this, and what moves is not looked for.
 MOST_COLUMNS = 300
-TOO_MANY = f"More than {MOST_COLUMNS} coordinates: it was not looked for what moves."
-NOT_LINEAR = "Not linear in the velocities: single motions are not shown."
+TOO_MANY = f"More than {MOST_COLUMNS} coordinates: which parts move was not determined."
+NOT_LINEAR = "A constraint is nonlinear in the velocities: individual motions are not shown."
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dofkit.pictures.shapes import State
 from dofkit.report import Report
 
+INFINITESIMAL = "infinitesimally mobile"
+
 
 def state_of(report: Report, name: str) -> State:
     """Does a constraint contradict others, is it redundant (wholly or in part), or neither?"""
@@ -33,12 +35,12 @@ def meanings(report: Report, looked: bool) -> Mapping[State, str]:
     Motions are drawn to first order: only where the report says so are they motions.
     """
     told: dict[State, str] = {
-        "redundant": f"redundant, wholly or in part{sure(report, 'redundant')}",
+        "redundant": f"redundant or partly redundant{sure(report, 'redundant')}",
         "conflicting": f"contradicts others{sure(report, 'consistent' if report.conflicting else 'feasible')}",
     }
     if not looked:
         return told
     if report.velocity_dof is None or report.consistent is None:
-        return {**told, "moving": "moves to first order; no more was decided", "plain": "held still to first order"}
-    moves = "moves to first order" if report.singular else "moves"
-    return {**told, "moving": moves, "plain": "held still"}
+        return {**told, "moving": f"{INFINITESIMAL}; finite motion undecided", "plain": "immobile"}
+    moves = INFINITESIMAL if report.singular else "mobile"
+    return {**told, "moving": moves, "plain": "immobile"}

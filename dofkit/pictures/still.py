@@ -33,7 +33,7 @@ BESIDE = 20.0
 #: A picture that reaches so much further than its places has larger symbols.
 WIDER = 1.6
 NOTHING = "The scene declares nothing that could move."
-NO_AXES = "More than three coordinates, and nothing that they place: this is the graph of its constraints."
+NO_AXES = "No geometry to draw: constraint graph."
 
 
 @dataclass(frozen=True)

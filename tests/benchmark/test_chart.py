@@ -292,7 +292,7 @@ def test_scores_points_and_auto_against_the_fastest() -> None:
         ("3", 1e-3, 1, 0, 0),
         ("3", 1e-1, 0, 0, 1),
     ]
-    assert table.sentences(chart)[0] == "auto: 4 trials, 0 wrong, 0 left open"
+    assert table.sentences(chart)[0] == "auto: 4 trials, 0 wrong, 0 without an answer"
     assert table.sentences(chart)[1:] == [
         "auto: at most twice the time of the fastest method that is right on a family and never wrong: 0 of 1 families",
         "  dof, boxes: 4.0 times graph",
@@ -355,7 +355,7 @@ def test_the_command_runs_tells_and_redraws(tmp_path: Path) -> None:
     out = tmp_path / "new" / "folder"
     done = CliRunner().invoke(app, [*arguments, "--out", str(out)])
     assert done.exit_code == 0, done.output
-    assert "auto: 2 trials, 0 wrong, 0 left open" in done.output
+    assert "auto: 2 trials, 0 wrong, 0 without an answer" in done.output
     assert "nothing is drawn without matplotlib: pip install 'dofkit[chart]'" in done.output
     data = storing.read(out)
     assert len(data.lines) == 2 * 2

@@ -44,17 +44,17 @@ def test_sentences_by_hand() -> None:
     assert told["count"] == "`count` is wrong on 25 % and undecided on 50 %."
     assert told["tolerance"] == (
         "With the tolerance equal to the rounding dofkit finds what was rounded in 75 % of the trials and is wrong in "
-        "0 %; singular values with that tolerance find it in 25 %, and with the best one for all drawings in 50 %."
+        "0 %; singular values with that tolerance find it in 25 %, and with the best one for all scenes in 50 %."
     )
     assert told["bits"] == (
-        "Balls by themselves are never wrong from 32 bits for a gap of 10^-3 and from 64 bits for a gap of 10^-6 on."
+        "`balls` on its own is never wrong from 32 bits for a gap of 10^-3 and from 64 bits for a gap of 10^-6 on."
     )
     assert told["primes"] == (
-        "`field` by itself was wrong 2 times in 4, with primes of 8 to 10 bits, and never from 12 bits on; with 3 bits "
-        "it decided nothing."
+        "`field` on its own was wrong 2 times in 4, with primes of 8 to 10 bits, and never from 12 bits on; with 3 "
+        "bits it decided nothing."
     )
     assert "in 1 cases, the reductions change no answer" in told["reductions"]
-    assert told["reductions"].endswith("is a factor of 5 (independent blocks).")
+    assert told["reductions"].endswith("saves at most a factor of 5 of the time (independent blocks).")
     assert "cost" not in told
 
 

@@ -95,7 +95,7 @@ def test_what_is_false_of_a_motion_is_refused(what: str) -> None:
 def test_a_coordinate_that_nothing_ties_is_not_eliminated() -> None:
     """Without the constraint y = x^2 is one motion among others: a free particle need not stay on it."""
     free = {**BEAD, "constraints": []}
-    assert "a row for each" in fault(free, {"value": ELIMINATED, "minor": {**ROW, "rows": [], "columns": []}}, **AT)
+    assert "one row for each" in fault(free, {"value": ELIMINATED, "minor": {**ROW, "rows": [], "columns": []}}, **AT)
     slope = {**BEAD, "constraints": ["x ydot - y xdot = 0"]}
     assert "where coordinates are put in" in fault(slope, {"value": ELIMINATED, "minor": ROW}, **AT)
 
@@ -125,13 +125,13 @@ def test_a_finite_relation_is_no_multiple_of_a_form() -> None:
     value = changed(KEPT, constraints=["xdot = 0"], equations=["m xddot - lam1 = 0", "m yddot + m g = 0"])
     claim = {"value": value, "minor": {**ROW, "columns": ["x"]}, "c": {"c1": {"lam1": "x/xdot"}}}
     point = {"id": "P", "values": {"m": "1", "g": "2", "x": "0", "y": "0", "xdot": "1"}}
-    assert "a cofactor holds velocities" in fault(wall, claim, points=[point])
+    assert "a cofactor contains velocities" in fault(wall, claim, points=[point])
 
 
 def test_the_other_branch_is_not_that_of_the_drawing() -> None:
     """On the circle through the drawing at the bottom y = -sqrt(1 - x^2), and no other."""
     circle = {**BEAD, "constraints": ["x^2 + y^2 = 1"], "configuration": {"x": 0, "y": -1}}
-    for sign, why in (("-", ""), ("", "not one of what is told")):
+    for sign, why in (("-", ""), ("", "the point does not satisfy")):
         slope = f"({sign}1)*(-x)/sqrt(1 - x^2)"
         value = told(
             "x",
@@ -164,7 +164,7 @@ def test_a_constant_is_none_that_texts_know() -> None:
             eliminated={"y": f"{name}*x"},
         )
         point = {"id": "P", "values": {"m": "1", "g": "2", "x": "1", "y": "2"}}
-        for chosen, wrong in (("2", why), ("3", why or "not one of what is told")):
+        for chosen, wrong in (("2", why), ("3", why or "the point does not satisfy")):
             found = fault(slope, {"value": value, "minor": ROW, "constants": {name: chosen}}, points=[point])
             assert (wrong in found) if wrong else found == ""
 

@@ -67,7 +67,7 @@ def test_brackets_grow_as_worked_out_by_hand(scene: Any, expected: list[int]) ->
 def test_the_picture_tells_the_growth_and_what_is_shown() -> None:
     sketch = dofkit.phase("disc-rolling-on-plane").sketch
     assert sketch.axes == ("x", "y", "theta")
-    assert sketch.notes[0] == "Growth vector (2, 3, 4); shown: x, y, theta. Left out: phi."
+    assert sketch.notes[0] == "Growth vector (2, 3, 4); shown: x, y, theta. Not shown: phi."
     assert "Growth vector (2, 3, 4)" in sketch.alternative
     names = {s.text for s in sketch.shapes if s.kind == "words"}
     assert {"X1", "X2", "[X1, X2]"} <= names
@@ -83,12 +83,12 @@ def test_what_is_not_linear_in_velocities_has_no_directions(text: str) -> None:
     drawn = dofkit.draw(scene).sketch
     assert not [s for s in drawn.shapes if s.role == "field"]
     assert not [s for s in drawn.shapes if s.state == "moving"]
-    assert not any("first order" in clip.name for clip in dofkit.animate(scene).clips)
+    assert not any("infinitesimal" in clip.name for clip in dofkit.animate(scene).clips)
 
 
 def test_it_is_told_that_time_stands_still() -> None:
     scene = {"coordinates": ["x", "y", "z"], "constraints": ["dz = x dy + t dx"]}
-    assert "Time stands still here." in dofkit.phase(scene).sketch.notes[0]
+    assert "Time is fixed." in dofkit.phase(scene).sketch.notes[0]
     assert not any("Time" in note for note in dofkit.phase(HEISENBERG).sketch.notes)
 
 
@@ -102,7 +102,10 @@ def test_the_picture_of_the_start_page_is_of_today() -> None:
 def test_a_growth_vector_that_is_not_told_is_not_made_up() -> None:
     report = dofkit.classify(HEISENBERG).model_copy(update={"growth_vector": None})
     sketch = dofkit.phase(HEISENBERG, report).sketch
-    assert sketch.notes[0] == "No growth vector was decided; in floating point, at this place: (2, 3); shown: x, y, z."
+    assert (
+        sketch.notes[0]
+        == "The growth vector is undecided; in floating point it is (2, 3) at this point; shown: x, y, z."
+    )
     assert sketch.notes[0] in sketch.alternative
 
 

@@ -54,14 +54,14 @@ def test_bars_keep_their_lengths() -> None:
 def test_each_of_several_freedoms_is_shown_by_itself() -> None:
     names = [clip.name for clip in dofkit.animate("planetary-gear-bodies").clips]
     assert names == [
-        "a finite motion, with all freedoms",
-        "free motion 1 of 2, to first order: theta_arm",
-        "free motion 2 of 2, to first order: theta_sun",
+        "a finite motion that uses all freedoms",
+        "infinitesimal motion 1 of 2: theta_arm",
+        "infinitesimal motion 2 of 2: theta_sun",
     ]
 
 
 def test_a_motion_of_first_order_only_is_shown() -> None:
-    """A link drawn through the line of its ends: C may move across to first order, and not at all in truth."""
+    """A link drawn through the line of its ends: C has an infinitesimal motion across it and no finite one."""
     points = {"A": [0, 0], "B": [2, 0], "C": [1, 0]}
     links = [["A", "C"], ["C", "B"]]
     scene = {
@@ -70,8 +70,8 @@ def test_a_motion_of_first_order_only_is_shown() -> None:
         "constraints": [{"type": "fixed", "point": n} for n in "AB"] + [{"type": "link", "between": e} for e in links],
     }
     found = dofkit.animate(scene)
-    assert [clip.name for clip in found.clips] == ["free motion, to first order: y_C"]
-    assert "1 to first order at this singular drawing" in found.alternative
+    assert [clip.name for clip in found.clips] == ["infinitesimal motion: y_C"]
+    assert "instantaneous freedom 1 at this singular configuration" in found.alternative
     heights = [f["C"].shift[1] for f in found.clips[0].frames]
     assert max(heights) > 0.1
     assert min(heights) < -0.1

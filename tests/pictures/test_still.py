@@ -134,45 +134,45 @@ def test_a_picture_is_no_surer_than_its_report() -> None:
     picture = dofkit.draw(DOOR, report)
     assert picture.sketch.answer == "1 degree of freedom (probable)"
     assert picture.alternative.endswith("1 degree of freedom (probable). Redundant (probable): upper.")
-    assert legend(picture) == {"moves", "redundant, wholly or in part (probable)"}
-    assert dofkit.graph(DOOR, report).sketch.notes == ("upper follows from lower (probable).",)
+    assert legend(picture) == {"mobile", "redundant or partly redundant (probable)"}
+    assert dofkit.graph(DOOR, report).sketch.notes == ("upper depends on lower (probable).",)
 
 
 def test_what_is_undecided_is_not_said_to_move() -> None:
     open_fields = {"dof": None, "velocity_dof": None, "instantaneous_dof": None, "verdict": "undecided"}
     picture = dofkit.draw(DOOR, dofkit.classify(DOOR).model_copy(update=open_fields))
-    assert picture.sketch.answer == "undecided how many degrees of freedom"
+    assert picture.sketch.answer == "number of degrees of freedom undecided"
     assert "degree of freedom" not in picture.alternative
-    assert "moves to first order; no more was decided" in legend(picture)
+    assert "infinitesimally mobile; finite motion undecided" in legend(picture)
     told = dofkit.classify(DOOR).model_copy(update={"consistent": None, "verdict": "undecided"})
-    assert (
-        dofkit.draw(DOOR, told).sketch.answer == "1 degree of freedom, if all constraints can hold at once (undecided)"
-    )
+    assert dofkit.draw(DOOR, told).sketch.answer == "1 degree of freedom, if the constraints are consistent (undecided)"
 
 
 def test_a_shake_is_no_motion() -> None:
-    """Two links in line: the joint between them moves to first order, and not at all."""
+    """Two links in line: the joint between them has an infinitesimal motion and no finite one."""
     ends = [{"name": n, "at": [x, 0]} for n, x in (("A", 0), ("B", 1), ("C", 2))]
     held = [{"type": "fixed", "point": "A"}, {"type": "fixed", "point": "C"}]
     links = [{"type": "link", "between": list(pair)} for pair in ("AB", "BC")]
     picture = dofkit.draw({"dimension": 2, "particles": ends, "constraints": [*held, *links]})
-    assert picture.sketch.answer.startswith("0 degrees of freedom, 1 to first order at this singular drawing")
-    assert {"moves to first order", "held still"} <= legend(picture)
+    assert picture.sketch.answer.startswith(
+        "0 degrees of freedom, instantaneous freedom 1 at this singular configuration"
+    )
+    assert {"infinitesimally mobile", "immobile"} <= legend(picture)
 
 
 def test_inequalities_that_cannot_be_met_are_no_motion() -> None:
     scene = {"coordinates": ["x", "y"], "constraints": ["x >= 1", "x <= 0"]}
     picture = dofkit.draw(scene)
-    assert picture.sketch.answer == "no motion: c1, c2 cannot be met together (proved)"
+    assert picture.sketch.answer == "no motion: c1, c2 cannot be satisfied together (proved)"
     assert picture.sketch.notes[0] == SCHEMATIC
-    assert not legend(picture) & {"moves", "held still"}
+    assert not legend(picture) & {"mobile", "immobile"}
     assert dofkit.animate(scene).clips == ()
 
 
 def test_what_was_not_looked_at_is_not_held_still(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stage, "MOST_COLUMNS", 5)
     picture = dofkit.draw(DOOR)
-    assert not legend(picture) & {"moves", "held still"}
+    assert not legend(picture) & {"mobile", "immobile"}
     assert stage.TOO_MANY in picture.sketch.notes
 
 
@@ -182,7 +182,7 @@ def test_what_is_redundant_in_part_is_told() -> None:
     joints = [{"name": f"{k}0", "type": "revolute", "between": ["ground", k], "at": [x, 0]} for k, x in cranks]
     joints += [{"name": f"{k}1", "type": "revolute", "between": [k, "bar"], "at": [x, 1]} for k, x in cranks]
     picture = dofkit.draw({"dimension": 2, "bodies": ["a", "b", "c", "bar"], "constraints": joints})
-    assert re.search(r"Redundant in part( \(probable\))?: c1\.", picture.alternative) is not None
+    assert re.search(r"Partly redundant( \(probable\))?: c1\.", picture.alternative) is not None
     assert "Redundant:" not in picture.alternative
     assert states(picture)["c1"] == {"redundant"}
 
@@ -190,7 +190,7 @@ def test_what_is_redundant_in_part_is_told() -> None:
 def test_chosen_places_and_numbers_are_told() -> None:
     notes = dofkit.draw("simple-pendulum-link").sketch.notes
     assert notes == (
-        "The scene gives no positions: these were chosen so as to meet its constraints.",
+        "The scene gives no positions: those drawn were chosen to satisfy its constraints.",
         "Drawn with l = 1.",
     )
     ends = [["ground", "a"], ["a", "b"], ["b", "ground"]]
@@ -354,7 +354,7 @@ def test_the_graph_joins_constraints_to_what_they_hold() -> None:
 
 def test_circuits_are_told_and_lit() -> None:
     picture = dofkit.graph(DOOR)
-    assert picture.sketch.notes[0].startswith("upper follows from lower")
+    assert picture.sketch.notes[0].startswith("upper depends on lower")
     assert '{"upper": ["upper", "lower"]}' in picture.svg()
     assert picture._repr_html_().partition("</style>")[2].startswith("<iframe")
 

@@ -52,7 +52,7 @@ def draw(chart: ChartRun) -> Figure | None:
     look = looks(dict.fromkeys(score.method for score in chart.scores))
     across = min(ACROSS, len(panels))
     down = math.ceil(len(panels) / across)
-    title = "What size costs: processor time against size"
+    title = "Processor time against size"
     figure = sheet(5.6 * across + 0.2, 3.3 * down, title, chart.captions["cost"])
     grid = figure.subplots(down, across, squeeze=False, sharey=True).ravel()
     low = min(point.seconds for panel in panels for point in panel.points)

@@ -34,7 +34,7 @@ def draw(chart: ChartRun) -> Figure | None:
         return None
     across = min(2, len(asked))
     down = math.ceil(len(asked) / across)
-    title = "Speed against accuracy: how much is not right, and how long it takes"
+    title = "Speed against accuracy: share of trials without the right answer, and time"
     look = looks(dict.fromkeys(score.method for score in whole))
     figure = sheet(6.3 * across, 3.5 * down, title, chart.captions["fronts"], _legend())
     grid = figure.subplots(down, 2 * across, squeeze=False, gridspec_kw={"width_ratios": [1, 0.4] * across})
@@ -73,7 +73,7 @@ def _panel(
 ) -> list[tuple[float, float]]:
     """Draw it; the corners of the stair."""
     axes.set_title(f"{QUESTIONS[question]}   ({max(score.trials for score in members)} trials)")
-    axes.set_xlabel("processor time of a trial")
+    axes.set_xlabel("processor time per trial")
     axes.set_ylabel("not right (% of trials)")
     by_name = {score.method: score for score in members}
     on = [by_name[m] for m in front.never_wrong if m in by_name] if front else []
@@ -116,11 +116,11 @@ def _label(score: Score, look: Look) -> Label:
 
 
 def _table(axes: Axes, members: Sequence[Score], look: dict[str, Look]) -> None:
-    """Beside the panel, the best first: each method's wrong answers in red, and what it leaves open apart."""
+    """Beside the panel, the best first: each method's wrong answers in red, and the undecided ones separately."""
     axes.set_xlim(0, 1)
     axes.set_ylim(-max(9, len(members)), 0)
     about: dict[str, Any] = {"fontsize": 8, "va": "center"}
-    for x, text, colour in ((0.68, "wrong", WRONG), (1.0, "open", GREY)):
+    for x, text, colour in ((0.68, "wrong", WRONG), (1.0, "no\nanswer", GREY)):
         axes.text(x, -0.3, text, ha="right", color=colour, **about)
     for row, score in enumerate(sorted(members, key=lambda s: (1 - s.share_right, s.median_seconds or 0.0))):
         y, open_ = -1.2 - 0.95 * row, score.trials - score.right - score.wrong
@@ -152,7 +152,7 @@ def _not_right(score: Score) -> float:
 def _legend() -> list[Line2D]:
     mark: dict[str, Any] = {"marker": "s", "markersize": 7, "color": "#444444"}
     return [
-        Line2D([], [], linestyle="none", label="a method, at its median time", **mark),
+        Line2D([], [], linestyle="none", label="median time of a method", **mark),
         Line2D(
             [],
             [],
@@ -160,7 +160,7 @@ def _legend() -> list[Line2D]:
             marker="|",
             markersize=7,
             color="#444444",
-            label="its times from 10 to 90 % of the trials",
+            label="10th to 90th percentile of its times",
         ),
-        Line2D([], [], linewidth=1.8, color="#BBBBBB", label="the best of those that were never wrong"),
+        Line2D([], [], linewidth=1.8, color="#BBBBBB", label="Pareto front of the methods that were never wrong"),
     ]

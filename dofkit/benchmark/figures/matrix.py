@@ -100,7 +100,7 @@ def _gloss(family: str) -> str:
 
 
 def _cell(axes: Axes, x: int, y: int, score: Score) -> None:
-    """A bar of shares; beside it what is wrong, or else what is left open."""
+    """A bar of shares; beside it what is wrong, or else what is undecided."""
     counts = [score.right, score.wrong, score.undecided, score.timed_out, score.cannot]
     left, top = float(x), y + (1 - BAR) / 2
     for outcome, count in zip(OUTCOMES, counts, strict=True):
@@ -132,7 +132,7 @@ def _share(count: int, score: Score) -> str:
 
 
 def _legend() -> list[Patch]:
-    names = {"cannot": "cannot answer such a scene"}
+    names = {"cannot": "not applicable"}
     return [
         Patch(facecolor=OUTCOME_COLOURS[o], edgecolor="#888888", hatch=OUTCOME_HATCHES.get(o), label=names.get(o, o))
         for o in OUTCOMES

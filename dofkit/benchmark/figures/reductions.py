@@ -29,7 +29,7 @@ def draw(chart: ChartRun) -> Figure | None:
     figure = sheet(11.8, 0.4 * len(names) + 1.0, title, chart.captions["reductions"], _legend())
     left, right = figure.subplots(1, 2, sharey=True)
     _panel(left, names, pairs, slowed, "seconds without the reduction / with it")
-    _panel(right, names, pairs, grown, "size of the model without / with: that which shrinks most")
+    _panel(right, names, pairs, grown, "size of the model without / with, where it shrinks most")
     left.set_yticks(range(len(names)), [_title(name) for name in names])
     left.set_ylim(len(names) - 0.5, -0.75)
     return figure

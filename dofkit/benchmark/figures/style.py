@@ -33,7 +33,7 @@ QUESTIONS: Mapping[str, str] = {
     "dof": "How many degrees of freedom?",
     "integrability": "Which constraints are holonomic?",
     "redundancy": "Which constraints are redundant?",
-    "equivalence": "Is the equation handed in the same constraint?",
+    "equivalence": "Is the submitted equation the same constraint?",
 }
 
 

@@ -36,7 +36,7 @@ def tolerance(chart: ChartRun) -> Figure | None:
     if not shown:
         return None
     groups = chosen(list(dict.fromkeys(step.group for step in chart.steps if step.sweep in shown)))
-    title = "Rounded coordinates: which tolerance finds what was rounded"
+    title = "Rounded coordinates: which tolerance recovers the unrounded geometry"
     size = (5.4 * len(shown) + (1.4 if len(shown) == 1 else 0), 0.42 * len(groups) + 0.9)
     figure = sheet(*size, title, chart.captions["tolerance"], _legend())
     grid = figure.subplots(1, len(shown), squeeze=False, sharey=True).ravel()
@@ -81,7 +81,7 @@ def _legend() -> list[Any]:
     bars = [
         Patch(facecolor=OUTCOME_COLOURS[o], edgecolor="#888888", hatch=OUTCOME_HATCHES.get(o), label=o) for o in _DRAWN
     ]
-    return [*bars, Line2D([], [], label="the tolerance equal to the rounding", **mark)]
+    return [*bars, Line2D([], [], label="tolerance equal to the rounding", **mark)]
 
 
 def bits(chart: ChartRun) -> Figure | None:
@@ -89,7 +89,7 @@ def bits(chart: ChartRun) -> Figure | None:
     steps = [step for step in chart.steps if step.sweep == "bits"]
     if not steps:
         return None
-    title = "Balls: how many bits a gap needs"
+    title = "Balls: bits needed to recognize a gap"
     figure = sheet(7.4, 3.6, title, chart.captions["bits"])
     axes = figure.subplots()
     labels, lines = _curves(axes, steps)

@@ -37,7 +37,7 @@ def cliques(quick: bool) -> Iterator[Construction]:
             yield Construction(
                 f"{n} joints in dimension {d}, {name}",
                 linked(n, d, chosen),
-                "a joint on d joints of a rigid framework is held; more links to it are redundant",
+                "d links fix a joint to a rigid framework; further links are redundant",
                 ("redundant",) if len(chosen) > len(needed) else ("plain",),
                 size=n,
                 dof=d * (d + 1) // 2,

@@ -92,7 +92,7 @@ def sheet_of_linkage(linkage: Linkage) -> Sheet:
 def _inner(linkage: Linkage) -> str:
     if linkage.rigid:
         return "one rigid body"
-    return f"{linkage.inner_freedom} beyond the motions of the whole as one body"
+    return f"{linkage.inner_freedom} internal, beyond the motions as one rigid body"
 
 
 def _links(links: Iterable[Link]) -> str:

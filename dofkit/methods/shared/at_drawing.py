@@ -9,11 +9,11 @@ from dofkit.base.wording import many, verb
 from dofkit.methods.shared.pointwise import Decider, SampledPoints, freedom, regular
 from dofkit.methods.shared.reply import MethodFindings, MethodLabel
 
-FAILS = "At a regular point the form fails Frobenius' test (its differential does not vanish on what the others allow)."
-PASSES = "At the point that was looked at the form passes Frobenius' test; elsewhere it need not."
+FAILS = "The form fails Frobenius' test at a regular point: its differential does not vanish on admissible velocities."
+PASSES = "The form passes Frobenius' test at the point examined; elsewhere it need not."
 SINGULAR = (
-    "The form fails Frobenius' test at one point, which proves nothing: equations depend on each other there, or the "
-    "configurations may have other parts."
+    "The form fails Frobenius' test at one point, which proves nothing: equations depend on each other there, or there "
+    "may be other components."
 )
 
 
@@ -24,7 +24,7 @@ def at_points(looked: SampledPoints, numbers: Decider, sure: Verdict, trusted: b
     """
     written = looked.rows.written
     drawn = written.system.reference is not None
-    where = "at the drawing" if drawn else "at one configuration"
+    where = "at the reference configuration" if drawn else "at one configuration"
     n, here = looked.rows.n, looked.samples[0].rows
     rank, rows = numbers.rank([row[:n] for row in here]), len(here)
     goes_on = numbers.rank(here) == rank
@@ -32,23 +32,21 @@ def at_points(looked: SampledPoints, numbers: Decider, sure: Verdict, trusted: b
     told: list[str] = []
     euler = any(r.chart == "euler" for r in written.system.rotations)
     if written.others:
-        told.append("Inequalities and what is nonlinear in the velocities were left out.")
+        told.append("Inequalities and equations nonlinear in the velocities were ignored.")
     elif drawn and not goes_on:
-        told.append("At the drawing the equations stop time: no motion passes through it.")
+        told.append("At the reference configuration the equations fix the time: no motion passes through it.")
     elif drawn and not euler:
         fields["instantaneous_dof"] = n - rank
     elif drawn:
-        told.append(
-            "Angles are written in texts: they may be singular where they are drawn, and are not looked behind."
-        )
+        told.append("Equations contain Euler angles, which may be singular at the reference configuration.")
     independent = drawn and trusted and rank == rows and not written.others
     if independent:
         fields |= {"consistent": True, "velocity_dof": n - rank, "redundant_equations": 0}
         fields |= {"singular": False} if "instantaneous_dof" in fields else {}
         fields |= {} if written.forms else {"dof": n - rank}
         told.append(
-            f"All equations ({rows}) are independent {where}: every velocity left there ({n - rank}) belongs to a "
-            "motion (implicit function theorem)."
+            f"All equations ({rows}) are independent {where}: each of the {n - rank} admissible velocities there "
+            "belongs to a motion (implicit function theorem)."
         )
     else:
         told.append(_believed(looked, numbers, rows - rank, where))
@@ -59,8 +57,8 @@ def _believed(looked: SampledPoints, numbers: Decider, dependent: int, where: st
     count = many(freedom(looked, numbers), "degree")
     if dependent:
         also = f"{many(dependent, 'equation')} {verb(dependent, 'depends', 'depend')} on the others {where}"
-        return f"The rank {where} gives {count} of freedom, but {also}: a rank at a point is no motion."
-    return f"The rank {where} gives {count} of freedom; it takes what holds at that point to hold everywhere."
+        return f"The rank {where} gives {count} of freedom, but {also}: a rank at one point does not prove a motion."
+    return f"The rank {where} gives {count} of freedom; it assumes that this rank is the same everywhere."
 
 
 def _labels(looked: SampledPoints, numbers: Decider, sure: Verdict, trusted: bool) -> dict[int, MethodLabel]:

@@ -23,21 +23,21 @@ from dofkit.system import Constraint, System
 
 #: What a method may end with where a scene is not what it is for.
 FAILURES = (ArithmeticError, OutOfTimeError, NotImplementedError, ValueError)
-OPEN = " Whether it follows from the others is not told."
-NONLINEAR = "It is nonlinear in the velocities as written; over the reals it may say something simpler."
-FINITE = "It is a relation between positions (and time): holonomic by definition."
-UNILATERAL = "It is an inequality: it allows both sides to move away from it, so it is not holonomic."
+OPEN = " Whether it is implied by the others is undecided."
+NONLINEAR = "It is nonlinear in the velocities as written; over the reals it may be equivalent to a simpler equation."
+FINITE = "It relates coordinates (and possibly time) only, so it is holonomic."
+UNILATERAL = "It is an inequality (a unilateral constraint), so it is not holonomic."
 
 
 def report_alone(system: System, method: MethodName, row: Method) -> Report:
     """The report of a method by itself, which is a row of the table."""
-    base = sketch(system, f"{method} alone does not tell")
+    base = sketch(system, f"{method} on its own does not decide")
     try:
         found = row.findings(system)
     except OutOfTimeError:
         raise
     except FAILURES as error:
-        found = MethodFindings({}, {}, [f"{method} alone came to nothing: {str(error) or type(error).__name__}."])
+        found = MethodFindings({}, {}, [f"{method} on its own gave no answer: {str(error) or type(error).__name__}."])
     pairs = zip(system.constraints, base.constraints, strict=True)
     entries = [_entry(c, e, found, found.labels.get(i), row.best) for i, (c, e) in enumerate(pairs)]
     whole = {name: _all([getattr(e, name) for e in entries]) for name in ("holonomic", "scleronomic")}

@@ -90,7 +90,7 @@ def _numbered(given: Sequence[Link], named: Iterable[Joint]) -> Graph:
     try:
         number = {v: i for i, v in enumerate(dict.fromkeys(chain(named, flat)))}
     except TypeError as error:
-        raise LinkageError(f"joints are told apart by name: {error}") from error
+        raise LinkageError(f"joints need distinct names: {error}") from error
     return Graph(list(number), given, list(map(number.__getitem__, flat)))
 
 
