@@ -260,11 +260,7 @@ class _RobotReader:
         self._check_mimics(known, lines)
         children = {joint.child for joint in joints}
         if links and children.issuperset(links):
-            self._fault(
-                self.root,
-                "every link is the child of a joint: there is no root link",
-                "remove the joint whose child is the root",
-            )
+            self._fault(self.root, "no link is the root: each is the child of a joint", "remove the joint of the root")
 
     def _check_mimics(self, known: Mapping[str, RobotJoint], lines: Mapping[str, Element]) -> None:
         for name, joint in known.items():
@@ -273,9 +269,7 @@ class _RobotReader:
                 one = known[one.mimic.joint]
                 seen.add(one.name)
             if one.mimic is not None and one.mimic.joint == name:
-                self._fault(
-                    lines[name], f"'{name}' mimics itself through other joints", "remove one of the mimic elements"
-                )
+                self._fault(lines[name], f"'{name}' mimics itself through other joints", "remove one `mimic` element")
 
     def _loop(self, part: Element, links: Mapping[str, RobotLink]) -> LoopJoint | None:
         """A joint that closes a loop, as <loop_joint> or Drake's <ball_constraint> say it."""

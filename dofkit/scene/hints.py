@@ -7,14 +7,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from pydantic import ValidationError
-
 from dofkit.base.errors import Fault
 from dofkit.base.spelling import nearest
 from dofkit.models.scene_text import on_one_line
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.constraints.equations import Equation
-from dofkit.scene.fields import meant_key
+from dofkit.scene.corrections import likely_types, with_right_keys
 from dofkit.scene.synonyms import Path, dimension_of, other_keys
 
 UNKNOWN_KEY = "unknown key"
@@ -34,8 +32,6 @@ _ENOUGH = re.compile(
 _SUGGESTED = re.compile(r"did you mean '(\w+)'\?")
 #: A longer line is not shown as what to write.
 LONGEST_LINE = 160
-#: Keys that hold the two ends of a string for those who give its pulleys by `over`.
-_ENDS = ("between", "members", "points")
 _FORCES = ("spring", "damper", "force", "gravity")
 #: A line by the key that it gives; of some keys one for each dimension.
 LINES: dict[str, str | tuple[str, str, str]] = {
@@ -113,30 +109,14 @@ def meant_section(fault: Fault) -> str | None:
     return suggested[1] if unknown and suggested else None
 
 
-def _meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
-    """Return the constraint type that a word most likely means, by the keys that stand beside it; None for no idea."""
-    words = {kind: (kind, *cls.synonyms, *cls.understood) for kind, cls in TYPES.items()}
-    near = nearest(word.lower(), {one for known in words.values() for one in known}) if isinstance(word, str) else None
-    fields = {kind: TYPES[kind].model_fields for kind, known in words.items() if near in known}
-    return max(fields, key=lambda kind: sum(key in fields[kind] for key in entry), default=None)
-
-
 def type_advice(word: object, entry: Mapping[str, Any]) -> str | None:
     """Return what to write instead of a word that is no constraint type, or of none, where that is known."""
     if isinstance(word, str) and word in _FORCES:
         return f"write it under `forces`: `forces: [{{type: {word}, between: [A, B]}}]`; a force is not a constraint"
-    kinds = _likely_types(word, entry)
+    kinds = likely_types(word, entry)
     if len(kinds) == 1:
         return f"did you mean '{kinds[0]}'?"
     return f"the types with these keys are {', '.join(kinds)}" if kinds else None
-
-
-def _likely_types(word: object, entry: Mapping[str, Any]) -> list[str]:
-    """Return the type that a word means, or else the types with the keys of an entry, misspelt ones only if need be."""
-    meant = _meant_type(word, entry)
-    able = [] if meant else [kind for kind in TYPES if _with_right_keys(kind, entry)]
-    exact = [kind for kind in able if set(entry) - {"type"} <= TYPES[kind].model_fields.keys()]
-    return [meant] if meant else exact or able
 
 
 def _mended(value: Mapping[str, Any], where: Path) -> str | None:
@@ -148,47 +128,13 @@ def _mended(value: Mapping[str, Any], where: Path) -> str | None:
     if not isinstance(entry, Mapping):
         return None
     word = entry.get("type")
-    kinds = [word] if isinstance(word, str) and word in TYPES else _likely_types(word, entry)
-    able = (_with_right_keys(kind, entry) for kind in kinds if d in TYPES[kind].dimensions)
+    kinds = [word] if isinstance(word, str) and word in TYPES else likely_types(word, entry)
+    able = (with_right_keys(kind, entry) for kind in kinds if d in TYPES[kind].dimensions)
     right = next((found for found in able if found is not None), None)
     if right is None or right == entry:
         return None
     line = on_one_line(right)
     return line if len(line) <= LONGEST_LINE else None
-
-
-def _with_right_keys(kind: str, entry: Mapping[str, Any]) -> dict[str, Any] | None:
-    """Return an entry as a constraint of a type, its keys and their form put right; None where that cannot be done."""
-    fields, given = TYPES[kind].model_fields, dict(entry)
-    if kind == "string" and "over" in given:
-        over, ends = given.pop("over"), [given.pop(key) for key in ("along", *_ENDS) if key in given]
-        over = list(over) if isinstance(over, (list, tuple)) else [over]
-        two = len(ends) == 1 and isinstance(ends[0], (list, tuple)) and len(ends[0]) == 2
-        given["along"] = [ends[0][0], *over, ends[0][1]] if two else over
-    if kind == "slot" and isinstance(given.get("between"), (list, tuple)) and len(given["between"]) == 2:
-        given["point"], given["body"] = given.pop("between")
-    right: dict[str, Any] = {"type": kind}
-    for key, part in given.items():
-        meant = key if key in fields else meant_key(key, tuple(field for field in fields if field not in given))
-        if key != "type" and (meant is None or meant in right):
-            return None
-        if key != "type":
-            right[str(meant)] = part
-    renamed = {key: part if key in entry else _in_form(key, part) for key, part in right.items()}
-    for attempt in (renamed, {key: _in_form(key, part) for key, part in right.items()}):
-        try:
-            TYPES[kind].model_validate(attempt)
-        except ValidationError:
-            continue
-        return attempt
-    return None
-
-
-def _in_form(key: str, part: Any) -> Any:
-    """Return what is given for a key as a list or as one name, as that key takes it."""
-    if key in ("between", "members", "along"):
-        return [part] if isinstance(part, str) else part
-    return part[0] if key in ("point", "body") and isinstance(part, (list, tuple)) and len(part) == 1 else part
 
 
 def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
@@ -209,7 +155,7 @@ def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:
     suggested = _SUGGESTED.match(fault.hint or "")
     if where[:1] == ("constraints",) and len(where) > 1:
         kind = _type_at(value, where[1]) or (suggested[1] if suggested else None)
-        return kind if kind in TYPES and kind != Equation.kind() else None
+        return kind if kind in TYPES else None
     section = meant_section(fault) or next(iter(where), None)
     return section if section in SECTIONS else None
 

@@ -235,7 +235,7 @@ FAULTS: dict[str, tuple[str, ...]] = {
     "line 2, column 1: the mass of 'a' is negative": (link("a", "<inertial><mass value='-1'/></inertial>"),),
     "line 3, column 1: 'j' mimics 'k', which it cannot": (
         link("a") + link("b"), joint("j", "revolute", "a", "b", "<mimic joint='k'/>")),
-    "every link is the child of a joint": (
+    "no link is the root": (
         link("a") + link("b"), joint("j", "fixed", "a", "b"), joint("k", "fixed", "b", "a")),
     "the joint 'j' is defined twice": (
         link("a") + link("b"), joint("j", "fixed", "a", "b"), joint("j", "fixed", "a", "b")),

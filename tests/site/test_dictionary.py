@@ -1,7 +1,6 @@
 """The texts that users read, held against the dictionary of the glossary: one word for one thing.
 
-A phrase that is legitimate English somewhere is let
-through by a row of ``ALLOWED``, with the reason.
+A phrase that is legitimate English somewhere is let through by a row of ``ALLOWED``, with the reason.
 """
 
 from __future__ import annotations

@@ -81,6 +81,11 @@ class ConstraintBase(WrittenModel):
         del names, known
         yield from ()
 
+    @classmethod
+    def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
+        """Return a faulty entry with what several wrong keys state together under the right one."""
+        return dict(entry)
+
     def written(self) -> dict[str, Any]:
         """Its fields as they are written."""
         return self.model_dump(mode="json", exclude_none=True)

@@ -46,9 +46,7 @@ class Link(ConstraintBase):
     understood: ClassVar[tuple[str, ...]] = ("bar", "strut", "stick", "edge")
     other_keys: ClassVar[Mapping[str, str]] = {"distance": "length"}
     between: Ends = Field(description="the two points")
-    length: Value | None = Field(
-        None, description="their distance; may contain t; by default that of the reference configuration"
-    )
+    length: Value | None = Field(None, description="their distance; may contain t; default: the reference distance")
     facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, surface=True)
     symbol: ClassVar[Symbol] = Symbol(run="bar")
     variation: ClassVar[TypeVariation] = TypeVariation(places=("between",), lengths=("length",))
@@ -217,13 +215,9 @@ def _check_length(world: World, first: Placed, second: Placed, given: Expr, *whe
     if not world.differs(difference(power(start, TWO), drawn)):
         return
     measured = root(drawn)
-    message = (
-        f"the length {_figure(shown)} contradicts the reference configuration, where {first.label} and {second.label} "
-    )
-    message += f"are {_figure(measured)} apart"
-    hint = (
-        f"write `length: {_figure(measured)}`, or leave it out to use that distance; set `tolerance` if it is measured"
-    )
+    apart = f"{first.label} and {second.label} are {_figure(measured)} apart"
+    message = f"the length {_figure(shown)} contradicts the reference configuration, where {apart}"
+    hint = f"write `length: {_figure(measured)}` or leave it out; set `tolerance` if it is measured"
     world.misfit(_less(shown, measured), message, *where, hint=hint)
 
 
@@ -266,7 +260,7 @@ class Rigid(ConstraintBase):
         yield (
             f"Of the N(N-1)/2 = {links} links among N = {n} particles only N d - d(d+1)/2 = {n * d} - {freedom} = "
             f"{n * d - freedom} are independent (in general position): once d+1 = {d + 1} of the particles are rigid, "
-            f"{many(d, 'link')} {verb(d, 'fixes', 'fix')} each further one, and its other links are implied. "
+            f"{many(d, 'link')} {verb(d, 'fixes', 'fix')} each further one, and its other links are redundant. "
             "Counting every link fails for N > d+1."
         )
 
@@ -290,9 +284,7 @@ class String(ConstraintBase):
     understood: ClassVar[tuple[str, ...]] = ("rope", "cable", "cord", "pulley", "belt")
     other_keys: ClassVar[Mapping[str, str]] = {"between": "along"}
     along: Annotated[tuple[Point, ...], Field(min_length=2)] = Field(description="the points it runs along, in order")
-    length: Value | None = Field(
-        None, description="its length; may contain t; by default that of the reference configuration"
-    )
+    length: Value | None = Field(None, description="its length; may contain t; default: the reference length")
     facts: ClassVar[TypeFacts] = TypeFacts(string=True)
     symbol: ClassVar[Symbol] = Symbol(run="rope")
     variation: ClassVar[TypeVariation] = TypeVariation(places=("along",), lengths=("length",))
@@ -329,6 +321,17 @@ class String(ConstraintBase):
         if found is not None:
             yield found
 
+    @classmethod
+    def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
+        """Return a faulty entry with pulleys that are given by `over` between the two ends."""
+        over, keys = entry.get("over"), ("along", "members", "points", "over")
+        ends = next((entry[key] for key in keys[:-1] if key in entry), ())
+        over = [over] if isinstance(over, str) else over
+        if not isinstance(ends, (list, tuple)) or not isinstance(over, (list, tuple)):
+            return dict(entry)
+        rest = {key: part for key, part in entry.items() if key not in keys}
+        return {**rest, "along": [*ends[:1], *over, *ends[1:]]}
+
     @property
     def in_words(self) -> str:
         run = "-".join(show_point(point) for point in self.along)
@@ -345,6 +348,4 @@ def _check_string(world: World, given: Expr, drawn: Expr) -> None:
         return
     a, b = approximate(substitute(given, {TIME: ZERO})), approximate(drawn)
     message = f"the length {_figure(a)} contradicts the reference configuration, where the string is {_figure(b)} long"
-    world.misfit(
-        _less(a, b), message, "length", hint="leave `length` out to use the length in the reference configuration"
-    )
+    world.misfit(_less(a, b), message, "length", hint="leave `length` out to take that length")

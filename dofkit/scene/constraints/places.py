@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from pydantic import Field
 
@@ -154,6 +154,14 @@ class Slot(ConstraintBase):
         _check_on_line(world, point, place, axis)
         for u in axis.across:
             yield Relation(along(frame, point, place, u), part="across", vector=u)
+
+    @classmethod
+    def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
+        """Return a faulty entry with `between: [point, body]` as the two fields."""
+        given = dict(entry)
+        if isinstance(given.get("between"), (list, tuple)) and len(given["between"]) == 2:
+            given["point"], given["body"] = given.pop("between")
+        return given
 
     @property
     def in_words(self) -> str:
