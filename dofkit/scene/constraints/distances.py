@@ -259,7 +259,7 @@ class Rigid(ConstraintBase):
         yield (
             f"Of the N(N-1)/2 = {links} links among N = {n} particles only N d - d(d+1)/2 = {n * d} - {freedom} = "
             f"{n * d - freedom} are independent (in general position): once d+1 = {d + 1} of the particles are rigid, "
-            f"{many(d, 'link')} {verb(d, 'fixes', 'fix')} each further one and its other links follow. "
+            f"{many(d, 'link')} {verb(d, 'fixes', 'fix')} each further one, and its other links are redundant. "
             "Counting every link fails for N > d+1."
         )
 
