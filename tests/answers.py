@@ -91,7 +91,7 @@ def _values(report: dict[str, Any]) -> Iterator[tuple[str, Any, str]]:
         yield "error", True, "proved"
         return
     verdicts = report["verdicts"]
-    for key in (*FIELDS, *CHOICES):
+    for key in (*FIELDS, *(k for k in CHOICES if k in report)):
         sure = _verdict(verdicts, key, report[key])
         yield key, None if key in CHOICES else _canonical(report[key]), sure
     for entry in report["constraints"]:

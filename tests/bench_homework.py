@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from ruamel.yaml import YAML
+import yaml
 
 import dofkit
 from dofkit.homework.answers.submission import of_value
@@ -142,7 +142,7 @@ def natural() -> None:
     """Answers a second of one core, as students write them: solved, on another branch, rewritten, with remarks."""
     took, count = {True: 0.0, False: 0.0}, {True: 0, False: 0}
     for path in sorted(NATURAL.glob("*.yaml")):
-        given = YAML(typ="safe").load(path.read_text(encoding="utf-8"))
+        given = yaml.safe_load(path.read_text(encoding="utf-8"))
         prepared = dofkit.load_assignment(given.pop("assignment"))
         kinds = {(problem.id, question.id): question.kind() for problem, question in prepared.questions()}
         grader = Grader(prepared)

@@ -20,7 +20,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ruamel.yaml import YAML
+import yaml
 
 from dofkit.homework.answers.label_words import word_of
 from dofkit.homework.assignment import load_assignment
@@ -217,7 +217,9 @@ def run_sheet(folder: Path, name: str, students: Sequence[str]) -> dict[str, int
     rng = random.Random(name)
     source = folder / f"{name}.yaml"
     with source.open("w") as stream:
-        YAML().dump({"title": f"{name.capitalize()}", "feedback": "full", "problems": SHEETS[name]}, stream)
+        yaml.safe_dump(
+            {"title": f"{name.capitalize()}", "feedback": "full", "problems": SHEETS[name]}, stream, sort_keys=False
+        )
     dofkit(folder, "assignment", "vary", source, "--roster", "roster.csv", "--seed", SEED, "--out", name)
     varied, answers, out = folder / name / "assignment.yaml", folder / f"{name}-answers", folder / f"{name}-results"
     early = students[: len(students) - len(students) // LATE]

@@ -16,8 +16,7 @@ from hashlib import sha256
 from itertools import chain, islice
 from typing import Any, NamedTuple
 
-from ruamel.yaml import YAML
-from ruamel.yaml.error import YAMLError
+import yaml
 
 from dofkit.checker.constraints import TYPES, Entry, Surroundings, known_fields
 from dofkit.checker.geometry import MaterialPoint, body_frame, ground
@@ -46,7 +45,7 @@ def document_of(text: str) -> Any:
             return json.loads(text, parse_float=str, object_pairs_hook=_mapping)
         except json.JSONDecodeError:
             return _from_yaml(text)
-    except (YAMLError, RecursionError, ValueError) as error:
+    except (yaml.YAMLError, RecursionError, ValueError) as error:
         raise CheckError(f"the document cannot be read: {str(error)[:200]}") from None
 
 
@@ -58,11 +57,16 @@ def _mapping(pairs: list[tuple[Any, Any]]) -> dict[str, Any]:
 
 def _from_yaml(text: str) -> Any:
     """A document from a YAML text: no tags, no aliases, and nothing but texts."""
-    reader = YAML(typ="base", pure=True)
-    for event in reader.parse(text):
+    for event in yaml.parse(text, Loader=yaml.BaseLoader):
         odd = getattr(event, "tag", None) not in (None, "!") or getattr(event, "anchor", None)
         refuse(odd, "tags and aliases are not read")
-    return reader.load(text)
+    return _from_node(yaml.compose(text, Loader=yaml.BaseLoader))
+
+
+def _from_node(node: yaml.Node | None) -> Any:
+    if isinstance(node, yaml.MappingNode):
+        return _mapping([(_from_node(key), _from_node(value)) for key, value in node.value])
+    return [_from_node(part) for part in node.value] if isinstance(node, yaml.SequenceNode) else node and node.value
 
 
 def canonical(document: object) -> dict[str, Any]:

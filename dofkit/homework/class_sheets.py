@@ -7,11 +7,10 @@ import os
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from io import StringIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ruamel.yaml import YAML
+import yaml
 
 from dofkit.base.version import __version__
 from dofkit.base.wording import many
@@ -197,10 +196,8 @@ def write_class(made: ClassSheets, form: str, draw: Draw, out: Path) -> None:
     out.mkdir(parents=True, exist_ok=True)
     assignment = made.prepared.assignment
     value = assignment.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
-    yaml, stream = YAML(), StringIO()
-    yaml.width = 110
-    yaml.dump(value, stream)
-    (out / ASSIGNMENT).write_text(stream.getvalue(), encoding="utf-8")
+    written = yaml.safe_dump(value, sort_keys=False, allow_unicode=True, width=110)
+    (out / ASSIGNMENT).write_text(written, encoding="utf-8")
     rows = made.rows
     with (out / TABLE).open("w", encoding="utf-8-sig", newline="") as file:
         table = csv.writer(file)

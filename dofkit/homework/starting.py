@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Hashable, Iterator, Mapping, Sequence
-from io import StringIO
 from pathlib import Path
 from typing import Any
 
+import yaml
 from pydantic import TypeAdapter
-from ruamel.yaml import YAML
 
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.polar_angles import polar_angles
@@ -40,11 +39,8 @@ def starting(sources: Sequence[str], every: bool = False) -> str:
         angles = polar_angles(key)
         also = {"also": angles} if angles else {}
         problems.append({"id": name, **title, "scene": source, **also, "questions": asked})
-    yaml = YAML()
-    yaml.width = 110
-    out = StringIO()
-    yaml.dump({"title": "Assignment", "convention": "configuration", "problems": problems}, out)
-    return out.getvalue()
+    assignment = {"title": "Assignment", "convention": "configuration", "problems": problems}
+    return yaml.safe_dump(assignment, sort_keys=False, allow_unicode=True, width=110)
 
 
 def best_questions(key: Key) -> Iterator[dict[str, Any]]:

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 
 from dofkit.base.arguments import description_of
 from dofkit.base.documents import Document, read_document
-from dofkit.base.documents.fast_flow import DEEPEST
+from dofkit.base.documents.composer import DEEPEST
 from dofkit.base.errors import ArgumentError, Fault, SceneError
 from dofkit.base.memory import undisturbed
 from dofkit.models.formats import is_model, read_model

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from ruamel.yaml import YAML
+import yaml
 
 from dofkit.base.errors import DofkitError
 from dofkit.scene.catalog import catalog_folder
@@ -87,7 +87,7 @@ def folders() -> dict[str, str]:
 
 def settings(catalog: Sequence[ShownScene]) -> Any:
     """The settings with a line of the navigation for every type and every page of the gallery."""
-    found = YAML().load(SETTINGS.read_text(encoding="utf-8"))
+    found = yaml.safe_load(SETTINGS.read_text(encoding="utf-8"))
     known = folders()
     types = [f"{TYPE_FOLDER}/index.md", *({kind: f"{TYPE_FOLDER}/{kind}.md"} for kind in TYPES)]
     shelves = dict.fromkeys(scene.folder for scene in catalog)

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from ruamel.yaml import YAML
+import yaml
 
 NATURAL = Path(__file__).parent / "natural"
 STUDENTS, WORKERS, SECONDS = 1000, 2, 90.0
@@ -27,7 +27,7 @@ def sheet_and_pools() -> tuple[dict[str, Any], dict[str, list[str]]]:
     """An assignment of the problems that are asked of, and what students answer by column."""
     problems, pools = [], {}
     for name, places in ASKED.items():
-        given = YAML(typ="safe").load((NATURAL / f"{name}.yaml").read_text(encoding="utf-8"))
+        given = yaml.safe_load((NATURAL / f"{name}.yaml").read_text(encoding="utf-8"))
         known = {problem["id"]: problem for problem in given["assignment"]["problems"]}
         for place in places:
             texts = [

@@ -311,8 +311,8 @@ def test_a_platform_says_whose_sheet_it_is(tmp_path: Path) -> None:
 
     found = graded({"email": "one@x.org", "name": "Student 1", "id": "7"})
     assert found["score"] == 1.0
-    assert "several of its students" in graded({"email": "s0"}, {"email": "s1"})["output"]
-    assert "none of its students" in graded({"email": "zoe@x.org"})["output"]
+    assert "several students of the assignment" in graded({"email": "s0"}, {"email": "s1"})["output"]
+    assert "none of the students of the assignment" in graded({"email": "zoe@x.org"})["output"]
     with pytest.raises(OtterError):
         export_otter(sheet, tmp_path / "otter")
 

@@ -7,7 +7,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from ruamel.yaml import YAML
+import yaml
 from shared.documented import ROOT, SITE
 
 import dofkit
@@ -137,7 +137,7 @@ def test_the_navigation_holds_every_written_page_and_every_type(disc: ShownScene
 
 
 def test_nothing_is_fetched_from_anywhere() -> None:
-    found = YAML(typ="safe").load(SETTINGS.read_text(encoding="utf-8"))
+    found = yaml.safe_load(SETTINGS.read_text(encoding="utf-8"))
     assert found["theme"]["font"] is False
     assert not re.search(r"https?://", SETTINGS.read_text(encoding="utf-8"))
 

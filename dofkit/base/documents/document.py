@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from bisect import bisect_right
 from collections.abc import Callable
@@ -9,16 +10,12 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from dofkit.base.documents.fast_block import BlockReader
-from dofkit.base.documents.fast_flow import FlowReader, Path, Places, UnusualError
-from dofkit.base.documents.yaml.events import Composer
+from dofkit.base.documents.composer import DEEPEST, SURROGATE, Path, Places, compose
+from dofkit.base.documents.scalars import plain
 from dofkit.base.errors import Fault
 
 #: A longer input is refused.
 MOST_BYTES = 64_000_000
-#: So is one of which the full YAML parser, the slow one, would have to read more than this.
-MOST_SLOW = 8_000_000
-
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _BREAK = re.compile(r"\r\n|\r|\n")
 _JSON_START = re.compile(r"[ \t\r\n]*[{\[]")
@@ -84,7 +81,13 @@ def read_document(data: bytes | str, name: str) -> Document:
         fault = 0, Fault("the file is empty", hint="write a mapping, such as 'coordinates: [x, y]'")
     if fault is not None:
         return _document(name, text, None, [fault])
-    return _from_flow(name, text) or _from_block(name, text) or _from_yaml(name, text)
+    if _JSON_START.match(text) and not SURROGATE.search(text):
+        try:
+            return _document(name, text, _from_json(text), [], lambda places: places.update(compose(text).places))
+        except _NotPlainError:
+            pass
+    composer = compose(text)
+    return _document(name, text, composer.value, composer.faults, lambda places: places.update(composer.places))
 
 
 def _decoded(data: bytes | str) -> tuple[str, tuple[int, Fault] | None]:
@@ -115,38 +118,41 @@ def _document(
     return Document(name, text, value, tuple(told), locate)
 
 
-def _from_flow(name: str, text: str) -> Document | None:
-    """The document where it is one value in brackets, as JSON is."""
-    match = _JSON_START.match(text)
-    if match is None:
-        return None
-    start, flow = match.end() - 1, FlowReader(text, len(text))
+def _from_json(text: str) -> Any:
+    """Return the value of a JSON text. Raises `_NotPlainError` where the YAML parser has to find what is wrong."""
     try:
-        value = flow.read(start)
-    except UnusualError:
-        return None
-    return _document(name, text, value, flow.faults, lambda places: FlowReader(text, len(text), places).read(start))
+        value = json.loads(
+            text, object_pairs_hook=_mapping, parse_int=plain, parse_float=plain, parse_constant=_not_a_number
+        )
+    except (ValueError, RecursionError) as error:
+        raise _NotPlainError from error
+    if _depth(value) > DEEPEST:
+        raise _NotPlainError
+    return value
 
 
-def _from_block(name: str, text: str) -> Document | None:
-    """The document where it is in the block style that most people write."""
-    block = BlockReader(text)
-    try:
-        value = block.read()
-    except UnusualError:
-        return None
-    return _document(name, text, value, block.faults, lambda places: BlockReader(text, places).read())
+class _NotPlainError(ValueError):
+    """The text is not plain JSON."""
 
 
-def _from_yaml(name: str, text: str) -> Document:
-    """The document, by the full parser."""
-    if len(text) > MOST_SLOW:
-        hint = "write the scene as JSON, or each list entry on one line in brackets and without anchors"
-        fault = Fault(f"more than {MOST_SLOW // 10**6} MB that are not in plain YAML or JSON", hint=hint)
-        return _document(name, text, None, [(0, fault)])
-    composer = Composer()
-    value = composer.read(text)
-    return _document(name, text, value, composer.faults, lambda places: places.update(composer.places))
+def _mapping(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    value = dict(pairs)
+    if len(value) < len(pairs) or "<<" in value:
+        raise _NotPlainError
+    return value
+
+
+def _not_a_number(word: str) -> None:
+    raise _NotPlainError
+
+
+def _depth(value: Any) -> int:
+    """Return how deep the brackets of a JSON value are nested."""
+    depth, level = 0, [value]
+    while level := [v for v in level if isinstance(v, dict | list)]:
+        depth += 1
+        level = [below for v in level for below in (v.values() if isinstance(v, dict) else v)]
+    return depth
 
 
 def _line_starts(text: str) -> list[int]:

@@ -1,13 +1,13 @@
-"""From the events of ruamel's YAML parser to plain values, with the place of each."""
+"""Plain values, and the place of each, from the events of a YAML parser (libyaml, by PyYAML)."""
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeAlias
 
-from ruamel.yaml import YAML
-from ruamel.yaml.error import YAMLError
-from ruamel.yaml.events import (
+import yaml
+from yaml.events import (
     AliasEvent,
     CollectionEndEvent,
     CollectionStartEvent,
@@ -16,11 +16,20 @@ from ruamel.yaml.events import (
     ScalarEvent,
 )
 
-from dofkit.base.documents.fast_flow import DEEPEST, Path, Places, twice
 from dofkit.base.documents.scalars import BadScalarError, joined, plain
-from dofkit.base.documents.yaml.syntax import fault_of
+from dofkit.base.documents.syntax_faults import fault_of
 from dofkit.base.errors import Fault
 
+Path: TypeAlias = tuple[str | int, ...]
+#: Where a value begins, and its key (-1: it has none): offsets into the text.
+Places: TypeAlias = dict[Path, tuple[int, int]]
+
+#: Deeper nesting is refused.
+DEEPEST = 50
+
+#: PyYAML's own parser, a hundred times slower than libyaml, reads no longer text.
+MOST_SLOW = 1_000_000
+SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")
 #: Aliases may add this many values in all.
 MOST_ALIASED = 200_000
 _CORE = "tag:yaml.org,2002:"
@@ -46,6 +55,30 @@ class _Open:
     merged: list[tuple[int, Any]] = field(default_factory=list)
 
 
+def compose(text: str) -> Composer:
+    """Return the composed document, with libyaml's parser where PyYAML has it.
+
+    PyYAML's own parser explains an error better and joins the halves of a character that JSON escapes as two, so a text
+    with either is read by it unless it is longer than `MOST_SLOW`.
+    """
+    if not (SURROGATE.search(text) and len(text) <= MOST_SLOW):
+        composer = Composer()
+        try:
+            composer.read(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+        except yaml.YAMLError as error:
+            composer.faults.append(fault_of(error))
+            if len(text) > MOST_SLOW:
+                return composer
+        else:
+            return composer
+    composer = Composer()
+    try:
+        composer.read(text, yaml.SafeLoader)
+    except yaml.YAMLError as error:
+        composer.faults.append(fault_of(error))
+    return composer
+
+
 class Composer:
     """Composes the one document of a YAML text."""
 
@@ -58,14 +91,17 @@ class Composer:
         self._anchors: dict[str, tuple[Any, int]] = {}
         self._aliased = 0
 
-    def read(self, text: str) -> Any:
-        """The value of ``text``; what is wrong goes to ``faults``."""
-        yaml = YAML(typ="safe", pure=True)
+    def read(self, text: str, loader: Any) -> Any:
+        """Return the value of ``text``; what is wrong with it goes to ``faults``.
+
+        Raises
+        ------
+        yaml.YAMLError
+            The text is not YAML.
+        """
         try:
-            for event in yaml.parse(text):
+            for event in yaml.parse(text, Loader=loader):
                 self._take(event)
-        except YAMLError as error:
-            self.faults.append(fault_of(error))
         except UnreadableError:
             pass
         return self.value
@@ -207,3 +243,8 @@ class Composer:
         shown = event.tag.removeprefix(_CORE)[:60]
         hint = "take the tag away; a text that begins with '!' goes in double quotes"
         self._fault(event, f"the tag '{shown}' is not read", hint)
+
+
+def twice(key: str) -> Fault:
+    """Return the fault of a key that is written again in the same mapping."""
+    return Fault(f"the key '{key[:60]}' is written twice", hint="keep one of the two")

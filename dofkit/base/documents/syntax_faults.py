@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from ruamel.yaml.error import MarkedYAMLError, StreamMark, YAMLError
-from ruamel.yaml.reader import ReaderError
+from yaml import MarkedYAMLError, YAMLError
+from yaml.reader import ReaderError
 
 from dofkit.base.errors import Fault
 
@@ -74,4 +74,4 @@ def fault_of(error: YAMLError) -> tuple[int, Fault]:
         named["line"] = str(error.context_mark.line + 1) if error.context_mark else "?"
         fault = Fault(row.message.format(**named), hint=row.hint.format())
         mark = (error.context_mark if row.at_context else None) or mark
-    return mark.index if isinstance(mark, StreamMark) else 0, fault
+    return mark.index if mark else 0, fault
