@@ -325,12 +325,11 @@ class String(ConstraintBase):
     def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
         """Return a faulty entry with pulleys that are given by `over` between the two ends."""
         over, keys = entry.get("over"), ("along", "members", "points", "over")
-        ends = next((entry[key] for key in keys[:-1] if key in entry), ())
+        ends: Any = next((entry[key] for key in keys[:-1] if key in entry), ())
         over = [over] if isinstance(over, str) else over
         if not isinstance(ends, (list, tuple)) or not isinstance(over, (list, tuple)):
             return dict(entry)
-        rest = {key: part for key, part in entry.items() if key not in keys}
-        return {**rest, "along": [*ends[:1], *over, *ends[1:]]}
+        return {k: part for k, part in entry.items() if k not in keys} | {"along": [*ends[:1], *over, *ends[1:]]}
 
     @property
     def in_words(self) -> str:
