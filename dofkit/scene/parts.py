@@ -134,6 +134,10 @@ _REASONS = {
 class Energies(WrittenModel):
     """The energies of the system, for its equations of motion."""
 
+    @classmethod
+    def called(cls) -> str:
+        return "the energies"
+
     kinetic: Text | None = Field(None, description="kinetic energy T in the coordinates and their velocities")
     potential: Text | None = Field(None, description="potential energy V")
     dissipation: Text | None = Field(None, description="Rayleigh's dissipation function")
