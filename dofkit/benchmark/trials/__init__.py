@@ -20,7 +20,7 @@ from dofkit.benchmark.trials import (
     relations,
     times,
 )
-from dofkit.benchmark.trials.construction import Construction, few
+from dofkit.benchmark.trials.construction import KnownScene, few
 from dofkit.benchmark.trials.trial import Trial
 
 Family = Callable[[bool], Iterator[Trial]]
@@ -33,7 +33,7 @@ _HEADINGS: Mapping[str, tuple[ModuleType, ...]] = {
     "Differential constraints, time, long chains": (forms, times, chains, blocks),
     "Equations between coordinates": (relations, powers, identities),
 }
-_ALL: Mapping[str, Callable[[bool], Iterator[Construction]]] = {
+_ALL: Mapping[str, Callable[[bool], Iterator[KnownScene]]] = {
     **catalog.FAMILIES,
     **graphs.FAMILIES,
     **joints.FAMILIES,
@@ -54,7 +54,7 @@ HEADINGS: Mapping[str, str] = {
 }
 
 
-def _trials(name: str, constructions: Iterator[Construction]) -> Iterator[Trial]:
+def _trials(name: str, constructions: Iterator[KnownScene]) -> Iterator[Trial]:
     return (trial for construction in constructions for trial in construction.trials(name))
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from dofkit.benchmark.trials.construction import Construction, scene
+from dofkit.benchmark.trials.construction import KnownScene, known_scene, scene
 
 #: What is done to ``u = 0`` (``{u}``, ``{q}`` a coordinate in it): is it the same, the trait, why.
 Way = tuple[str, str, bool, str, str]
@@ -202,7 +202,7 @@ MOVING = (
 FOR_FORMS = ("negated", "seven times", "tiny", "times 1 + q^2", "times e^q", "times 2 + sin q", "over 1 + q^2")
 
 
-def answers(quick: bool) -> Iterator[Construction]:
+def answers(quick: bool) -> Iterator[KnownScene]:
     """Every constraint in every way of writing it, and in the ways of its own."""
     for number, asked in enumerate(FINITE):
         for turn, way in enumerate(WAYS):
@@ -213,16 +213,16 @@ def answers(quick: bool) -> Iterator[Construction]:
     for asked in (*FINITE, *MOVING):
         for text, same, trait, because in asked.answers[:: 5 if quick else 1]:
             about = f"{asked.name}: {text}", asked.scene(), because, (trait,)
-            yield Construction(*about, equivalence=("asked", text, same))
+            yield known_scene(*about, equivalence=("asked", text, same))
 
 
-def _rewritten(asked: AskedConstraint, way: Way) -> Construction:
+def _rewritten(asked: AskedConstraint, way: Way) -> KnownScene:
     how, text, same, trait, because = way
     answer = ("asked", text.format(u=asked.u, q=asked.q), same)
-    return Construction(f"{asked.name}, {how}", asked.scene(), because, (trait,), equivalence=answer)
+    return known_scene(f"{asked.name}, {how}", asked.scene(), because, (trait,), equivalence=answer)
 
 
-def inequalities(quick: bool) -> Iterator[Construction]:
+def inequalities(quick: bool) -> Iterator[KnownScene]:
     """A side of a surface: the same side of the same surface, or not."""
     disc = AskedConstraint("disc", "x y", "", "x", parameters={"R": "positive"})
     rows = [
@@ -238,10 +238,10 @@ def inequalities(quick: bool) -> Iterator[Construction]:
     ]
     for text, truth, trait in rows[:: 4 if quick else 1]:
         made = disc.scene("x^2 + y^2 <= R^2")
-        yield Construction(text, made, "a disc", (trait, "inequality"), equivalence=("asked", text, truth))
+        yield known_scene(text, made, "a disc", (trait, "inequality"), equivalence=("asked", text, truth))
 
 
-def large_answers(quick: bool) -> Iterator[Construction]:
+def large_answers(quick: bool) -> Iterator[KnownScene]:
     """The same with many coordinates: spheres, sums of many rows, many forms."""
     for n in (3,) if quick else (3, 6, 12, 24):
         x = [f"x{k}" for k in range(n)]
@@ -267,10 +267,10 @@ def large_answers(quick: bool) -> Iterator[Construction]:
         )  # fmt: skip
         for name, made, text, truth, trait in members:
             about = name, made, "by its making", (trait, "large"), n
-            yield Construction(*about, equivalence=("asked", text, truth))
+            yield known_scene(*about, equivalence=("asked", text, truth))
 
 
-def tiny_answers(quick: bool) -> Iterator[Construction]:
+def tiny_answers(quick: bool) -> Iterator[KnownScene]:
     """A difference of 10^-k, in a finite relation and in a form, beside a factor of the same size."""
     for k in (6, 30) if quick else (3, 6, 9, 12, 15, 18, 24, 30, 60):
         e = f"1e-{k}"
@@ -289,7 +289,7 @@ def tiny_answers(quick: bool) -> Iterator[Construction]:
             trait = "rewritten" if truth else "tiny-difference"
             because = "a factor without zeros" if truth else "another set"
             about = f"{name}, {e}", made, because, (trait,)
-            yield Construction(*about, swept={"gap": float(e)}, equivalence=("asked", text, truth))
+            yield known_scene(*about, swept={"gap": float(e)}, equivalence=("asked", text, truth))
 
 
 FAMILIES = {"answers": answers, "sides": inequalities, "large answers": large_answers, "tiny differences": tiny_answers}
