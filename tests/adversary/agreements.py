@@ -5,7 +5,8 @@ from __future__ import annotations
 import random
 from typing import NamedTuple
 
-from .case import Case, plain, truths
+from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
+
 from .draws import applied
 from .identities import UNKNOWN
 
@@ -59,46 +60,46 @@ def _wrapped(rng: random.Random, agreement: Agreement, size: int) -> tuple[str, 
     return first, second
 
 
-def _followed(rng: random.Random, agreement: Agreement, size: int) -> Case:
+def _followed(rng: random.Random, agreement: Agreement, size: int) -> KnownScene:
     first, second = _wrapped(rng, agreement, size)
     last = f"c{len(agreement.relations) + 1}"
-    scene = plain([*agreement.chart], [*agreement.relations, f"{first} = {second}"], functions=UNKNOWN)
+    scene = scene_of([*agreement.chart], *agreement.relations, f"{first} = {second}", functions=UNKNOWN)
     known = truths(agreement.freedom, redundant=[last], redundant_equations=1, holonomic=True)
-    return Case(scene, known, chart=agreement.chart)
+    return KnownScene(scene, known, chart=agreement.chart)
 
 
-def _formed(rng: random.Random, agreement: Agreement, size: int) -> Case:
+def _formed(rng: random.Random, agreement: Agreement, size: int) -> KnownScene:
     first, second = _wrapped(rng, agreement, size)
     relations = [*agreement.relations, f"dz = ({first} - ({second}))*w*du"]
-    scene = plain([*agreement.chart, "z", "w", "u"], relations, functions=UNKNOWN)
+    scene = scene_of([*agreement.chart, "z", "w", "u"], *relations, functions=UNKNOWN)
     f = agreement.freedom
     chart = {**agreement.chart, "z": "2", "w": f"p{f}", "u": f"p{f + 1}"}
-    return Case(scene, truths(f + 2, holonomic=True), chart=chart)
+    return KnownScene(scene, truths(f + 2, holonomic=True), chart=chart)
 
 
-def followed(rng: random.Random, size: int) -> Case:
+def followed(rng: random.Random, size: int) -> KnownScene:
     """F(a) = F(b), with a = b where the relations hold: it says nothing new."""
     return _followed(rng, rng.choice(ON_A_SET), size)
 
 
-def formed(rng: random.Random, size: int) -> Case:
+def formed(rng: random.Random, size: int) -> KnownScene:
     """dz = (F(a) - F(b)) w du, with a = b on the set: dz = 0, holonomic; w and u are free."""
     return _formed(rng, rng.choice(ON_A_SET), size)
 
 
-def added(rng: random.Random, size: int) -> Case:
+def added(rng: random.Random, size: int) -> KnownScene:
     """dw = z du and dw - z du + (F(a) - F(b)) dz = 0 are one form on the set, and that is non-holonomic."""
     agreement = rng.choice(ON_A_SET)
     first, second = _wrapped(rng, agreement, size)
     forms = ["dw = z*du", f"dw - z*du + ({first} - ({second}))*dz = 0"]
-    scene = plain([*agreement.chart, "z", "w", "u"], [*agreement.relations, *forms], functions=UNKNOWN)
+    scene = scene_of([*agreement.chart, "z", "w", "u"], *agreement.relations, *forms, functions=UNKNOWN)
     last, f = f"c{len(agreement.relations) + 2}", agreement.freedom
     known = truths(f + 3, f + 2, holonomic=False, redundant=[last], redundant_equations=1)
     chart = {**agreement.chart, "z": f"p{f}", "w": f"p{f + 1}", "u": f"p{f + 2}"}
-    return Case(scene, known, chart=chart)
+    return KnownScene(scene, known, chart=chart)
 
 
-def beads(rng: random.Random, size: int) -> Case:
+def beads(rng: random.Random, size: int) -> KnownScene:
     """k beads on the wire y = h(x) (in space z = f(x) too) that stand at one place: of the places' equations those in
     x say all, those in y and z follow."""
     k, space = 2 + rng.randint(0, size), rng.random() < 0.5
@@ -106,33 +107,33 @@ def beads(rng: random.Random, size: int) -> Case:
     wires = [f"{y}{i} = {f}(x{i})" for i in each for y, f in (("y", "h"), *([("z", "f")] if space else []))]
     letters = ["x", "y", *(["z"] if space else [])]
     meet = [f"{c}{i} = {c}{i + 1}" for i in each[:-1] for c in letters]
-    scene = plain([f"{c}{i}" for i in each for c in letters], [*wires, *meet], functions={"h": ["s"], "f": ["s"]})
+    scene = scene_of([f"{c}{i}" for i in each for c in letters], *wires, *meet, functions={"h": ["s"], "f": ["s"]})
     chart = {
         f"{c}{i}": text for i in each for c, text in zip("xyz", ("p0", "h(p0)", "f(p0)"), strict=True) if c in letters
     }
     follow = [f"c{len(wires) + 1 + i}" for i in range(len(meet)) if i % len(letters)]
-    return Case(scene, truths(1, redundant=follow, redundant_equations=len(follow)), chart=chart)
+    return KnownScene(scene, truths(1, redundant=follow, redundant_equations=len(follow)), chart=chart)
 
 
-def cam(rng: random.Random, size: int) -> Case:
+def cam(rng: random.Random, size: int) -> KnownScene:
     """y = h(x) and x is given in time: y = h of that follows."""
     motion = rng.choice(("v*t", "v*t + 1", "sin(v*t)", "t^2", "v*t^3 + t", "exp(t)"))
-    scene = plain("x y", ["y = h(x)", f"x = {motion}", f"y = h({motion})"], functions=UNKNOWN, parameters=["v"])
+    scene = scene_of("x y", "y = h(x)", f"x = {motion}", f"y = h({motion})", functions=UNKNOWN, parameters=["v"])
     known = truths(0, redundant=["c3"], redundant_equations=1, scleronomic=False)
-    return Case(scene, known, chart={"x": motion, "y": "h(x)"})
+    return KnownScene(scene, known, chart={"x": motion, "y": "h(x)"})
 
 
-def logarithms(rng: random.Random, size: int) -> Case:
+def logarithms(rng: random.Random, size: int) -> KnownScene:
     """The relation that follows, and the form, where logarithms and exponentials make the arguments equal."""
     make = rng.choice((_followed, _formed, _integrated))
     return make(rng, rng.choice(BY_LOGARITHMS), size)
 
 
-def _integrated(rng: random.Random, agreement: Agreement, size: int) -> Case:
+def _integrated(rng: random.Random, agreement: Agreement, size: int) -> KnownScene:
     """A relation c1 with its own differential plus (a - b) dq, which is the same on the set."""
     text = "y = exp(x)", f"(log(y) - x)*{rng.choice(('', 'y*', 'sin(x)*'))}dx + dy = y*dx"
     known = truths(1, redundant=["c2"], redundant_equations=1, holonomic=True)
-    return Case(plain("x y", text), known, chart={"x": "p0", "y": "exp(p0)"})
+    return KnownScene(scene_of("x y", *text), known, chart={"x": "p0", "y": "exp(p0)"})
 
 
 FAMILY = {

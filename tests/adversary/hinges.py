@@ -8,7 +8,8 @@ from fractions import Fraction
 from itertools import combinations
 from typing import Any
 
-from .case import Case, truths
+from dofkit.benchmark.trials.construction import KnownScene, truths
+
 from .draws import names, nonzero
 from .linear import eliminated
 
@@ -67,7 +68,7 @@ def _kernel(rows: Sequence[Sequence[Fraction]]) -> list[list[Fraction]]:
     return found
 
 
-def flat_vertex(rng: random.Random, size: int) -> Case:
+def flat_vertex(rng: random.Random, size: int) -> KnownScene:
     """k hinges through a point with axes a_i in one plane, in this order round the loop: to first order sum r_i a_i
     = 0, k - 2 freedoms; to second order the component across the plane is sum over i < j of r_i r_j det(a_i, a_j) =
     0. Where that form is not degenerate there and has both signs, the set is a cone of dimension k - 3 (the third
@@ -96,10 +97,10 @@ def flat_vertex(rng: random.Random, size: int) -> Case:
     at = rng.choice(([0, 0, 0], [rng.randint(-2, 2) for _ in range(3)]))
     scene = {"dimension": 3, **_loop(bodies, [(at, axis) for axis in axes])}
     known = truths(dof, instantaneous_dof=k - 2, singular=dof != k - 2, redundant=[])
-    return Case(scene, known | {"redundant_equations": 5 * k - (6 * (k - 1) - dof)})
+    return KnownScene(scene, known | {"redundant_equations": 5 * k - (6 * (k - 1) - dof)})
 
 
-def coaxial(rng: random.Random, size: int) -> Case:
+def coaxial(rng: random.Random, size: int) -> KnownScene:
     """A door on k hinges of one axis: 1 freedom, all but the first redundant."""
     k, axis, at = (
         2 + rng.randint(0, 1 + size),
@@ -115,10 +116,10 @@ def coaxial(rng: random.Random, size: int) -> Case:
         redundant=[f"c{i}" for i in range(2, k + 1)],
         redundant_equations=5 * (k - 1),
     )
-    return Case({"dimension": 3, "bodies": ["door"], "constraints": joints}, known)
+    return KnownScene({"dimension": 3, "bodies": ["door"], "constraints": joints}, known)
 
 
-def planar_loop(rng: random.Random, size: int) -> Case:
+def planar_loop(rng: random.Random, size: int) -> KnownScene:
     """k parallel hinges at the corners of a polygon: k - 3 freedoms, regular where the corners are not on one line.
     On one line, to first order sum r_i = sum r_i x_i = 0, k - 2 freedoms, and to second order sum over i < j of r_i
     r_j (x_j - x_i) = 0 across: one sign where a bar is as long as the others together, and then nothing moves."""
@@ -129,10 +130,10 @@ def planar_loop(rng: random.Random, size: int) -> Case:
     scene = {"dimension": 3, **_loop(names("b", k - 1), [(place, (0, 0, 1)) for place in places])}
     first = k - 2 if line else k - 3
     known = truths(dof, instantaneous_dof=first, singular=line, redundant_equations=5 * k - (6 * (k - 1) - dof))
-    return Case(scene, known)
+    return KnownScene(scene, known)
 
 
-def parallelogram_loop(rng: random.Random, size: int) -> Case:
+def parallelogram_loop(rng: random.Random, size: int) -> KnownScene:
     """Four parallel hinges at the corners of a parallelogram, with a fifth body as a crank more: it moves, by 1."""
     a, b = (rng.randint(1, 4), rng.randint(0, 3)), (rng.randint(-2, 2), rng.randint(1, 4))
     more = size > 0
@@ -153,7 +154,7 @@ def parallelogram_loop(rng: random.Random, size: int) -> Case:
     bodies = ["b1", "b2", "b3", *(["b4"] if more else [])]
     extra = 5 * len(joints) - (6 * len(bodies) - 1)
     known = truths(1, instantaneous_dof=1, singular=False, redundant_equations=extra)
-    return Case({"dimension": 3, "bodies": bodies, "constraints": joints}, known)
+    return KnownScene({"dimension": 3, "bodies": bodies, "constraints": joints}, known)
 
 
 FAMILY = {

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import random
 
-from .case import Case, plain, truths
+from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
+
 from .draws import INJECTIVE, applied, nonzero, polynomial
 
 UNKNOWN = {"h": ["s"]}
@@ -84,31 +85,31 @@ def wrapped(rng: random.Random, pair: tuple[str, str], size: int, outer: tuple[s
     return first, second
 
 
-def vanishing(rng: random.Random, size: int) -> Case:
+def vanishing(rng: random.Random, size: int) -> KnownScene:
     """dx + y (F - G) dz = 0 with F = G: it says dx = 0."""
     first, second = wrapped(rng, rng.choice(EQUAL), size, OUTER)
     more = f"*({polynomial(rng, ['a', 'z'])} + 7)" if rng.random() < 0.4 else ""
-    scene = plain("a b x y z", [f"xdot + y*({first} - ({second})){more}*zdot = 0"], functions=UNKNOWN)
+    scene = scene_of("a b x y z", f"xdot + y*({first} - ({second})){more}*zdot = 0", functions=UNKNOWN)
     known = truths(4, holonomic=True, scleronomic=True, **{"c1.holonomic": True})
-    return Case(scene, known, chart={"a": "p0", "b": "p1", "y": "p2", "z": "p3", "x": "1"})
+    return KnownScene(scene, known, chart={"a": "p0", "b": "p1", "y": "p2", "z": "p3", "x": "1"})
 
 
-def remaining(rng: random.Random, size: int) -> Case:
+def remaining(rng: random.Random, size: int) -> KnownScene:
     """The same with F other than G: w = dx + y (F - G) dz has w ^ dw = (F - G) dx ^ dy ^ dz + ..., other than 0. An
     unknown function differs at arguments that do, since it is any function."""
     first, second = wrapped(rng, rng.choice(DIFFERENT), size // 2, STRICT)
-    scene = plain("a b x y z", [f"xdot + y*({first} - ({second}))*zdot = 0"], functions=UNKNOWN)
+    scene = scene_of("a b x y z", f"xdot + y*({first} - ({second}))*zdot = 0", functions=UNKNOWN)
     chart = {name: f"p{k}" for k, name in enumerate("abxyz")}
-    return Case(scene, truths(5, 4, holonomic=False, scleronomic=True), chart=chart)
+    return KnownScene(scene, truths(5, 4, holonomic=False, scleronomic=True), chart=chart)
 
 
-def repeated(rng: random.Random, size: int) -> Case:
+def repeated(rng: random.Random, size: int) -> KnownScene:
     """z = F y and z = G y with F = G: the second says nothing new."""
     first, second = wrapped(rng, rng.choice(EQUAL), size, OUTER)
     k = nonzero(rng)
-    scene = plain("a b y z", [f"z = ({first})*y + {k}", f"z = ({second})*y + {k}"], functions=UNKNOWN)
+    scene = scene_of("a b y z", f"z = ({first})*y + {k}", f"z = ({second})*y + {k}", functions=UNKNOWN)
     known = truths(3, redundant=["c2"], redundant_equations=1)
-    return Case(scene, known, chart={"a": "p0", "b": "p1", "y": "p2", "z": f"({first})*y + {k}"})
+    return KnownScene(scene, known, chart={"a": "p0", "b": "p1", "y": "p2", "z": f"({first})*y + {k}"})
 
 
 #: A function of y, the same in another writing, and its derivative.
@@ -137,7 +138,7 @@ DERIVED = (
 )
 
 
-def closed(rng: random.Random, size: int) -> Case:
+def closed(rng: random.Random, size: int) -> KnownScene:
     """d(X(x) F(E(y))), the second term with E in another writing: exact."""
     one, other, slope = rng.choice(INNER)
     outer, derived = rng.choice(DERIVED)
@@ -148,7 +149,7 @@ def closed(rng: random.Random, size: int) -> Case:
         one, other = other, one
     text = f"{dx}*({applied(outer, one)})*xdot + ({x})*({applied(derived, other)})*{slope}*ydot = 0"
     known = truths(1, holonomic=True, scleronomic=True, **{"c1.exact": True, "c1.holonomic": True})
-    return Case(plain("x y", [text], functions=UNKNOWN), known)
+    return KnownScene(scene_of("x y", text, functions=UNKNOWN), known)
 
 
 FAMILY = {"vanishing": vanishing, "remaining": remaining, "repeated": repeated, "closed": closed}

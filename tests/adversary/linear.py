@@ -6,7 +6,8 @@ import random
 from collections.abc import Sequence
 from fractions import Fraction
 
-from .case import IMPOSSIBLE, Case, plain, truths
+from dofkit.benchmark.trials.construction import IMPOSSIBLE, KnownScene, scene_of, truths
+
 from .draws import names
 
 Row = list[Fraction]
@@ -51,20 +52,20 @@ def _dependent(rows: Sequence[Row]) -> list[str]:
     return [f"c{k + 1}" for k in range(len(rows)) if eliminated(rows[:k]) == eliminated(rows[: k + 1])]
 
 
-def positions(rng: random.Random, size: int) -> Case:
+def positions(rng: random.Random, size: int) -> KnownScene:
     """a q = b: consistent where b adds nothing to the rank, then of dimension n - rank; dependent rows are
     redundant."""
     n = rng.randint(1, 3 + 2 * size)
     rows = _drawn(rng, n, rng.randint(1, n + 2)) or [[Fraction(1)] * (n + 1)]
-    scene = plain(names("q", n), [_text(row, names("q", n)) for row in rows])
+    scene = scene_of(names("q", n), *([_text(row, names("q", n)) for row in rows]))
     rank = eliminated([row[:-1] for row in rows])
     if eliminated(rows) > rank:
-        return Case(scene, IMPOSSIBLE)
+        return KnownScene(scene, IMPOSSIBLE)
     extra = len(rows) - rank
-    return Case(scene, truths(n - rank, redundant=_dependent(rows), redundant_equations=extra, holonomic=True))
+    return KnownScene(scene, truths(n - rank, redundant=_dependent(rows), redundant_equations=extra, holonomic=True))
 
 
-def speeds(rng: random.Random, size: int) -> Case:
+def speeds(rng: random.Random, size: int) -> KnownScene:
     """a dq = 0 with constant coefficients, beside finite relations written before: all integrate, and the rank
     counts."""
     n = rng.randint(2, 3 + 2 * size)
@@ -78,26 +79,26 @@ def speeds(rng: random.Random, size: int) -> Case:
     texts += [_text(row, [f"{c}dot" for c in q]) for row in rows[finite:]]
     rank = eliminated(rows)
     known = truths(n - rank, redundant=_dependent(rows), redundant_equations=len(rows) - rank, holonomic=True)
-    return Case(plain(q, texts), known)
+    return KnownScene(scene_of(q, *texts), known)
 
 
 def _dot(row: Row, values: Sequence[Fraction]) -> Fraction:
     return sum((a * v for a, v in zip(row, values, strict=False)), Fraction(0))
 
 
-def driven(rng: random.Random, size: int) -> Case:
+def driven(rng: random.Random, size: int) -> KnownScene:
     """a q = b t: no motion where a combination of the rows says t = 0; else of dimension n - rank."""
     n = rng.randint(1, 3 + 2 * size)
     q = names("q", n)
     rows = _drawn(rng, n, rng.randint(1, n + 2)) or [[Fraction(1)] * (n + 1)]
     moving = rng.random() < 0.5
     words = [f"{c}dot" for c in q] if moving else q
-    scene = plain(q, [_text(row, words, "1" if moving else "t") for row in rows])
+    scene = scene_of(q, *([_text(row, words, "1" if moving else "t") for row in rows]))
     rank = eliminated([row[:-1] for row in rows])
     if eliminated(rows) > rank:
-        return Case(scene, IMPOSSIBLE)
+        return KnownScene(scene, IMPOSSIBLE)
     known = truths(n - rank, redundant=_dependent(rows), redundant_equations=len(rows) - rank, holonomic=True)
-    return Case(scene, known | {"scleronomic": not any(row[-1] for row in rows)})
+    return KnownScene(scene, known | {"scleronomic": not any(row[-1] for row in rows)})
 
 
 FAMILY = {"positions": positions, "speeds": speeds, "driven": driven}

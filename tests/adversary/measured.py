@@ -4,20 +4,21 @@ exact one."""
 from __future__ import annotations
 
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any
 
-from .case import Case, Scene, Truth, at
+from dofkit.benchmark.trials.construction import KnownScene
+
 from .circuits import bricard, dixon, parallel_cranks
-from .draws import decimal
+from .draws import at, decimal
 
 #: Exact drawings that move more than a count says.
-EXACT: tuple[Callable[[random.Random, int], Case], ...] = (parallel_cranks, dixon, bricard)
+EXACT: tuple[Callable[[random.Random, int], KnownScene], ...] = (parallel_cranks, dixon, bricard)
 COUNTED = ("consistent", "dof", "velocity_dof", "redundant_equations")
 
 
-def rounded(scene: Scene, digits: int, shift: int = 0) -> Scene:
+def rounded(scene: Mapping[str, Any], digits: int, shift: int = 0) -> Mapping[str, Any]:
     """Every place with so many decimals, moved along all axes, and the tolerance that goes with them."""
     particles = [
         {
@@ -29,7 +30,7 @@ def rounded(scene: Scene, digits: int, shift: int = 0) -> Scene:
     return {**scene, "particles": particles, "tolerance": 10.0 ** (1 - digits)}
 
 
-def _exact(rng: random.Random, size: int) -> Case:
+def _exact(rng: random.Random, size: int) -> KnownScene:
     """A drawing whose freedom is known."""
     while True:
         case = rng.choice(EXACT)(rng, size)
@@ -37,22 +38,22 @@ def _exact(rng: random.Random, size: int) -> Case:
             return case
 
 
-def _with(scene: Scene, coordinates: list[str], constraints: list[Any]) -> Scene:
+def _with(scene: Mapping[str, Any], coordinates: list[str], constraints: list[Any]) -> Mapping[str, Any]:
     more = {"coordinates": coordinates} if coordinates else {}
     return {**scene, **more, "constraints": [*scene["constraints"], *constraints]}
 
 
-def _counted(truth: Truth) -> dict[str, Any]:
+def _counted(truth: Mapping[str, Any]) -> dict[str, Any]:
     return {key: truth[key] for key in COUNTED if key in truth}
 
 
-def alone(rng: random.Random, size: int) -> Case:
+def alone(rng: random.Random, size: int) -> KnownScene:
     """The drawing rounded: the exact one is within the tolerance, and what moves there is what was meant."""
     case, digits = _exact(rng, size), rng.randint(5, 9)
-    return Case(rounded(case.scene, digits, rng.choice((0, 0, 5))), _counted(case.truth))
+    return KnownScene(rounded(case.scene, digits, rng.choice((0, 0, 5))), _counted(case.truth))
 
 
-def attached(rng: random.Random, size: int) -> Case:
+def attached(rng: random.Random, size: int) -> KnownScene:
     """The same with a form dr = x_P dq on two more coordinates, or r = x_P + q^2: the first adds 2 freedoms and 1
     velocity, and is non-holonomic where x_P moves; the second adds 1 and 1. Without a reference for q and r the
     drawing is none for all: other assemblies of the same lengths, which are rigid, are parts of the set too."""
@@ -64,9 +65,9 @@ def attached(rng: random.Random, size: int) -> Case:
     counted, rigid = _counted(case.truth), case.truth["dof"] - 1
     known = counted | _freedoms(case.truth["dof"], formed)
     if rng.random() < 0.5:
-        return Case({**scene, "configuration": at({"q": 0, "r": point["at"][0]})}, known)
+        return KnownScene({**scene, "configuration": at({"q": 0, "r": point["at"][0]})}, known)
     elsewhere = {key: [value] for key, value in _freedoms(rigid, formed).items()} | {"redundant_equations": [0]}
-    return Case(scene, known, elsewhere)
+    return KnownScene(scene, known, elsewhere)
 
 
 def _freedoms(moving: int, formed: bool) -> dict[str, Any]:
@@ -76,20 +77,20 @@ def _freedoms(moving: int, formed: bool) -> dict[str, Any]:
     return {"dof": moving + 1, "velocity_dof": moving + 1, "holonomic": True}
 
 
-def unmeasured(rng: random.Random, size: int) -> Case:
+def unmeasured(rng: random.Random, size: int) -> KnownScene:
     """A generic framework of triangles, rounded: rigid but for the 3 motions of the plane, and a form that has
     nothing to do with it: 3 more freedoms and 2 velocities."""
     many = 3 + size
     places = {f"P{k}": (Fraction(k), Fraction(k * k, 7) + Fraction(rng.randint(1, 9), 10)) for k in range(many)}
     links = [(f"P{k}", f"P{k + j}") for k in range(many) for j in (1, 2) if k + j < many]
     particles = [{"name": name, "at": [str(x) for x in place]} for name, place in places.items()]
-    scene: Scene = {
+    scene: Mapping[str, Any] = {
         "dimension": 2,
         "particles": particles,
         "constraints": [{"type": "link", "between": [*pair]} for pair in links],
     }
     known = {"consistent": True, "dof": 6, "velocity_dof": 5, "holonomic": False, "redundant_equations": 0}
-    return Case(_with(rounded(scene, rng.randint(4, 8)), ["u", "v", "w"], ["du = v*dw"]), known)
+    return KnownScene(_with(rounded(scene, rng.randint(4, 8)), ["u", "v", "w"], ["du = v*dw"]), known)
 
 
 FAMILY = {"alone": alone, "attached": attached, "unmeasured": unmeasured}

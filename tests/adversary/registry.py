@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+
+from dofkit.benchmark.trials.construction import KnownScene
 
 from . import (
     agreements,
@@ -26,7 +28,9 @@ from . import (
     times,
     vanishing,
 )
-from .case import Case, Generator
+
+#: A family: a scene of a size (0 is the smallest) from random choices.
+Generator = Callable[[random.Random, int], KnownScene]
 
 _FAMILIES = {
     "agreements": agreements.FAMILY,
@@ -59,6 +63,6 @@ KINDS: Mapping[str, Generator] = {
 OPEN: Mapping[str, str] = {}
 
 
-def drawn(kind: str, seed: int, size: int) -> Case:
+def drawn(kind: str, seed: int, size: int) -> KnownScene:
     """The case of a kind: the same for the same seed and size."""
     return KINDS[kind](random.Random(f"{kind} {seed}"), size)

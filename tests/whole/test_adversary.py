@@ -12,7 +12,6 @@ from typing import Any
 
 import pytest
 from adversary import findings, registry
-from adversary.case import Case, plain, truths
 from adversary.confirmation import confirmed
 from adversary.disguises import DISGUISES
 from adversary.findings import faults, outcome
@@ -25,6 +24,7 @@ from adversary.trial import Trial, made
 from shared.known_scenes import swept
 
 import dofkit
+from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
 
 FOLDER = Path(findings.__file__).parent
 FOUND = sorted(findings.FOUND.glob("*.json"))
@@ -77,8 +77,8 @@ def test_the_chart_fits_what_is_written_in_another_way(kind: str, disguise: str)
         assert (found.dimension, found.velocities) == (worn.truth["dof"], worn.truth["velocity_dof"])
 
 
-SIMPLE = Case(
-    plain("x y z", ["x^2 + y^2 = 25", "dz = 3*dx"], configuration={"x": "3", "y": "4", "z": "9"}),
+SIMPLE = KnownScene(
+    scene_of("x y z", "x^2 + y^2 = 25", "dz = 3*dx", configuration={"x": "3", "y": "4", "z": "9"}),
     truths(1, instantaneous_dof=1, singular=False, holonomic=True, redundant=[], redundant_equations=0),
 )
 DRAWN = replace(registry.drawn("hinges/coaxial", 1, 0), elsewhere={})
@@ -118,7 +118,7 @@ def told(**fields: Any) -> dict[str, Any]:
 )
 def test_a_report_is_held_against_the_truth(report: dict[str, Any], expected: str) -> None:
     truth = {"dof": 2, "holonomic": True, "redundant": ["a", "b"], "c1.circuit": ["b", "a"], "c1.holonomic": True}
-    assert overall(judged(Case({}, truth, {"dof": [1]}), report)) == expected
+    assert overall(judged(KnownScene({}, truth, {"dof": [1]}), report)) == expected
 
 
 def test_no_report_is_a_finding() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from dofkit.benchmark.trials.construction import KnownScene, known_scene, scene
+from dofkit.benchmark.trials.construction import KnownScene, known_scene, scene_of
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ def _trial(name: str, parts: list[TrialPart], because: str, traits: tuple[str, .
         over += [f"part{k}_{i}" for i in part.redundant]
     yield known_scene(
         name,
-        scene(names, *rows, parameters={"R": "positive"}),
+        scene_of(names, *rows, parameters={"R": "positive"}),
         because,
         traits,
         size=len(parts),
@@ -94,7 +94,7 @@ def shared_heading(quick: bool) -> Iterator[KnownScene]:
         ):
             yield known_scene(
                 f"{n} discs, {held[0] if held else 'free to turn'}",
-                scene(names, *held, *rows),
+                scene_of(names, *held, *rows),
                 "turning takes each anywhere; held, all follow their angles; turned by the first's roll, it does",
                 (trait,),
                 size=n,

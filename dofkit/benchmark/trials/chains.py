@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from dofkit.benchmark.trials.construction import KnownScene, every, known_scene, numbered, scene
+from dofkit.benchmark.trials.construction import KnownScene, every, known_scene, numbered, scene_of
 
 
 def pendulums(quick: bool) -> Iterator[KnownScene]:
@@ -94,7 +94,7 @@ def chained_forms(quick: bool) -> Iterator[KnownScene]:
         ]  # fmt: skip
         for name, rows, dof, labels, because, trait in members:
             traits = (trait, "long-chain")
-            yield known_scene(name, scene(names, *rows), because, traits, n, dof=dof, integrability=labels)
+            yield known_scene(name, scene_of(names, *rows), because, traits, n, dof=dof, integrability=labels)
 
 
 def trailers(quick: bool) -> Iterator[KnownScene]:
@@ -135,7 +135,7 @@ def car(n: int) -> dict[str, Any]:
         arms = "".join(f" + l{j} cos({angle} - th{j}) dth{j}" for j in range(1, i + 1))
         forms.append(f"sin({angle}) dx - cos({angle}) dy{arms} = 0")
     lengths = {"l": "positive"} | {f"l{j}": "positive" for j in range(1, n + 1)}
-    return scene(["x", "y", "phi", *angles], *forms, parameters=lengths)
+    return scene_of(["x", "y", "phi", *angles], *forms, parameters=lengths)
 
 
 def equations(quick: bool) -> Iterator[KnownScene]:
@@ -152,7 +152,7 @@ def equations(quick: bool) -> Iterator[KnownScene]:
         for name, last, dof, over, traits in rows:
             yield known_scene(
                 f"{n} coordinates, {name}",
-                scene(names, *sums, last),
+                scene_of(names, *sums, last),
                 f"x_n-1 = {factor} x_0 + {factor - 1} by the chain",
                 traits,
                 size=n,

@@ -110,7 +110,7 @@ def truths(dof: int, velocity_dof: int | None = None, **more: Any) -> dict[str, 
     return {"consistent": True, "dof": dof, "velocity_dof": dof if velocity_dof is None else velocity_dof, **more}
 
 
-def scene(coordinates: str | Sequence[str], *constraints: Any, **more: Any) -> dict[str, Any]:
+def scene_of(coordinates: str | Sequence[str], *constraints: Any, **more: Any) -> dict[str, Any]:
     """A scene in coordinates, with spaces between them or as a list; what is given as None is left out."""
     names = coordinates.split() if isinstance(coordinates, str) else [*coordinates]
     given = {key: value for key, value in more.items() if value is not None}
@@ -126,7 +126,7 @@ def tabled(line: Line) -> KnownScene:
     """A scene in coordinates alone, its size the number of its rows."""
     name, coordinates, rows, dof, holonomic, redundant, because, trait = line
     labels = None if holonomic is None else dict(zip(numbered(len(rows)), holonomic, strict=True))
-    about = name, scene(coordinates.split(), *rows), because, (trait,), len(rows)
+    about = name, scene_of(coordinates, *rows), because, (trait,), len(rows)
     return known_scene(*about, dof=dof, integrability=labels, redundancy=redundant)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from dofkit.benchmark.trials.construction import KnownScene, scene
+from dofkit.benchmark.trials.construction import KnownScene, scene_of
 from dofkit.benchmark.trials.traps import NOT_ZERO, TRAPS, Trap
 
 Context = Callable[[Trap, str, bool], KnownScene | None]
@@ -14,7 +14,7 @@ Context = Callable[[Trap, str, bool], KnownScene | None]
 def _in(trap: Trap, texts: Sequence[str]) -> dict[str, Any]:
     """A scene in x, y, z and what the trap is made of."""
     more = {"parameters": dict.fromkeys(trap.parameters, "positive")} if trap.parameters else {}
-    return scene(["x", "y", "z", *trap.coordinates], *texts, **more)
+    return scene_of(["x", "y", "z", *trap.coordinates], *texts, **more)
 
 
 def _trial(trap: Trap, t: str, texts: Sequence[str], truth: Mapping[str, Any]) -> KnownScene:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from dofkit.benchmark.trials.construction import KnownScene, known_scene, scene
+from dofkit.benchmark.trials.construction import KnownScene, known_scene, scene_of
 
 #: What is done to ``u = 0`` (``{u}``, ``{q}`` a coordinate in it): is it the same, the trait, why.
 Way = tuple[str, str, bool, str, str]
@@ -51,7 +51,7 @@ class AskedConstraint:
     def scene(self, text: str = "") -> dict[str, Any]:
         """The scene, with another text for the constraint where one is given."""
         rows = (*self.others, _asked_equation(text or f"{self.u} = 0"))
-        return scene(self.coordinates.split(), *rows, parameters=dict(self.parameters or {}))
+        return scene_of(self.coordinates.split(), *rows, parameters=dict(self.parameters or {}))
 
 
 def _asked_equation(text: str) -> dict[str, str]:
@@ -246,13 +246,13 @@ def large_answers(quick: bool) -> Iterator[KnownScene]:
     for n in (3,) if quick else (3, 6, 12, 24):
         x = [f"x{k}" for k in range(n)]
         square = " + ".join(f"{q}^2" for q in x)
-        sphere = scene(x, _asked_equation(f"{square} = 1"))
+        sphere = scene_of(x, _asked_equation(f"{square} = 1"))
         rows = [f"x{k} = {k} x0" for k in range(1, n)]
-        chain = scene([*x, "y"], *rows, _asked_equation("y = x0^2"))
+        chain = scene_of([*x, "y"], *rows, _asked_equation("y = x0^2"))
         total = " + ".join(f"{k + 2}*(x{k} - {k} x0)" for k in range(1, n))
         forms = [f"dx{k} = y{k} dx0" for k in range(1, n)]
         names = [*x, *(f"y{k}" for k in range(1, n)), "z", "w"]
-        moving = scene(names, *forms, _asked_equation("dz = w dx0"))
+        moving = scene_of(names, *forms, _asked_equation("dz = w dx0"))
         summed = " + ".join(f"w*dx{k}" for k in range(1, n)), " + ".join(f"w*y{k}*dx0" for k in range(1, n))
         members = (
             (f"sphere in {n}, in exp", sphere, f"exp({square}) = E", True, "rewritten"),
@@ -274,8 +274,8 @@ def tiny_answers(quick: bool) -> Iterator[KnownScene]:
     """A difference of 10^-k, in a finite relation and in a form, beside a factor of the same size."""
     for k in (6, 30) if quick else (3, 6, 9, 12, 15, 18, 24, 30, 60):
         e = f"1e-{k}"
-        circle = scene(["x", "y"], _asked_equation("x^2 + y^2 = 4"))
-        form = scene(["x", "y", "z"], _asked_equation("dz = y dx"))
+        circle = scene_of(["x", "y"], _asked_equation("x^2 + y^2 = 4"))
+        form = scene_of(["x", "y", "z"], _asked_equation("dz = y dx"))
         rows: tuple[tuple[str, dict[str, Any], str, bool], ...] = (
             ("radius", circle, f"x^2 + y^2 = 4 + {e}", False),
             ("ellipse", circle, f"x^2 + (1 + {e}) y^2 = 4", False),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Mapping, Sequence
 
-from dofkit.benchmark.trials.construction import KnownScene, Line, every, known_scene, numbered, scene, tabled
+from dofkit.benchmark.trials.construction import KnownScene, Line, every, known_scene, numbered, scene_of, tabled
 
 #: A form by coordinate: coefficients as text.
 Form = Mapping[str, str]
@@ -47,7 +47,7 @@ def mixed_forms(quick: bool) -> Iterator[KnownScene]:
             whole = all(row[0] for row in matrix) or integrates
             yield known_scene(
                 f"{n} forms in {2 * n + 1} coordinates, {name}, {seed}",
-                scene(names, *rows),
+                scene_of(names, *rows),
                 "what they span does not change with a regular matrix of functions",
                 ("together" if integrates else "non-holonomic", "large"),
                 size=n,
@@ -157,7 +157,7 @@ def near_integrable(quick: bool) -> Iterator[KnownScene]:
             rows = [*(f"{form} = 0" for form in exact[:-1]), f"{exact[-1]} + {step} = 0"]
             yield known_scene(
                 f"{n} forms, the last {name} by 1e-{digits}",
-                scene(names, *rows),
+                scene_of(names, *rows),
                 "d of the last is e dx dy, which no other form holds" if not holonomic else "all are closed",
                 ("near-integrable" if not holonomic else "integrable",),
                 size=n,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from dofkit.benchmark.trials.construction import KnownScene, known_scene, scene
+from dofkit.benchmark.trials.construction import KnownScene, known_scene, scene_of
 from dofkit.benchmark.trials.contexts import CONTEXTS
 from dofkit.benchmark.trials.rewritten import other_coordinates
 from dofkit.benchmark.trials.steps import tiny_steps
@@ -85,8 +85,8 @@ def bases(quick: bool) -> Iterator[KnownScene]:
                 yield replace(known, because=because, traits=("mixed-bases" if is_zero else "near-identity",))
     for power in (2,) if quick else (2, 3, 5, 8, 12):
         names = ["x", "y", "z"]
-        same = scene(names, f"({2**power})^x dz + 2^({power} x) dy = 0")
-        other = scene(names, f"({2**power})^x dz + 2^({power} x) y dx = 0")
+        same = scene_of(names, f"({2**power})^x dz + 2^({power} x) dy = 0")
+        other = scene_of(names, f"({2**power})^x dz + 2^({power} x) y dx = 0")
         for name, made, dof, because in (
             (f"a factor 2^({power} x)", same, 2, "dz + dy"),
             (f"a contact form by 2^({power} x)", other, 3, "dz + y dx"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dofkit.benchmark.trials.construction import KnownScene, every, known_scene, numbered, scene
+from dofkit.benchmark.trials.construction import KnownScene, every, known_scene, numbered, scene_of
 
 POWERS = (1, 2, 3, 8, 16, 32, 64)
 #: The largest power of a sum that a scene may hold, as powers of powers are bounded.
@@ -32,7 +32,7 @@ def high_powers(quick: bool) -> Iterator[KnownScene]:
                 continue
             yield known_scene(
                 f"{name}, k = {k}",
-                scene(coordinates, *texts),
+                scene_of(coordinates, *texts),
                 "a power is 0 where its base is; real even powers are not negative",
                 (trait, "real") if "x^k +" in name or dof < 0 else (trait,),
                 size=k,
@@ -61,7 +61,7 @@ def power_forms(quick: bool) -> Iterator[KnownScene]:
                 continue
             yield known_scene(
                 f"{name}, k = {k}",
-                scene(["x", "y", "z"], text),
+                scene_of(["x", "y", "z"], text),
                 because,
                 ("squared", "nonlinear") if "the power of" in name else ("high-power",),
                 size=k,
@@ -85,7 +85,7 @@ def sums_of_squares(quick: bool) -> Iterator[KnownScene]:
         ]
         names = [f"x{k}" for k in range(n)]
         for name, text, dof, because, traits in rows:
-            yield known_scene(f"{name} of {n}", scene(names, text), because, traits, size=n, dof=dof)
+            yield known_scene(f"{name} of {n}", scene_of(names, text), because, traits, size=n, dof=dof)
         yield from _squared_forms(n, names)
 
 
@@ -93,7 +93,7 @@ def _squared_forms(n: int, names: list[str]) -> Iterator[KnownScene]:
     traits = ("sum-of-squares", "nonlinear")
     yield known_scene(
         f"{n} forms in one",
-        scene([*names, "y"], f"(x0dot - x1 ydot)^2 + {_sum(n, '(x{k}dot - y ydot)^2', 1)} = 0"),
+        scene_of([*names, "y"], f"(x0dot - x1 ydot)^2 + {_sum(n, '(x{k}dot - y ydot)^2', 1)} = 0"),
         "each square is 0: dx_k = y dy, and dx_0 = x_1 dy with it; one direction is left: they integrate",
         traits,
         size=n,
@@ -102,7 +102,7 @@ def _squared_forms(n: int, names: list[str]) -> Iterator[KnownScene]:
     )
     yield known_scene(
         f"{n - 1} forms in one, and one that does not integrate",
-        scene([*names, "y", "z"], f"{_sum(n, '(x{k}dot - z ydot)^2')} = 0"),
+        scene_of([*names, "y", "z"], f"{_sum(n, '(x{k}dot - z ydot)^2')} = 0"),
         "each square is 0: dx_k = z dy; differences integrate, the form does not",
         traits,
         size=n,
@@ -140,7 +140,7 @@ def branches(quick: bool) -> Iterator[KnownScene]:
     ]  # fmt: skip
     for name, coordinates, texts, dof, labels, because, trait in rows[: 4 if quick else None]:
         yield known_scene(
-            name, scene(coordinates, *texts), because, (trait,), size=len(coordinates), dof=dof, integrability=labels
+            name, scene_of(coordinates, *texts), because, (trait,), size=len(coordinates), dof=dof, integrability=labels
         )
 
 

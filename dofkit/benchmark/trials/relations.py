@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations
 
-from dofkit.benchmark.trials.construction import KnownScene, every, known_scene, numbered, scene
+from dofkit.benchmark.trials.construction import KnownScene, every, known_scene, numbered, scene_of
 
 #: name, coordinates, rows that are independent, a row that follows from them, one that does not and takes one more
 #: freedom, one that contradicts them (or None); the trait
@@ -67,7 +67,7 @@ def hidden_relations(quick: bool) -> Iterator[KnownScene]:
                 continue
             yield known_scene(
                 f"{name}, {how}",
-                scene(names.split(), *rows, row),
+                scene_of(names.split(), *rows, row),
                 f"{implied} by the rows before",
                 (main, trait) if main != trait else (trait,),
                 size=k + 1,
@@ -91,7 +91,7 @@ def power_sums(quick: bool) -> Iterator[KnownScene]:
         ):
             yield known_scene(
                 f"{how} of {n}",
-                scene(names, *rows, row),
+                scene_of(names, *rows, row),
                 "p_n = e_1 p_n-1 - e_2 p_n-2 + ... up to n e_n (Newton); missed, it forces e_n = 0",
                 ("hidden-relation",),
                 size=n,
@@ -129,7 +129,7 @@ def rotations(quick: bool) -> Iterator[KnownScene]:
         ):
             yield known_scene(
                 f"{n} by {n} {how}",
-                scene(names, *columns, *more),
+                scene_of(names, *columns, *more),
                 "a left inverse is a right one; entries are at most 1",
                 ("hidden-relation",) if over else ("real",) if "axis" in how or dof < 0 else ("plain",),
                 size=n,
@@ -163,7 +163,7 @@ def linear_rows(quick: bool) -> Iterator[KnownScene]:
         ):
             yield known_scene(
                 f"{n} coordinates, {how} 1e-{digits}",
-                scene(names, *texts, text),
+                scene_of(names, *texts, text),
                 "the first rows are in echelon form; the last is a combination of them, but for the gap",
                 traits,
                 size=n,
@@ -206,7 +206,7 @@ def touching(quick: bool) -> Iterator[KnownScene]:
                 dof, over = told[k]
                 yield known_scene(
                     f"{name}, {how}" + (f" by 1e-{digits}" if k != 1 else ""),
-                    scene(names.split(), *(row.replace("{e}", e) for row in rows)),
+                    scene_of(names.split(), *(row.replace("{e}", e) for row in rows)),
                     "real solutions are there on one side of the gap only",
                     ("tiny-gap", "contradiction") if dof < 0 else ("tiny-gap", "real") if k == 1 else ("tiny-gap",),
                     size=len(rows),
@@ -249,7 +249,7 @@ def scales(quick: bool) -> Iterator[KnownScene]:
                 continue
             yield known_scene(
                 f"{name}, {r}",
-                scene(names.split(), *(text.format(r=r, a=a) for text in texts)),
+                scene_of(names.split(), *(text.format(r=r, a=a) for text in texts)),
                 because,
                 (trait,),
                 swept={"scale": 10.0**power},
@@ -267,7 +267,7 @@ def labels(quick: bool) -> Iterator[KnownScene]:
         walls = [f"x{k} >= {-k - 9}" for k in range(1, n, 2)]
         yield known_scene(
             f"{n} coordinates",
-            scene(names, *rows, *walls),
+            scene_of(names, *rows, *walls),
             "inequalities reduce nothing and are not holonomic",
             ("inequality",),
             size=n,

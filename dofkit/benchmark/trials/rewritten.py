@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from dofkit.benchmark.trials.construction import KnownScene, scene
+from dofkit.benchmark.trials.construction import KnownScene, scene_of
 
 x, y, z, w, theta, phi, psi, r, a = sp.symbols("x y z w theta phi psi r a", real=True)
 Form = Mapping[sp.Symbol, sp.Expr]
@@ -168,5 +168,5 @@ def _trial(base: Base, how: str) -> KnownScene:
     first = len(base.finite) + 1
     truth |= {f"c{i}.holonomic": True for i in range(1, first)}
     truth |= {f"c{first + i}.holonomic": h for i, h in enumerate(base.holonomic) if h is not None}
-    made = scene([str(q) for q in base.coordinates], *texts)
+    made = scene_of([str(q) for q in base.coordinates], *texts)
     return KnownScene(made, truth, name=f"{base.name}, {how}", group=base.name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from dofkit.benchmark.trials.construction import KnownScene, scene
+from dofkit.benchmark.trials.construction import KnownScene, scene_of
 
 #: The sizes of the step, as a person writes them.
 STEPS = ("1e-6", "1e-12", "1e-30", "1/7000000000000000000")
@@ -101,4 +101,4 @@ def _trial(
     truth: dict[str, Any],
 ) -> KnownScene:
     texts = [row.replace("{e}", f"({step})") for row in rows]
-    return KnownScene(scene(coordinates, *texts), truth, name=f"{name}, by {step}", group=name)
+    return KnownScene(scene_of(coordinates, *texts), truth, name=f"{name}, by {step}", group=name)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dofkit.benchmark.trials.construction import KnownScene, Line, known_scene, scene, tabled
+from dofkit.benchmark.trials.construction import KnownScene, Line, known_scene, scene_of, tabled
 
 TIMED: list[Line] = [
     ("a line that turns", "x y", ["y cos(t) = x sin(t)"], 1, [True], [], "a line", "rheonomic"),
@@ -87,7 +87,7 @@ def hidden_by_time(quick: bool) -> Iterator[KnownScene]:
             constraints = [*before, *rates, *after]
             yield known_scene(
                 f"{n} coordinates, {name}",
-                scene(names, *constraints),
+                scene_of(names, *constraints),
                 because,
                 traits,
                 size=n,
