@@ -259,7 +259,7 @@ def split(rng: random.Random, case: KnownScene) -> KnownScene | None:
 def turned(rng: random.Random, case: KnownScene) -> KnownScene | None:
     """A drawing turned by a rational angle about z, in space about x too, and moved."""
     scene = case.scene
-    if is_plain(scene) or any(isinstance(c, str) for c in scene["constraints"]):
+    if is_plain(scene) or "dimension" not in scene or any(isinstance(c, str) for c in scene["constraints"]):
         return None
     d, shift = scene["dimension"], [rng.randint(-3, 3) for _ in range(3)]
 

@@ -7,22 +7,11 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from dofkit.benchmark.trials.construction import IMPOSSIBLE, KnownScene, scene_of, truths
+from dofkit.benchmark.trials.random_systems import exact_rank
 
 from .draws import names
 
 Row = list[Fraction]
-
-
-def eliminated(rows: Sequence[Row]) -> int:
-    """The rank."""
-    left, rank = [list(row) for row in rows], 0
-    for c in range(len(rows[0]) if rows else 0):
-        pivot = next((row for row in left if row[c]), None)
-        if pivot is not None:
-            left.remove(pivot)
-            left = [[v - row[c] / pivot[c] * p for v, p in zip(row, pivot, strict=True)] for row in left]
-            rank += 1
-    return rank
 
 
 def _drawn(rng: random.Random, n: int, many: int) -> list[Row]:
@@ -49,7 +38,7 @@ def _text(row: Row, words: Sequence[str], right: str = "1") -> str:
 
 def _dependent(rows: Sequence[Row]) -> list[str]:
     """Names of the rows that depend on those before."""
-    return [f"c{k + 1}" for k in range(len(rows)) if eliminated(rows[:k]) == eliminated(rows[: k + 1])]
+    return [f"c{k + 1}" for k in range(len(rows)) if exact_rank(rows[:k]) == exact_rank(rows[: k + 1])]
 
 
 def positions(rng: random.Random, size: int) -> KnownScene:
@@ -58,8 +47,8 @@ def positions(rng: random.Random, size: int) -> KnownScene:
     n = rng.randint(1, 3 + 2 * size)
     rows = _drawn(rng, n, rng.randint(1, n + 2)) or [[Fraction(1)] * (n + 1)]
     scene = scene_of(names("q", n), *([_text(row, names("q", n)) for row in rows]))
-    rank = eliminated([row[:-1] for row in rows])
-    if eliminated(rows) > rank:
+    rank = exact_rank([row[:-1] for row in rows])
+    if exact_rank(rows) > rank:
         return KnownScene(scene, IMPOSSIBLE)
     extra = len(rows) - rank
     return KnownScene(scene, truths(n - rank, redundant=_dependent(rows), redundant_equations=extra, holonomic=True))
@@ -77,7 +66,7 @@ def speeds(rng: random.Random, size: int) -> KnownScene:
     values = [Fraction(rng.randint(-3, 3)) for _ in range(n)]
     texts = [_text([*row[:-1], _dot(row, values)], q) for row in rows[:finite]]
     texts += [_text(row, [f"{c}dot" for c in q]) for row in rows[finite:]]
-    rank = eliminated(rows)
+    rank = exact_rank(rows)
     known = truths(n - rank, redundant=_dependent(rows), redundant_equations=len(rows) - rank, holonomic=True)
     return KnownScene(scene_of(q, *texts), known)
 
@@ -94,8 +83,8 @@ def driven(rng: random.Random, size: int) -> KnownScene:
     moving = rng.random() < 0.5
     words = [f"{c}dot" for c in q] if moving else q
     scene = scene_of(q, *([_text(row, words, "1" if moving else "t") for row in rows]))
-    rank = eliminated([row[:-1] for row in rows])
-    if eliminated(rows) > rank:
+    rank = exact_rank([row[:-1] for row in rows])
+    if exact_rank(rows) > rank:
         return KnownScene(scene, IMPOSSIBLE)
     known = truths(n - rank, redundant=_dependent(rows), redundant_equations=len(rows) - rank, holonomic=True)
     return KnownScene(scene, known | {"scleronomic": not any(row[-1] for row in rows)})

@@ -33,7 +33,8 @@ _HEADINGS: Mapping[str, tuple[ModuleType, ...]] = {
     "Differential constraints, time, long chains": (forms, times, chains, blocks),
     "Equations between coordinates": (relations, powers, identities),
 }
-_ALL: Mapping[str, Callable[[bool], Iterator[KnownScene]]] = {
+#: The scenes of each family by name.
+KNOWN_SCENES: Mapping[str, Callable[[bool], Iterator[KnownScene]]] = {
     **catalog.FAMILIES,
     **graphs.FAMILIES,
     **joints.FAMILIES,
@@ -60,10 +61,14 @@ def _trials(name: str, constructions: Iterator[KnownScene]) -> Iterator[Trial]:
 
 def _family(name: str) -> Family:
     """Of the small members, a few that stand for the others."""
-    return lambda quick: few(_trials(name, _ALL[name](True))) if quick else _trials(name, _ALL[name](False))
+    return lambda quick: (
+        few(_trials(name, KNOWN_SCENES[name](True))) if quick else _trials(name, KNOWN_SCENES[name](False))
+    )
 
 
 #: What each family is, in a line.
-GLOSSES: Mapping[str, str] = {name: (made.__doc__ or "").partition("\n")[0].rstrip(".") for name, made in _ALL.items()}
+GLOSSES: Mapping[str, str] = {
+    name: (made.__doc__ or "").partition("\n")[0].rstrip(".") for name, made in KNOWN_SCENES.items()
+}
 #: Every family by name. ``quick``: a few small members that stand for the others.
-FAMILIES: Mapping[str, Family] = {name: _family(name) for name in _ALL}
+FAMILIES: Mapping[str, Family] = {name: _family(name) for name in KNOWN_SCENES}
