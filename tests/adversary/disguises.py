@@ -274,8 +274,13 @@ def turned(rng: random.Random, case: KnownScene) -> KnownScene | None:
         return [str(v + s) for v, s in zip((x, y, *rest), by, strict=False)]
 
     def drawn(part: Any) -> Any:
+        if isinstance(part, str):
+            return part
         moves = {"at": shift[:d], "axis": [0, 0, 0]}
-        return {key: placed(value, moves[key]) if key in moves else value for key, value in part.items()}
+        moved = {key: placed(value, moves[key]) if key in moves else value for key, value in part.items()}
+        if "between" in part:
+            moved["between"] = [end if isinstance(end, str) else placed(end, shift) for end in part["between"]]
+        return moved
 
     parts = {key: [drawn(part) for part in scene[key]] for key in ("particles", "constraints") if key in scene}
     return replace(case, scene={**scene, **parts})

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 from dofkit.benchmark.trials.trial import Trial, Truth
 from dofkit.methods.names import Question
@@ -33,7 +33,7 @@ class KnownScene:
     because: str = ""
     traits: Sequence[str] = ()
     size: int = 1
-    swept: Mapping[str, Any] | None = None
+    swept: Mapping[str, Any] = field(default_factory=dict)
     equivalence: tuple[str, str, bool] | None = None
 
     @property
@@ -76,29 +76,35 @@ class KnownScene:
         return dict(self.swept) if self.swept else {"member": member} if sizes else {}
 
 
+class Answers(TypedDict, total=False):
+    """Answers to the questions of a trial; those that are None, or left out, are not known.
+
+    ``dof`` -1: the constraints contradict each other; ``integrability``: whether each constraint is holonomic in the
+    system; ``redundancy``: what can be dropped; ``equivalence`` and ``swept``: see `KnownScene`.
+    """
+
+    dof: int | None
+    integrability: Mapping[str, bool] | None
+    redundancy: Sequence[str] | None
+    equivalence: tuple[str, str, bool]
+    swept: Mapping[str, Any]
+
+
 def known_scene(
     name: str,
     scene: Mapping[str, Any],
     because: str,
     traits: Sequence[str],
     size: int = 1,
-    swept: Mapping[str, Any] | None = None,
-    *,
-    dof: int | None = None,
-    integrability: Mapping[str, bool] | None = None,
-    redundancy: Sequence[str] | None = None,
-    equivalence: tuple[str, str, bool] | None = None,
+    **answers: Unpack[Answers],
 ) -> KnownScene:
-    """Return a scene with the answers to the questions of a trial; those that are None are not known.
-
-    ``dof`` -1: the constraints contradict each other; ``integrability``: whether each constraint is holonomic in the
-    system; ``redundancy``: what can be dropped.
-    """
+    """Return a scene with the answers to the questions of a trial."""
+    dof, redundant = answers.get("dof"), answers.get("redundancy")
     truth: dict[str, Any] = dict(IMPOSSIBLE) if dof == -1 else {} if dof is None else {"consistent": True, "dof": dof}
-    truth |= {f"{constraint}.holonomic": value for constraint, value in (integrability or {}).items()}
-    truth |= {} if redundancy is None else {"redundant": list(redundancy)}
-    about = {"because": because, "traits": traits, "size": size, "swept": swept}
-    return KnownScene(scene, truth, name=name, equivalence=equivalence, **about)
+    truth |= {f"{constraint}.holonomic": value for constraint, value in (answers.get("integrability") or {}).items()}
+    truth |= {} if redundant is None else {"redundant": list(redundant)}
+    swept, equivalence = answers.get("swept", {}), answers.get("equivalence")
+    return KnownScene(scene, truth, {}, None, name, "", because, traits, size, swept, equivalence)
 
 
 #: Of constraints that contradict each other.
