@@ -65,7 +65,7 @@ def without_accelerations(e: Expr, positive: frozenset[Expr], fresh: Iterator[st
             said += normal.notes
             parts.append(normal.branches)
         found += [tuple(p for part in choice for p in part) for choice in cartesian(*parts)]
-    special = [f"{c} = 0 is a special case: time may then not enter, and labels can be others" for c in constants]
+    special = [f"{c} = 0 is a special case, in which time may not occur and the labels may differ" for c in constants]
     return Normal(tuple(found), tuple(dict.fromkeys((*told, *special, *said))), tuple(constants), "; ".join(told))
 
 
