@@ -278,6 +278,8 @@ def turned(rng: random.Random, case: KnownScene) -> KnownScene | None:
             return part
         moves = {"at": shift[:d], "axis": [0, 0, 0]}
         moved = {key: placed(value, moves[key]) if key in moves else value for key, value in part.items()}
+        if "axes" in part:
+            moved["axes"] = [placed(axis, [0, 0, 0]) for axis in part["axes"]]
         if "between" in part:
             moved["between"] = [end if isinstance(end, str) else placed(end, shift) for end in part["between"]]
         return moved
