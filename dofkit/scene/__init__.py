@@ -7,9 +7,9 @@ Types
 
 Mechanisms, in the order of reading
     1. `found_files` and `catalog` find the bytes; `reading` makes a `Scene` of a file, a text or a mapping and
-       collects all faults with line and column. `synonyms` rewrites other words into the standard ones, `hints` says
-       what to write instead, `tagged_union` reports a missing or unknown `type`, and `fields` reads exact numbers and
-       texts.
+       collects all faults with line and column. `synonyms` rewrites other words into the standard ones, `hints` and
+       `corrections` say what to write instead, `tagged_union` reports a missing or unknown `type`, and `fields` reads
+       exact numbers and texts.
     2. `parts` are points, particles, bodies, forces and energies; `constraints` has one class for each constraint
        type, with its equations, symbol, variants and example in one file.
     3. `survey` goes from what is written to what is known: `names`, then the `drawing` with its `frames`, then
