@@ -80,7 +80,7 @@ _OWN: dict[ArgumentKey, Argument] = {
     "isolated zeros": Argument(
         "some coordinates have isolated values; the others are free or determined by them",
         "IsolatedZeros",
-        "each equation has one coordinate, is analytic everywhere and not identically zero; an exact common zero is known",
+        "each equation has one coordinate, is analytic everywhere and not identically zero, with a known common zero",
         "dofkit.configuration.isolated_zeros.isolated",
         "the zeros",
     ),
