@@ -240,9 +240,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "dofkit.integrability.labels_by_field.certificate",
         "the bracket as a word in the fields",
     ),
-    "as written": Argument(
-        "a label", "", "it is read from the text as written", "dofkit.integrability.traits.traits", "the text"
-    ),
+    "as written": Argument("a label", "", "it is read from the text", "dofkit.integrability.traits.traits", "the text"),
     "identity": Argument(
         "an expression is 0",
         "",
@@ -341,7 +339,6 @@ _OWN: dict[ArgumentKey, Argument] = {
 }
 
 
-#: What a criterion for finite motions concludes.
 _CONCLUSIONS = {
     "motion": "infinitesimal motions extend to finite motions",
     "rigidity": "there is no finite motion but the rigid motions of the system",
@@ -352,17 +349,8 @@ _CONCLUSIONS = {
 def _rows() -> Iterator[tuple[ArgumentKey, Argument]]:
     yield from _OWN.items()
     for row in CRITERIA:
-        check = f"{row.applies.__module__}.{row.applies.__name__}"
-        yield (
-            row.key,
-            Argument(
-                _CONCLUSIONS[row.concludes],
-                row.theorem,
-                row.hypotheses,
-                check,
-                "the reference, and what the criterion saw",
-            ),
-        )
+        check, claims = f"{row.applies.__module__}.{row.applies.__name__}", _CONCLUSIONS[row.concludes]
+        yield row.key, Argument(claims, row.theorem, row.hypotheses, check, "the reference, and what the criterion saw")
 
 
 TABLE: Mapping[ArgumentKey, Argument] = dict(_rows())
