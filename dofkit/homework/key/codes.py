@@ -51,6 +51,7 @@ _OF_MOTION = {
     "WRONG_MOMENTUM": "Not the derivative of the Lagrangian with respect to that velocity.",
     "WRONG_FORCE": "Not the derivative of the Lagrangian with respect to that coordinate plus non-potential forces.",
     "WRONG_MOTION": "An equation that is not satisfied by the motion.",
+    "SMALL_ANGLES": "The equations of motion linearized for small oscillations.",
     "NO_ACCELERATION": "A correct equation that does not determine the acceleration.",
     "INEQUALITY": "An inequality was given instead of an equation of motion.",
     "OTHER_COORDINATE": "The equation of motion of another coordinate.",

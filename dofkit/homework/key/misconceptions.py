@@ -53,6 +53,9 @@ def _rod_three(f: SceneCounts) -> Numbers:
 def _plane_forgotten(f: SceneCounts) -> Numbers:
     if f.surfaces.planes and f.d == 3:
         yield f.dof + f.surfaces.planes
+
+
+def _in_space(f: SceneCounts) -> Numbers:
     if f.d == 2 and f.particles:
         yield f.dof + f.particles
 
@@ -102,6 +105,7 @@ def _spatial_grubler(f: SceneCounts) -> Numbers:
         yield 6 * f.bodies - 5 * f.joints
 
 
+_IN_PLANE = "The motion stays in a plane: this is a constraint too."
 #: In the order in which they are likely where several give the same number.
 ERRORS: tuple[Misconception, ...] = (
     Misconception("ALL_LINKS", (
@@ -142,7 +146,7 @@ ERRORS: tuple[Misconception, ...] = (
     ), _more(lambda f: f.bars.rods if f.d == 3 else 0)),
     Misconception("NO_SPIN", "A rigid body can also rotate about its own axis.",
                   _less(lambda f: f.bodies + f.bars.clusters if f.d == 3 else 0)),
-    Misconception("PLANE_FORGOT", "The motion stays in a plane: this is a constraint too.", _plane_forgotten),
+    Misconception("PLANE_FORGOT", _IN_PLANE, _plane_forgotten),
     Misconception("CURVE_ONE", "A curve in space is the intersection of two surfaces: it takes two equations.",
                   _more(lambda f: f.surfaces.surplus)),
     Misconception("SUM_SQ", "A vanishing sum of squares stands for several equations: each square vanishes.",
@@ -168,9 +172,7 @@ ERRORS: tuple[Misconception, ...] = (
     Misconception("CONSERVATION", (
         "Conservation of energy is a consequence of the equations of motion: it is not a constraint."
     ),
-                  _conservation),
-    Misconception("POINT_6", "A particle has no rotational degrees of freedom.",
-                  _more(lambda f: f.particles * (f.body_freedom - f.d))),
+                  _conservation, alone=True),
     Misconception("ALL_COUNTED", (
         "Not all of these equations are independent; a dependent equation does not reduce the number of "
         "degrees of freedom."
@@ -179,6 +181,9 @@ ERRORS: tuple[Misconception, ...] = (
                   _more(lambda f: f.surfaces.fixed), alone=True),
     Misconception("NOT_SUBTRACTED", "This is the number of coordinates: the constraints were not subtracted.",
                   _no_constraint, True, alone=True),
+    Misconception("POINT_6", "A particle has no rotational degrees of freedom.",
+                  _more(lambda f: f.particles * (f.body_freedom - f.d)), alone=True),
+    Misconception("PLANE_FORGOT", _IN_PLANE, _in_space, alone=True),
 )  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import ClassVar, Literal
 
@@ -217,9 +218,10 @@ class MotionQuestion(_MotionQuestion):
             return needs_review(shown, "it could not be decided whether these are the equations of motion.")
         if found.contradictory:
             return needs_review(shown, "the answer contradicts itself.")
-        if self.coordinate is not None and self.coordinate in known.names:
-            return self._one(answered, found.told, known, shown)
-        return _all(found, known, shown)
+        one = self.coordinate is not None and self.coordinate in known.names
+        if Found.NOT in found.told and _are_linearized(answered, None if one else len(known.names)):
+            return wrong(shown, _LINEARIZED, "SMALL_ANGLES")
+        return self._one(answered, found.told, known, shown) if one else _all(found, known, shown)
 
     def _one(self, answered: AnsweredMotion, told: Sequence[Found], known: RightMotion, shown: str) -> Judgement:
         """One coordinate's equation: it holds that coordinate's acceleration, and is not the equation of another."""
@@ -248,6 +250,16 @@ class MotionQuestion(_MotionQuestion):
         own = None if self.coordinate is None else given.get(self.coordinate)
         chosen = list(given.values()) if own is None else [own]
         return say("A correct answer is {text}.", text="; ".join(f"{to_text(e)} = 0" for e in chosen))
+
+
+_LINEARIZED = "This is the approximation for small oscillations (small angles); the exact equations are asked for."
+
+
+def _are_linearized(answered: AnsweredMotion, rank: int | None) -> bool:
+    """Return whether all equations are implied by the linearized ones, and determine ``rank`` accelerations."""
+    linearized = answered.known.linearized()
+    found = None if linearized is None else replace(answered, known=linearized).follow()
+    return found is not None and all(t is Found.FOLLOWS for t in found.told) and rank in (None, found.rank)
 
 
 def _all(found: Followed, known: RightMotion, shown: str) -> Judgement:
