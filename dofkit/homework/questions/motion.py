@@ -16,6 +16,7 @@ from dofkit.homework.judgement import HALF, Given, Judgement, Sentence, agreed, 
 from dofkit.homework.key.compared_motion import AnsweredMotion, Followed, same_lagrangian
 from dofkit.homework.key.compared_motion import MotionSameness as Found
 from dofkit.homework.key.key import Key
+from dofkit.homework.key.own_coordinates import offered
 from dofkit.homework.key.posed_motion import PosedMotion, posed_motions
 from dofkit.homework.key.right_motion import RightMotion, is_zero
 from dofkit.homework.questions.base import Earlier, QuestionBase
@@ -60,6 +61,11 @@ class _MotionQuestion(QuestionBase):
         raise NotImplementedError
 
     def solution(self, key: Key) -> Sentence:
+        """Return a correct answer, in the coordinates that the assignment offers where that is possible."""
+        if key.also and getattr(self, "coordinate", None) is None:
+            motion = offered(key, sorted(key.also)).motion
+            if not isinstance(motion, DofkitError) and set(motion.names) <= set(key.also):
+                return self._solution(motion)
         return "" if isinstance(key.motion, DofkitError) else self._solution(key.motion)
 
     def _solution(self, known: RightMotion) -> Sentence:
@@ -279,7 +285,9 @@ def _all(found: Followed, known: RightMotion, shown: str) -> Judgement:
         return partly(share, shown, told_why, "WEAKER")
     share = Fraction(max(0, min(rank, wanted - 1)), wanted) if wanted > 1 else (HALF if rank else Fraction(0))
     number = sum(t is Found.NOT for t in told)
-    told_why = say("{number} of the {all} equations are not satisfied by the motion.", number=number, all=len(told))
+    if len(told) == 1:
+        return partly(share, shown, "This equation is not satisfied by the motion.", Found.NOT.value)
+    told_why = say("Equations that are not satisfied by the motion: {number} of {all}.", number=number, all=len(told))
     return partly(share, shown, told_why, Found.NOT.value)
 
 
