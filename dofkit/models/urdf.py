@@ -86,13 +86,13 @@ class _UrdfScene:
             elif joint is None and (link.mass == 0 and name in parents):
                 self.stands[name] = GROUND
                 if name != "world":
-                    self.draft.leave_out(f"{name}: the link that all others hang on, without mass, is the ground")
+                    self.draft.leave_out(f"{name}: the root link, without mass, is the ground")
             else:
                 self._link(name, poses.pose[name], joint)
             if joint is not None and not loose:
                 self._joint(joint, poses.frame[joint.name])
         if markers:
-            self.draft.leave_out(f"{listed(markers)}: frames without mass at the end, which nothing hangs on")
+            self.draft.leave_out(f"{listed(markers)}: frames without mass at the ends of the tree")
         for joint in poses.closing:
             self._joint(joint, poses.frame[joint.name])
         for loop in robot.loops:
@@ -111,7 +111,7 @@ class _UrdfScene:
         self.draft.place(own, centre.at)
         if joint is None:
             self.draft.constraint(name, "weld", link.line, between=[GROUND, own])
-            self.draft.leave_out(f"what holds {name}, the link that all others hang on: it is taken to be fixed")
+            self.draft.leave_out(f"the support of {name}, the root link: it is taken to be fixed")
 
     def _joint(self, joint: RobotJoint, frame: Transform) -> None:
         kind = _KINDS.get(joint.kind)
@@ -156,7 +156,7 @@ class _UrdfScene:
         ranged = [joint for joint in self.robot.joints if joint.range and joint.kind in SCALAR]
         if ranged and not self.limits:
             shown = [f"{j.name} from {j.range[0]:.4g} to {j.range[1]:.4g}" for j in ranged if j.range]
-            self.draft.leave_out(f"the ranges of joints ({listed(shown)}): with `--limits` they are inequalities")
+            self.draft.leave_out(f"the ranges of joints ({listed(shown)}): with `--limits` they become inequalities")
             return
         for joint in ranged:
             stands, between = self.drawn.get(joint.name, 0.0), joint.range or ()

@@ -12,6 +12,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
+from functools import lru_cache
 from numbers import Integral
 from typing import Annotated, Any, Self
 
@@ -39,11 +40,43 @@ LONGEST_LITERAL = 400
 
 _LITERAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,6})?)(?:\s*/\s*(\d+))?", re.ASCII)
 _OURS = "dofkit"
+#: Words that people write for a key of a scene or of a constraint; the first key that is known there is suggested.
+_KEYS_MEANT: dict[str, tuple[str, ...]] = {
+    "parameters": ("params", "constants", "consts", "constant"),
+    "coordinates": ("variables", "unknowns", "dofs", "generalized_coordinates", "q"),
+    "particles": ("points", "masses", "nodes"),
+    "bodies": ("rigid_bodies",),
+    "constraints": ("joint", "equations", "relations", "conditions"),
+    "configuration": ("initial", "initial_conditions", "reference", "state", "pose"),
+    "energies": ("energy", "lagrangian"),
+    "dimension": ("dim", "dimensions"),
+    "between": ("members", "points", "bodies", "ends", "particles", "joins", "nodes"),
+    "members": ("between", "points", "particles", "point", "particle", "nodes"),
+    "along": ("over", "through", "via", "points", "members", "particles"),
+    "point": ("member", "members", "particle", "particles", "points"),
+    "body": ("bodies",),
+    "surface": ("text",),
+    "text": ("expression", "formula"),
+    "at": ("position", "place", "pos", "location", "point"),
+    "length": ("l", "len"),
+    "radius": ("r",),
+    "joints": ("members",),
+}
+
+
+@lru_cache(maxsize=4096)
+def meant_key(word: object, known: tuple[str, ...]) -> str | None:
+    """Return the key of ``known`` that a word most likely stands for, or None.
+
+    >>> meant_key("members", ("type", "between")), meant_key("lenght", ("between", "length"))
+    ('between', 'length')
+    """
+    return next((key for key in known if word in _KEYS_MEANT.get(key, ())), None) or nearest(word, known)
 
 
 def suggestion(word: object, known: Sequence[str], what: str) -> str:
     """A sentence that names the nearest of ``known``, or lists them."""
-    found = nearest(word, known)
+    found = meant_key(word, tuple(known)) if what == "keys" else nearest(word, known)
     if found is not None:
         return f"did you mean '{found}'?"
     if not known:

@@ -27,7 +27,7 @@ class TaggedUnion:
     listing: str
     unknown: str
     otherwise: tuple[str, str | None]
-    #: What is hinted of a word that is none of ``known``, by the word and what it stands in, where something is.
+    #: The hint for a word that is none of ``known`` (None: it is missing), by the word and the mapping that holds it.
     advise: Callable[[object, Mapping[str, Any]], str | None] = lambda word, entry: None
 
     def validated(self, value: object, handler: ValidatorFunctionWrapHandler) -> Any:
@@ -35,7 +35,8 @@ class TaggedUnion:
         if isinstance(value, (dict, Mapping)):
             given = value.get(self.key)
             if given is None:
-                raise fault_error(f"{self.called} needs its `{self.key}`", self.listing + ", ".join(self.known))
+                hint = self.advise(None, value) or self.listing + ", ".join(self.known)
+                raise fault_error(f"{self.called} needs its `{self.key}`", hint)
             if not isinstance(given, str) or given not in self.known:
                 hint = self.advise(given, value) or suggestion(given, list(self.known), self.names)
                 raise fault_at((self.key,), self.unknown.format(given), hint)

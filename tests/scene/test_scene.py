@@ -291,7 +291,7 @@ BAD: list[tuple[Any, tuple[str | int, ...], int | None, str, str]] = [
     ({"particles": [{"name": "A", "at": [1, 2]}]}, ("particles", 0, "at"), None, "2 components", "`at: [1, 2, 0]`"),
     ({"particles": [{"name": "A", "coordinates": ["x"]}]}, ("particles", 0, "coordinates"), None, "3 coordinates", ""),
     ({"configuration": {"x": 1}, "coordinates": ["xx"]}, ("configuration", "x"), None, "no coordinate 'x'", "'xx'"),
-    ({"expect": {"doff": 1}}, ("expect", "doff"), None, "no part of a report", "'dof'"),
+    ({"expect": {"doff": 1}}, ("expect", "doff"), None, "not a field of a report", "'dof'"),
     ({"constraints": {}}, ("constraints",), None, "a list is needed", ""),
     ({"constraints": [7]}, C0, None, "a text or a mapping", ""),
     ({"coordinates": ["x"], "constraints": ["x + foo = 1"]}, (*C0, "text"), 5, "`foo` is not declared", ""),
