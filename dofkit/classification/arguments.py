@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from dofkit.base.verdicts import ArgumentKey
-from dofkit.configuration.local.criteria import CRITERIA
+from dofkit.configuration.local.criteria import CONCLUSIONS, CRITERIA
 
 
 class Argument(NamedTuple):
@@ -339,17 +339,10 @@ _OWN: dict[ArgumentKey, Argument] = {
 }
 
 
-_CONCLUSIONS = {
-    "motion": "infinitesimal motions extend to finite motions",
-    "rigidity": "there is no finite motion but the rigid motions of the system",
-    "nothing": "no conclusion",
-}
-
-
 def _rows() -> Iterator[tuple[ArgumentKey, Argument]]:
     yield from _OWN.items()
     for row in CRITERIA:
-        check, claims = f"{row.applies.__module__}.{row.applies.__name__}", _CONCLUSIONS[row.concludes]
+        check, claims = f"{row.applies.__module__}.{row.applies.__name__}", CONCLUSIONS[row.concludes]
         yield row.key, Argument(claims, row.theorem, row.hypotheses, check, "the reference, and what the criterion saw")
 
 
