@@ -9,7 +9,6 @@ import pytest
 from shared.known_scenes import swept
 
 import dofkit
-from dofkit.benchmark.trials.frameworks import Framework
 from dofkit.benchmark.trials.random_systems import RandomBodies, coarse, dependent, graph, loop, tree
 from dofkit.methods.names import MethodName
 from dofkit.methods.table import METHODS
@@ -28,30 +27,6 @@ every_dimension = pytest.mark.parametrize(
 
 def classified(scene: dict[str, object], method: MethodName = "auto") -> Report:
     return dofkit.classify(dofkit.load(dict(scene)), method=method)
-
-
-def redundant_bars(drawn: Framework) -> list[int]:
-    """By the graph alone; of two bars between one pair the later."""
-    left = [frozenset(link) for link in dofkit.redundant_links(drawn.bars, drawn.dimension)]
-    found = []
-    for i in range(len(drawn.bars) - 1, -1, -1):
-        pair = frozenset(drawn.bars[i])
-        if pair in left:
-            left.remove(pair)
-            found.append(i)
-    return sorted(found)
-
-
-@every_dimension
-def test_the_graph_agrees_with_the_matrix_in_general_position(dimension: int, many: int) -> None:
-    """The same redundant bars by name, the same freedom by exact rank, by a random prime and by singular values."""
-    rng = random.Random(f"graphs {dimension}")
-    for _ in range(10 * many):
-        drawn = graph(rng, dimension, rng.randrange(2, 9), twice=True)
-        redundant = dependent(drawn)
-        assert redundant_bars(drawn) == redundant
-        assert drawn.by_graph() == drawn.by_rank() == drawn.coordinates - len(drawn.bars) + len(redundant)
-        assert drawn.by_prime(2**61 - 1) == drawn.by_svd() == drawn.by_rank()
 
 
 @every_dimension
