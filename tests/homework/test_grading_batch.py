@@ -21,12 +21,11 @@ from shared.late import LONG
 
 import dofkit
 from dofkit.base.line_journal import BusyError
-from dofkit.base.workers.batches import in_order
+from dofkit.base.workers.pool import Pool, in_order
 from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.answers.submission import FilePlace, of_value
 from dofkit.homework.grading import Grader
 from dofkit.homework.runs.batch import Orders
-from dofkit.homework.runs.crew import local_crew
 from dofkit.homework.runs.journal import Journal
 from dofkit.homework.runs.keeper import Keeper
 from dofkit.homework.runs.repeats import HandedIn
@@ -456,8 +455,8 @@ def hostile(*answers: Mapping[str, str]) -> list[Handed]:
 
 
 def statuses(given: Sequence[Handed], workers: int) -> Iterator[tuple[str, list[str], list[str]]]:
-    with Keeper(orders(), workers) as keeper, local_crew(keeper, workers) as local:
-        for _, (line,) in in_order(local, given):
+    with Pool(workers) as pool:
+        for _, (line,) in in_order(pool, Keeper(orders(), pool).grade, given):
             items = json.loads(line.text)["items"]
             yield line.student, [item["status"] for item in items], [item["feedback"] for item in items]
 

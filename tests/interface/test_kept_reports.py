@@ -16,15 +16,11 @@ from shared.late import LONG
 
 import dofkit
 from dofkit.base.line_journal import LineJournal
-from dofkit.base.workers import Job, JobOutcome
-from dofkit.base.workers.crews import StoppedError
-from dofkit.interface.many.batch import SceneBatch, batch_reports
-from dofkit.interface.many.keeper import SceneKeeper
+from dofkit.base.workers.pool import Pool
 from dofkit.interface.many.kept_reports import KeptReport, KeptReports
 from dofkit.interface.many.run import Helpers, kept_reports
 from dofkit.interface.many.scene_files import SceneGiven
 from dofkit.interface.named_files import named_files
-from dofkit.interface.one_file import streams
 from dofkit.interface.presentation import Telling
 from dofkit.interface.supervised import Given, Printed
 
@@ -125,12 +121,12 @@ class Counting:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.files: list[str] = []
-        monkeypatch.setattr(SceneKeeper, "_printed", self.answered)
-        monkeypatch.setattr(SceneKeeper, "fork", lambda keeper: None)
+        monkeypatch.setattr("dofkit.interface.many.run.answer", self.answered)
+        monkeypatch.setattr(Pool, "fork", lambda pool: None)
 
-    def answered(self, scenes: tuple[SceneGiven, ...]) -> list[Printed]:
-        self.files += [Path(one.file).stem for one in scenes]
-        return [Printed(f"{len(one.data or b'')}\n", "", False, {"verdict": "proved", "is": []}) for one in scenes]
+    def answered(self, pool: Pool, asked: Given, scene: SceneGiven) -> Printed:
+        self.files.append(Path(scene.file).stem)
+        return Printed(f"{len(scene.data or b'')}\n", "", False, {"verdict": "proved", "is": []})
 
     def run(self, out: Path, files: list[Path], stop: int | None = None, budget: float = 60.0) -> list[str]:
         """Which files are asked about by a run that is stopped after so many."""
@@ -229,48 +225,6 @@ def test_a_model_is_another_where_a_part_of_it_is(tmp_path: Path, counting: Coun
 
 
 # What breaks a worker
-
-
-class Breaking:
-    """Workers that end where they are asked about the scene s3."""
-
-    def __init__(self) -> None:
-        self.asked: list[str] = []
-
-    def run(self, job: Job) -> JobOutcome:
-        names = [scene.file for scene in job.payload.scenes] if isinstance(job.payload, SceneBatch) else ["one"]
-        self.asked.append(" ".join(names))
-        if isinstance(job.payload, SceneBatch) and "s3" not in names:
-            return JobOutcome({"printed": [streams(f"{name}\n") for name in names]}, "done")
-        if isinstance(job.payload, Given) and job.payload.file != "s3":
-            return JobOutcome(streams(f"{job.payload.file}\n"), "done")
-        return JobOutcome({"next": names.index("s3")} if "s3" in names else None, "died", "it ended")
-
-
-def test_a_scene_that_ends_its_worker_ends_no_other(monkeypatch: pytest.MonkeyPatch) -> None:
-    keeper, pool = SceneKeeper(asked(), 1), Breaking()
-    monkeypatch.setattr(keeper, "_pool", pool)
-    found = keeper.answer([SceneGiven(f"s{k}", b"") for k in range(6)]).told
-    assert [one.out for one in found if not one.failed] == ["s0\n", "s1\n", "s2\n", "s4\n", "s5\n"]
-    assert "it could not be looked at: it ended" in found[3].out
-    assert pool.asked == ["s0 s1 s2 s3 s4 s5", "s0 s1 s2", "one", "one", "s4 s5"]
-
-
-def test_a_batch_in_a_worker_tells_which_scene_comes_next(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without its limits, which are those of the process."""
-    monkeypatch.setattr("dofkit.interface.many.batch.allow", lambda _: None)
-    given = (SceneGiven("a.yaml", b"coordinates: [x, y]"), SceneGiven("b.yaml", BAD.encode()))
-    *before, last = batch_reports(SceneBatch(asked(), given))
-    assert before == [{"next": 0}, {"next": 1}]
-    assert [one["failed"] for one in last["printed"]] == [False, True]
-    assert json.loads(last["printed"][0]["out"])["dof"] == 2
-
-
-def test_what_was_closed_does_nothing_more() -> None:
-    keeper = SceneKeeper(asked(), 1)
-    keeper.close()
-    with pytest.raises(StoppedError):
-        keeper.answer([SceneGiven("a", b"")])
 
 
 @pytest.mark.sweep

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, closing, contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from typing import TypeAlias
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from dofkit.base.line_journal import ledger
-from dofkit.base.workers.batches import in_order
-from dofkit.base.workers.pool import cores
+from dofkit.base.workers import MEMORY
+from dofkit.base.workers.pool import Cluster, Pool, in_order
 from dofkit.homework.answers.roster import Roster, load_roster
 from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment
@@ -23,9 +25,8 @@ from dofkit.homework.formats.apart import apart_path
 from dofkit.homework.result import Result
 from dofkit.homework.runs.appeals import Appeals
 from dofkit.homework.runs.batch import Orders, ResultLine
-from dofkit.homework.runs.crew import GradingCrew, cluster_crew, local_crew
 from dofkit.homework.runs.journal import Journal, fingerprint
-from dofkit.homework.runs.keeper import Keeper
+from dofkit.homework.runs.keeper import MODULES, Keeper, grade_there
 from dofkit.homework.runs.repeats import HandedIn, without_repeats
 from dofkit.homework.runs.review_files import ReviewPaths, RunReview
 from dofkit.homework.runs.rostered import named_by, rostered
@@ -121,9 +122,9 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     stream = hand_ins(sources, prepared.columns(), others)
     if people is not None:
         stream = (named_by(people, one) for one in stream)
-    with _crew(orders, options) as crew, closing(HandedIn()) as seen:
+    with _graders(orders, options) as grade, closing(HandedIn()) as seen:
         appeals = None if options.certificates is None or options.check_only else Appeals(prepared)
-        one = _Run(form, prepared, orders, crew, seen, roster, people, sources, appeals)
+        one = _Run(form, prepared, orders, grade, seen, roster, people, sources, appeals)
         if options.out is None or options.native is None:
             one.to_stdout(stream)
         else:
@@ -137,17 +138,20 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     return one.failed == 0
 
 
+#: Yields everything handed in with its results, in order.
+Grade: TypeAlias = Callable[[Iterator[Handed]], Iterator[tuple[Handed, list[ResultLine]]]]
+
+
 @contextmanager
-def _crew(orders: Orders, options: GradingOptions) -> Iterator[GradingCrew]:
+def _graders(orders: Orders, options: GradingOptions) -> Iterator[Grade]:
+    """Workers of this machine, or of a cluster. Raises StoppedError."""
     if options.scheduler is not None:
-        with cluster_crew(options.scheduler, orders) as crew:
-            yield crew
+        with Cluster(options.scheduler) as cluster:
+            yield partial(in_order, cluster, partial(grade_there, orders))
         return
-    workers = options.workers or cores()
-    with Keeper(orders, workers) as keeper:
-        keeper.fork()
-        with local_crew(keeper, workers) as crew:
-            yield crew
+    with Pool(options.workers, MEMORY, MODULES) as pool:
+        pool.fork()
+        yield partial(in_order, pool, Keeper(orders, pool).grade)
 
 
 @dataclass
@@ -161,7 +165,7 @@ class _Run:
     form: Format
     prepared: Prepared
     orders: Orders
-    crew: GradingCrew
+    grade: Grade
     seen: HandedIn
     roster: Roster | None = None
     people: Roster | None = None
@@ -212,7 +216,7 @@ class _Run:
         """Everything with its results, counted, and shown on a terminal how far it is."""
         with _bar(quiet) as bar:
             task = bar.add_task("graded", total=None)
-            graded = rostered(self.people, in_order(self.crew, stream))
+            graded = rostered(self.people, self.grade(stream))
             for one, lines in without_repeats(self.orders, graded, self.seen):
                 self.failed += sum(line.failed for line in lines)
                 self.doubted += sum(line.doubted for line in lines)

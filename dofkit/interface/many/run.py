@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, contextmanager
+from dataclasses import replace
+from functools import lru_cache, partial
 from itertools import chain
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
-from dofkit.base.workers.batches import in_order
-from dofkit.base.workers.pool import cores
-from dofkit.interface.many.keeper import SceneCrew, cluster_scenes, local_scenes
+from dofkit.base.workers import MEMORY
+from dofkit.base.workers.pool import Cluster, Pool, in_order
 from dofkit.interface.many.kept_reports import KeptReport, KeptReports, mark_of
 from dofkit.interface.many.scene_files import SceneGiven, scenes_given
-from dofkit.interface.supervised import Given, Printed
+from dofkit.interface.supervised import ONE_FILE, Given, Printed, report_by
 
 
 class Helpers(NamedTuple):
@@ -26,8 +27,8 @@ class Helpers(NamedTuple):
 
 def many_reports(files: Sequence[str], asked: Given, helpers: Helpers) -> Generator[Printed]:
     """What is printed of the report on each file, in their order. Raises StoppedError."""
-    with _crew(asked, helpers) as crew:
-        for _, printed in in_order(crew, scenes_given(files, asked.certificate)):
+    with _answerers(asked, helpers) as answers:
+        for _, printed in answers(scenes_given(files, asked.certificate)):
             yield printed
 
 
@@ -39,8 +40,8 @@ def kept_reports(files: Sequence[str], asked: Given, helpers: Helpers, folder: P
             found = kept.next_known(scene.key)
             if found is None:
                 kept.write_from_here()
-                with _crew(asked, helpers) as crew:
-                    yield from _others(chain([scene], scenes), kept, crew)
+                with _answerers(asked, helpers) as answers:
+                    yield from _others(chain([scene], scenes), kept, answers)
                 break
             yield _counted(found)
         else:
@@ -48,7 +49,7 @@ def kept_reports(files: Sequence[str], asked: Given, helpers: Helpers, folder: P
         kept.finish()
 
 
-def _others(scenes: Iterator[SceneGiven], kept: KeptReports, crew: SceneCrew) -> Iterator[Printed]:
+def _others(scenes: Iterator[SceneGiven], kept: KeptReports, answers: Answers) -> Iterator[Printed]:
     """What is not known is asked; every line is written after all before it."""
     waiting: deque[tuple[str, bool]] = deque()
 
@@ -63,7 +64,7 @@ def _others(scenes: Iterator[SceneGiven], kept: KeptReports, crew: SceneCrew) ->
         while waiting and waiting[0][1]:
             yield _counted(kept.write_known(waiting.popleft()[0]))
 
-    for _, printed in in_order(crew, unknown()):
+    for _, printed in answers(unknown()):
         yield from known()
         kept.write(waiting.popleft()[0], KeptReport(printed.out, printed.outcome))
         yield printed._replace(out="", err="")
@@ -75,11 +76,32 @@ def _counted(report: KeptReport) -> Printed:
     return Printed("", "", report.outcome is None, report.outcome)
 
 
+#: Yields every scene with what is printed of it, in order.
+Answers: TypeAlias = Callable[[Iterator[SceneGiven]], Iterator[tuple[SceneGiven, Printed]]]
+
+
 @contextmanager
-def _crew(asked: Given, helpers: Helpers) -> Iterator[SceneCrew]:
+def _answerers(asked: Given, helpers: Helpers) -> Iterator[Answers]:
+    """Workers of this machine, or of a cluster. Raises StoppedError."""
     if helpers.scheduler is not None:
-        with cluster_scenes(helpers.scheduler, asked) as crew:
-            yield crew
+        with Cluster(helpers.scheduler) as cluster:
+            yield partial(in_order, cluster, partial(_answer_there, asked))
         return
-    with local_scenes(asked, helpers.workers or cores()) as crew:
-        yield crew
+    with Pool(helpers.workers, MEMORY, (ONE_FILE,)) as pool:
+        pool.fork()
+        yield partial(in_order, pool, partial(answer, pool, asked))
+
+
+def answer(pool: Pool, asked: Given, scene: SceneGiven) -> Printed:
+    """What is printed of one scene. Raises StoppedError."""
+    return report_by(pool, replace(asked, file=scene.file, data=scene.data, certificate=scene.certificate))
+
+
+def _answer_there(asked: Given, scene: SceneGiven) -> Printed:
+    """The same on a machine of a cluster, by killable workers of its own."""
+    return answer(_pool(), asked, scene)
+
+
+@lru_cache(maxsize=1)
+def _pool() -> Pool:
+    return Pool(modules=(ONE_FILE,))
