@@ -15,9 +15,8 @@ from shared.command_line import called
 from shared.late import LONG
 
 import dofkit
-from dofkit.base.line_journal import LineJournal
+from dofkit.base.journal import BusyError, Journal
 from dofkit.base.workers.pool import Pool
-from dofkit.interface.many.kept_reports import KeptReport, KeptReports
 from dofkit.interface.many.run import Helpers, kept_reports
 from dofkit.interface.many.scene_files import SceneGiven
 from dofkit.interface.named_files import named_files
@@ -181,35 +180,42 @@ def test_a_run_that_was_stopped_goes_on(counting: Counting, files: list[Path], t
     assert sorted(path.name for path in out.iterdir()) == ["reports.jsonl", "reports.jsonl.ledger"]
 
 
-def test_a_torn_line_is_dropped_and_done_again(counting: Counting, files: list[Path], tmp_path: Path) -> None:
+def test_a_torn_line_is_written_again(counting: Counting, files: list[Path], tmp_path: Path) -> None:
     out = tmp_path / "out"
     counting.run(out, files)
     whole = (out / "reports.jsonl").read_bytes()
     (out / "reports.jsonl").write_bytes(whole[:7])
-    assert (counting.run(out, files), lines(out)) == (list("def"), "123456")
-    ledger = out / "reports.jsonl.ledger"
-    ledger.write_bytes(ledger.read_bytes()[:-5])
-    assert (counting.run(out, files), lines(out)) == (["f"], "123456")
+    assert (counting.run(out, files), lines(out)) == ([], "123456")
+
+
+def test_a_damaged_journal_is_begun_anew(counting: Counting, files: list[Path], tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    for damaged in (b"", b"mark\n", b"SQLite format 3\0" + b"x" * 5000):
+        counting.run(out, files)
+        (out / "reports.jsonl.ledger").write_bytes(damaged)
+        assert (counting.run(out, files), lines(out)) == (list("abcdef"), "123456")
 
 
 def test_two_runs_do_not_write_to_one_folder(tmp_path: Path) -> None:
-    one = KeptReports(tmp_path, "m")
-    with pytest.raises(dofkit.DofkitError, match="another run is writing"):
-        KeptReports(tmp_path, "m")
+    one = Journal(tmp_path / "reports.jsonl.ledger", "m")
+    with pytest.raises(BusyError, match=r"another run is writing to .*reports\.jsonl$"):
+        Journal(tmp_path / "reports.jsonl.ledger", "m")
     one.close()
 
 
-def test_what_was_never_known_has_no_line(tmp_path: Path) -> None:
-    kept = KeptReports(tmp_path, "m")
-    kept.write_from_here()
-    assert not kept.knows("a")
-    with pytest.raises(KeyError):
-        kept.write_known("a")
-    kept.write("a", KeptReport("{}", None))
-    kept.close()
-    journal = LineJournal(tmp_path / "reports.jsonl", "m", ".ledger")
-    assert [(one.key, one.texts) for one in journal.following()] == [("a", [b"{}\n"])]
-    journal.close()
+def test_a_journal_keeps_what_is_written_again(tmp_path: Path) -> None:
+    path = tmp_path / "folder" / "results.unfinished"
+    nothing, a, b = [None, None], ["a", 1], {"b": None}
+    for mark, known in (("m", nothing), ("m", [a, b]), ("m", [a, None]), ("n", nothing)):
+        journal = Journal(path, mark)
+        assert [journal.result(key) for key in "ab"] == known
+        journal.write("a", ("a", 1))
+        if known == nothing:
+            journal.write("b", {"b": None})
+        journal.keep_written()
+        journal.close()
+    Journal(path, "n").remove()
+    assert not list(path.parent.iterdir())
 
 
 def test_a_model_is_another_where_a_part_of_it_is(tmp_path: Path, counting: Counting) -> None:

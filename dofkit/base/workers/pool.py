@@ -13,6 +13,7 @@ from types import TracebackType
 from typing import Any, Protocol, Self, TypeVar
 
 from dofkit.base.errors import DofkitError
+from dofkit.base.journal import Journal
 from dofkit.base.workers.worker import MEMORY, Job, JobOutcome, Worker, can_fork
 
 #: Calls under way for each worker, and the most bytes that wait for one.
@@ -140,20 +141,29 @@ def _settle(future: Future[Any], ended: Future[Any]) -> None:
     future.set_exception(StoppedError(f"the cluster gave a task up: {type(error).__name__}: {reason}"))
 
 
-class Sized(Protocol):
+class Keyed(Protocol):
     """Something to be worked on."""
 
     @property
     def size(self) -> int:
         """About how many bytes it holds."""
 
+    @property
+    def key(self) -> str:
+        """What tells it from others, and from itself when it was otherwise."""
 
-Item = TypeVar("Item", bound=Sized)
+
+Item = TypeVar("Item", bound=Keyed)
 Result = TypeVar("Result")
 
 
-def in_order(crew: Crew, work: Callable[[Item], Result], items: Iterable[Item]) -> Iterator[tuple[Item, Result]]:
-    """Everything with the result of ``work``, in order; no more is taken than the crew can use soon."""
+def in_order(
+    crew: Crew, work: Callable[[Item], Result], items: Iterable[Item], journal: Journal | None = None
+) -> Iterator[tuple[Item, Result]]:
+    """Everything with the result of ``work``, in order; no more is taken than the crew can use soon.
+
+    What the journal has is taken from it, as json reads it, and what it has not is written to it.
+    """
     stream = iter(items)
     calls: deque[tuple[Item, Future[Result]]] = deque()
     while True:
@@ -161,11 +171,21 @@ def in_order(crew: Crew, work: Callable[[Item], Result], items: Iterable[Item]) 
             item = next(stream, None)
             if item is None:
                 break
-            calls.append((item, crew.submit(work, item)))
+            known = None if journal is None else journal.result(item.key)
+            calls.append((item, crew.submit(work, item) if known is None else _done(known)))
         if not calls:
             return
         item, call = calls.popleft()
-        yield item, call.result()
+        result = call.result()
+        if journal is not None:
+            journal.write(item.key, result)
+        yield item, result
+
+
+def _done(result: Any) -> Future[Any]:
+    call: Future[Any] = Future()
+    call.set_result(result)
+    return call
 
 
 def cores() -> int:

@@ -13,9 +13,9 @@ from dofkit.homework.runs.batch import GradingTask, Orders, ResultLine, graded_l
 
 #: What a worker imports before its first job.
 MODULES = ("dofkit.homework.runs.batch",)
-_TOO_MUCH = "working on it took too long or too much memory."
+_TOO_MUCH = "grading it took too long or too much memory."
 #: What a student reads of an answer that broke its worker, by how that ended.
-_ENDED = {"overrun": _TOO_MUCH, "memory": _TOO_MUCH, "died": _TOO_MUCH, "failed": "dofkit failed here."}
+_ENDED = {"overrun": _TOO_MUCH, "memory": _TOO_MUCH, "died": _TOO_MUCH, "failed": "an internal error occurred."}
 
 
 class Keeper:

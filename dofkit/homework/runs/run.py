@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -14,7 +15,8 @@ from typing import TypeAlias
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-from dofkit.base.line_journal import ledger
+from dofkit.base.journal import Journal
+from dofkit.base.version import __version__
 from dofkit.base.workers import MEMORY
 from dofkit.base.workers.pool import Cluster, Pool, in_order
 from dofkit.homework.answers.roster import Roster, load_roster
@@ -25,9 +27,8 @@ from dofkit.homework.formats.apart import apart_path
 from dofkit.homework.result import Result
 from dofkit.homework.runs.appeals import Appeals
 from dofkit.homework.runs.batch import Orders, ResultLine
-from dofkit.homework.runs.journal import Journal, fingerprint
 from dofkit.homework.runs.keeper import MODULES, Keeper, grade_there
-from dofkit.homework.runs.repeats import HandedIn, without_repeats
+from dofkit.homework.runs.repeats import without_repeats
 from dofkit.homework.runs.review_files import ReviewPaths, RunReview
 from dofkit.homework.runs.rostered import named_by, rostered
 from dofkit.homework.sheet_owners import people_of, with_names
@@ -100,7 +101,21 @@ class GradingOptions:
         if self.out is None or path is None:
             return []
         beside = [apart_path(self.out), *([] if review is None else [review.table, review.page])]
-        return [self.out, path, ledger(path), *beside]
+        return [self.out, path, unfinished(path), *beside]
+
+
+def unfinished(results: Path) -> Path:
+    """The journal of an unfinished run, from which the next one goes on."""
+    return results.with_name(results.name + ".unfinished")
+
+
+def fingerprint(prepared: Prepared, check_only: bool, roster: Roster | None = None) -> str:
+    """What tells a run from others: the assignment with its scenes, who is in the course, and who grades it how."""
+    course = "" if roster is None else roster.digest
+    parts = [__version__, str(check_only), course, prepared.assignment.model_dump_json()]
+    parts += [f"{identity} {decision}" for identity, decision in sorted(prepared.decisions.items())]
+    parts += [f"{name} {key.convention} {key.scene.model_dump_json()}" for name, key in prepared.keys.items()]
+    return hashlib.blake2b("\0".join(parts).encode("utf-8", "replace"), digest_size=16).hexdigest()
 
 
 def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
@@ -122,9 +137,9 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     stream = hand_ins(sources, prepared.columns(), others)
     if people is not None:
         stream = (named_by(people, one) for one in stream)
-    with _graders(orders, options) as grade, closing(HandedIn()) as seen:
+    with _graders(orders, options) as grade:
         appeals = None if options.certificates is None or options.check_only else Appeals(prepared)
-        one = _Run(form, prepared, orders, grade, seen, roster, people, sources, appeals)
+        one = _Run(form, prepared, orders, grade, roster, people, sources, appeals)
         if options.out is None or options.native is None:
             one.to_stdout(stream)
         else:
@@ -138,8 +153,8 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     return one.failed == 0
 
 
-#: Yields everything handed in with its results, in order.
-Grade: TypeAlias = Callable[[Iterator[Handed]], Iterator[tuple[Handed, list[ResultLine]]]]
+#: Yields everything handed in with its results, in order; a journal keeps them.
+Grade: TypeAlias = Callable[[Iterator[Handed], Journal | None], Iterator[tuple[Handed, list[ResultLine]]]]
 
 
 @contextmanager
@@ -166,7 +181,6 @@ class _Run:
     prepared: Prepared
     orders: Orders
     grade: Grade
-    seen: HandedIn
     roster: Roster | None = None
     people: Roster | None = None
     sources: Sequence[str] = ()
@@ -191,11 +205,12 @@ class _Run:
 
         ``path``: where results stand in our own.
         """
-        with closing(Journal(path, fingerprint(self.prepared, self.orders.check_only, self.roster))) as journal:
-            left = journal.remaining(stream, self.seen)
-            self.failed += journal.failed
-            for one, lines in self._with_lines(left, False):
-                journal.write(one, lines)
+        if not path.exists():
+            unfinished(path).unlink(missing_ok=True)
+        mark = fingerprint(self.prepared, self.orders.check_only, self.roster)
+        with closing(Journal(unfinished(path), mark)) as journal, path.open("w", 1, "utf-8", newline="\n") as results:
+            for _, lines in self._with_lines(stream, False, journal):
+                results.writelines(f"{line.text}\n" for line in lines)
         if self.appeals is not None:
             self.appeals.gather(_results(path))
         if self.form.name != NATIVE:
@@ -203,7 +218,7 @@ class _Run:
         review.write(path, self.prepared)
         if self.form.name != NATIVE:
             path.unlink()
-        journal.finish()
+        journal.remove()
 
     def _kept(self, lines: Iterator[str]) -> Iterator[str]:
         """Lines, of which answers are kept."""
@@ -212,12 +227,14 @@ class _Run:
                 self.appeals.add(Result.model_validate_json(text))
             yield text
 
-    def _with_lines(self, stream: Iterator[Handed], quiet: bool) -> Iterator[tuple[Handed, list[ResultLine]]]:
+    def _with_lines(
+        self, stream: Iterator[Handed], quiet: bool, journal: Journal | None = None
+    ) -> Iterator[tuple[Handed, list[ResultLine]]]:
         """Everything with its results, counted, and shown on a terminal how far it is."""
         with _bar(quiet) as bar:
             task = bar.add_task("graded", total=None)
-            graded = rostered(self.people, self.grade(stream))
-            for one, lines in without_repeats(self.orders, graded, self.seen):
+            graded = ((one, [ResultLine(*line) for line in lines]) for one, lines in self.grade(stream, journal))
+            for one, lines in without_repeats(self.orders, rostered(self.people, graded)):
                 self.failed += sum(line.failed for line in lines)
                 self.doubted += sum(line.doubted for line in lines)
                 yield one, lines

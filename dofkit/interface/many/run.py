@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections import deque
+import hashlib
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import replace
 from functools import lru_cache, partial
-from itertools import chain
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
+from dofkit.base.journal import Journal
+from dofkit.base.version import __version__
 from dofkit.base.workers import MEMORY
 from dofkit.base.workers.pool import Cluster, Pool, in_order
-from dofkit.interface.many.kept_reports import KeptReport, KeptReports, mark_of
 from dofkit.interface.many.scene_files import SceneGiven, scenes_given
 from dofkit.interface.supervised import ONE_FILE, Given, Printed, report_by
+
+#: The file of the reports in their folder.
+REPORTS = "reports.jsonl"
 
 
 class Helpers(NamedTuple):
@@ -28,56 +31,40 @@ class Helpers(NamedTuple):
 def many_reports(files: Sequence[str], asked: Given, helpers: Helpers) -> Generator[Printed]:
     """What is printed of the report on each file, in their order. Raises StoppedError."""
     with _answerers(asked, helpers) as answers:
-        for _, printed in answers(scenes_given(files, asked.certificate)):
+        for _, printed in answers(scenes_given(files, asked.certificate), None):
             yield printed
 
 
 def kept_reports(files: Sequence[str], asked: Given, helpers: Helpers, folder: Path) -> Generator[Printed]:
-    """The same written to a folder, where nothing of it is printed. Raises StoppedError, OSError and BusyError."""
-    scenes = scenes_given(files, asked.certificate)
-    with closing(KeptReports(folder, mark_of(asked))) as kept:
-        for scene in scenes:
-            found = kept.next_known(scene.key)
-            if found is None:
-                kept.write_from_here()
-                with _answerers(asked, helpers) as answers:
-                    yield from _others(chain([scene], scenes), kept, answers)
-                break
-            yield _counted(found)
-        else:
-            kept.write_from_here()
-        kept.finish()
+    """The same written to a folder, a line each, where nothing of it is printed.
+
+    The journal beside the lines stays: a later run asks only about files that changed or came. Raises StoppedError,
+    OSError and BusyError.
+    """
+    path = folder / REPORTS
+    ledger = path.with_name(path.name + ".ledger")
+    if not path.exists():
+        ledger.unlink(missing_ok=True)
+    with closing(Journal(ledger, _mark(asked))) as journal, path.open("wb") as reports:
+        with _answerers(asked, helpers) as answers:
+            for _, known in answers(scenes_given(files, asked.certificate), journal):
+                printed = Printed(*known)
+                line = printed.out if printed.out.endswith("\n") else printed.out + "\n"
+                reports.write(line.encode("utf-8", "surrogateescape"))
+                reports.flush()
+                yield printed._replace(out="", err="")
+        journal.keep_written()
 
 
-def _others(scenes: Iterator[SceneGiven], kept: KeptReports, answers: Answers) -> Iterator[Printed]:
-    """What is not known is asked; every line is written after all before it."""
-    waiting: deque[tuple[str, bool]] = deque()
-
-    def unknown() -> Iterator[SceneGiven]:
-        for scene in scenes:
-            known = kept.knows(scene.key)
-            waiting.append((scene.key, known))
-            if not known:
-                yield scene
-
-    def known() -> Iterator[Printed]:
-        while waiting and waiting[0][1]:
-            yield _counted(kept.write_known(waiting.popleft()[0]))
-
-    for _, printed in answers(unknown()):
-        yield from known()
-        kept.write(waiting.popleft()[0], KeptReport(printed.out, printed.outcome))
-        yield printed._replace(out="", err="")
-    yield from known()
+def _mark(asked: Given) -> str:
+    """What tells a run from others: who answers, and what is asked of every scene."""
+    telling = asked.telling
+    parts = (asked.budget, asked.method, telling.only, telling.without, telling.limits, asked.certificate)
+    return hashlib.blake2b(repr((__version__, *parts)).encode(), digest_size=16).hexdigest()
 
 
-def _counted(report: KeptReport) -> Printed:
-    """What is taken over is counted, and not printed."""
-    return Printed("", "", report.outcome is None, report.outcome)
-
-
-#: Yields every scene with what is printed of it, in order.
-Answers: TypeAlias = Callable[[Iterator[SceneGiven]], Iterator[tuple[SceneGiven, Printed]]]
+#: Yields every scene with what is printed of it, in order; a journal keeps that.
+Answers: TypeAlias = Callable[[Iterator[SceneGiven], Journal | None], Iterator[tuple[SceneGiven, Printed]]]
 
 
 @contextmanager
