@@ -14,6 +14,11 @@ class BusyError(DofkitError):
     """Another run writes to the same file."""
 
 
+def files_of(path: Path) -> list[Path]:
+    """The files of a journal at a path: the second one is there while something is written."""
+    return [path, path.with_name(path.name + "-journal")]
+
+
 class Journal:
     """Results by their keys, at ``path``.
 

@@ -473,10 +473,10 @@ def test_an_answer_that_breaks_its_worker_needs_a_review_and_touches_no_other() 
         ["right", "right"],
         ["needs_review", "missing"],
     ]
-    review = "This could not be decided and will be looked at: "
+    review = "A person will review this answer: "
     assert told[3][2] == [
-        f"{review}dofkit failed here (ValueError).",
-        f"{review}working on it took too long or too much memory.",
+        f"{review}an internal error occurred (ValueError).",
+        f"{review}grading it took too long or too much memory.",
     ]
     assert told[1][2][0] == told[5][2][0]
 
@@ -511,6 +511,7 @@ def test_results_are_the_same_with_any_number_of_workers_and_in_any_order(
 #: The command line, which stops before it writes the results of so many submissions, says so, and waits for a signal.
 WAITING = """
 import signal, sys
+from dofkit.base.journal import Journal
 from dofkit.interface import cli
 from dofkit.methods.classify import classify
 real, left = Journal.write, int(sys.argv.pop(1))

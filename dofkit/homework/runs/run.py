@@ -15,7 +15,7 @@ from typing import TypeAlias
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-from dofkit.base.journal import Journal
+from dofkit.base.journal import Journal, files_of
 from dofkit.base.version import __version__
 from dofkit.base.workers import MEMORY
 from dofkit.base.workers.pool import Cluster, Pool, in_order
@@ -101,7 +101,7 @@ class GradingOptions:
         if self.out is None or path is None:
             return []
         beside = [apart_path(self.out), *([] if review is None else [review.table, review.page])]
-        return [self.out, path, unfinished(path), *beside]
+        return [self.out, path, *files_of(unfinished(path)), *beside]
 
 
 def unfinished(results: Path) -> Path:

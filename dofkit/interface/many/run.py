@@ -45,8 +45,8 @@ def kept_reports(files: Sequence[str], asked: Given, helpers: Helpers, folder: P
     ledger = path.with_name(path.name + ".ledger")
     if not path.exists():
         ledger.unlink(missing_ok=True)
-    with closing(Journal(ledger, _mark(asked))) as journal, path.open("wb") as reports:
-        with _answerers(asked, helpers) as answers:
+    with _answerers(asked, helpers) as answers, closing(Journal(ledger, _mark(asked))) as journal:
+        with path.open("wb") as reports:
             for _, known in answers(scenes_given(files, asked.certificate), journal):
                 printed = Printed(*known)
                 line = printed.out if printed.out.endswith("\n") else printed.out + "\n"
