@@ -182,7 +182,7 @@ def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -
         assignment = Assignment.model_validate(value)
         assignment = assignment.model_copy(update={"problems": tuple(map(weighted, assignment.problems))})
     except ValidationError as error:
-        raise _error(_without_shortness(without_echoes(faults_of(error))), document) from None
+        raise _error(_without_shortness(without_echoes(faults_of(error), value)), document) from None
     faults: list[Fault] = list(_repeats(assignment))
     keys: dict[str, Key] = {}
     for i, problem in enumerate(assignment.problems):

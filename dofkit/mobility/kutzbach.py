@@ -123,7 +123,7 @@ def _why(system: System, joints: Sequence[CountedJoint], kutzbach: int, freedom:
     placement = drawn()
     said = "" if placement is None else _of_screws(system, joints, freedom, placement)
     more = freedom - kutzbach
-    start = f"{more} of the equations that the count treats as independent {verb(more)} not"
+    start = f"{more} of the equations that are counted as independent {verb(more, 'depends', 'depend')} on the others"
     return f"{start}: {said}" if said else start
 
 
@@ -141,7 +141,7 @@ def _of_screws(system: System, joints: Sequence[CountedJoint], freedom: int, dra
         numbers = f"{span}({bodies + 1} - 1 - {len(joints)}) + {total}{f' - {driven}' if driven else ''} = {count}"
         return (
             f"the joint screws form a {span}-system, not a {whole}-system; "
-            f"with {span} for {whole} the count is {numbers}"
+            f"with {span} in place of {whole} the count is {numbers}"
         )
     told = []
     loops = _loops(joints)

@@ -16,12 +16,14 @@ from shared.late import LONG
 
 import dofkit
 from dofkit.base.journal import BusyError, Journal
+from dofkit.base.workers import Job, JobOutcome
 from dofkit.base.workers.pool import Pool
-from dofkit.interface.many.run import Helpers, kept_reports
+from dofkit.interface.many.run import Helpers, answer, kept_reports
 from dofkit.interface.many.scene_files import SceneGiven
 from dofkit.interface.named_files import named_files
+from dofkit.interface.one_file import streams
 from dofkit.interface.presentation import Telling
-from dofkit.interface.supervised import Given, Printed
+from dofkit.interface.supervised import Cut, Given, Printed
 
 BAD = "coordinates: [theta]\nconstraints:\n- thta = 1\n"
 
@@ -125,7 +127,7 @@ class Counting:
 
     def answered(self, pool: Pool, asked: Given, scene: SceneGiven) -> Printed:
         self.files.append(Path(scene.file).stem)
-        return Printed(f"{len(scene.data or b'')}\n", "", False, {"verdict": "proved", "is": []})
+        return Printed(f"{len(scene.data or b'')}\n", "", 0, {"verdict": "proved", "is": []})
 
     def run(self, out: Path, files: list[Path], stop: int | None = None, budget: float = 60.0) -> list[str]:
         """Which files are asked about by a run that is stopped after so many."""
@@ -231,6 +233,22 @@ def test_a_model_is_another_where_a_part_of_it_is(tmp_path: Path, counting: Coun
 
 
 # What breaks a worker
+
+
+class Breaking:
+    """A pool whose workers end where they are asked about the scene s3."""
+
+    def run(self, job: Job) -> JobOutcome:
+        if (job.payload.given if isinstance(job.payload, Cut) else job.payload).file == "s3":
+            return JobOutcome(None, "died", "it ended")
+        return JobOutcome(streams(f"{job.payload.file}\n"), "done")
+
+
+def test_a_scene_that_ends_its_worker_ends_no_other() -> None:
+    pool: Any = Breaking()
+    printed = [answer(pool, asked(), SceneGiven(f"s{k}", b"")) for k in range(6)]
+    assert [one.out for one in printed if not one.errors] == ["s0\n", "s1\n", "s2\n", "s4\n", "s5\n"]
+    assert "it could not be looked at: it ended" in printed[3].out
 
 
 @pytest.mark.sweep

@@ -138,7 +138,7 @@ def _settle(future: Future[Any], ended: Future[Any]) -> None:
         future.set_result(ended.result())
         return
     reason = " ".join(str(error).split())[:200]
-    future.set_exception(StoppedError(f"the cluster gave a task up: {type(error).__name__}: {reason}"))
+    future.set_exception(StoppedError(f"the cluster abandoned a task: {type(error).__name__}: {reason}"))
 
 
 class Keyed(Protocol):

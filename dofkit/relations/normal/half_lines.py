@@ -24,13 +24,15 @@ from dofkit.relations.normal.velocity_roots import rates
 
 #: What a function is replaced by; no scene declares such a name.
 _VALUE = ex.sym("parameter", "the function's value")
-UNDONE_NOTE = "the root or function around the velocities was undone"
-INEQUALITY_NOTE = "it holds wherever what stands in abs() has one sign, and nowhere else: it says no more than that"
-ONE_SIDE_NOTE = "the velocities keep to one side as well, as an inequality asks: that takes no freedom away"
-
+UNDONE_NOTE = "the root or function of the velocities was inverted"
+INEQUALITY_NOTE = "it is satisfied exactly where the argument of abs() has one sign: it states no more than that"
+ONE_SIDE_NOTE = (
+    "the velocities are also restricted to one side, as by an inequality, which does not reduce the number of degrees "
+    "of freedom"
+)
 PIECES_NOTE = (
-    "the velocities lie on one of several pieces, and pass from one to another at rest only: the numbers are those of "
-    "a motion that keeps to one"
+    "the velocities lie on one of several pieces, and change from one to another at rest only: the numbers are those "
+    "of a motion on one piece"
 )
 
 
