@@ -14,7 +14,8 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from queue import Empty, SimpleQueue
+from typing import Any, BinaryIO, Literal, TypeAlias
 
 from dofkit.base.workers.child import serve
 
@@ -107,6 +108,8 @@ class Worker:
         self._owner = os.getpid()
         self._lock = threading.Lock()
         self._process: _Process | None = None
+        self._lines: SimpleQueue[bytes] = SimpleQueue()
+        self._reader: threading.Thread | None = None
         self._ready = False
 
     def fork(self) -> None:
@@ -143,9 +146,13 @@ class Worker:
         if process is not None:
             process.kill()
             process.wait()
+            reader, self._reader = self._reader, None
             with suppress(OSError):
                 process.stdin.close()
-            process.stdout.close()
+            if reader is not None:
+                reader.join(_ENDING)
+            if reader is None or not reader.is_alive():
+                process.stdout.close()
 
     def _attempt(self, job: Job, request: bytes) -> tuple[JobOutcome, bool]:
         """The outcome of a job, and whether the worker is good for another one."""
@@ -155,14 +162,18 @@ class Worker:
             process = self._process = self._process or self._started()
         except OSError as error:
             return JobOutcome(None, "absent", f"no worker process could be started ({error})"), False
+        if self._reader is None:
+            self._lines = SimpleQueue()
+            self._reader = threading.Thread(target=_collect, args=(process.stdout, self._lines), daemon=True)
+            self._reader.start()
         try:
-            if not self._ready and self._message(process, STARTING) is None:
+            if not self._ready and self._message(STARTING) is None:
                 raise OSError
             self._ready = True
             seconds = job.limits[0]
             pickle.dump(request, process.stdin)
             process.stdin.flush()
-            while (message := self._message(process, seconds)) is not None:
+            while (message := self._message(seconds)) is not None:
                 kind, content = message
                 if kind != "value":
                     return self._outcome(value, kind, content)
@@ -179,23 +190,12 @@ class Worker:
         late = process.returncode is not None and -process.returncode in _LIMITS
         return JobOutcome(value, "overrun" if late else "died", f"the worker process {reason}"), False
 
-    def _message(self, process: _Process, seconds: float) -> tuple[str, Json] | None:
-        """The next message, None where the process has ended. Raises TimeoutError where it was killed meanwhile."""
-        late = threading.Event()
-
-        def stop() -> None:
-            late.set()
-            process.kill()
-
-        timer = threading.Timer(min(seconds, threading.TIMEOUT_MAX), stop)
-        timer.start()
+    def _message(self, seconds: float) -> tuple[str, Json] | None:
+        """The next message, None where the process has ended. Raises TimeoutError after so many seconds."""
         try:
-            line = process.stdout.readline()
-        finally:
-            timer.cancel()
-            timer.join()
-        if late.is_set():
-            raise TimeoutError
+            line = self._lines.get(timeout=min(seconds, threading.TIMEOUT_MAX))
+        except Empty:
+            raise TimeoutError from None
         return tuple(json.loads(line)) if line.endswith(b"\n") else None
 
     def _outcome(self, value: Json, kind: str, content: Json) -> tuple[JobOutcome, bool]:
@@ -263,6 +263,14 @@ class _Fork:
             if pid:
                 self.returncode = os.waitstatus_to_exitcode(status)
         return self.returncode
+
+
+def _collect(source: BinaryIO, lines: SimpleQueue[bytes]) -> None:
+    """Pass on the lines of a process and, at its end, an empty one: waiting for a queue can be given up."""
+    with suppress(OSError, ValueError):
+        for line in source:
+            lines.put(line)
+    lines.put(b"")
 
 
 def _search_path() -> list[str]:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import replace
 from functools import lru_cache, partial
+from importlib import import_module
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
@@ -75,6 +76,7 @@ def _answerers(asked: Given, helpers: Helpers) -> Iterator[Answers]:
             yield partial(in_order, cluster, partial(_answer_there, asked))
         return
     with Pool(helpers.workers, MEMORY, (ONE_FILE,)) as pool:
+        import_module(ONE_FILE)  # once, for all workers
         pool.fork()
         yield partial(in_order, pool, partial(answer, pool, asked))
 
