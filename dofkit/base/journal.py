@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import json
 import sqlite3
+import time
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from dofkit.base.errors import DofkitError
+
+#: Seconds after which results are committed; a killed run loses those of as many seconds.
+COMMITTING = 0.25
 
 
 class BusyError(DofkitError):
@@ -28,6 +33,7 @@ class Journal:
 
     def __init__(self, path: Path, mark: str) -> None:
         self.path = path
+        self._committed = time.monotonic()
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
             self._results = self._opened(mark)
@@ -50,6 +56,7 @@ class Journal:
                 opened.executescript("DELETE FROM mark; DELETE FROM results")
                 opened.execute("INSERT INTO mark VALUES (?)", (mark,))
             opened.execute("UPDATE results SET new = 0 WHERE new")
+            opened.execute("BEGIN")
         except sqlite3.Error:
             opened.close()
             raise
@@ -63,6 +70,10 @@ class Journal:
     def write(self, key: str, result: Any) -> None:
         """Note a result."""
         self._results.execute("INSERT OR REPLACE INTO results VALUES (?, ?, 1)", (key, json.dumps(result)))
+        if time.monotonic() > self._committed + COMMITTING:
+            self._results.execute("COMMIT")
+            self._results.execute("BEGIN")
+            self._committed = time.monotonic()
 
     def keep_written(self) -> None:
         """Forget the results of earlier runs that this one did not write again."""
@@ -70,6 +81,8 @@ class Journal:
 
     def close(self) -> None:
         """Stop here; another run may go on."""
+        with suppress(sqlite3.Error):
+            self._results.execute("COMMIT")
         self._results.close()
 
     def remove(self) -> None:
