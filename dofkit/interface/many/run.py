@@ -7,7 +7,6 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import replace
 from functools import lru_cache, partial
-from importlib import import_module
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
@@ -15,9 +14,12 @@ from dofkit.base.journal import Journal
 from dofkit.base.version import __version__
 from dofkit.base.workers import MEMORY
 from dofkit.base.workers.pool import Cluster, Pool, in_order
+from dofkit.interface import one_file
 from dofkit.interface.many.scene_files import SceneGiven, scenes_given
-from dofkit.interface.supervised import ONE_FILE, Given, Printed, report_by
+from dofkit.interface.supervised import Given, Printed, report_by
 
+#: What workers import; it is imported here already for those that are forks of this process.
+MODULES = (one_file.__name__,)
 #: The file of the reports in their folder.
 REPORTS = "reports.jsonl"
 
@@ -75,8 +77,7 @@ def _answerers(asked: Given, helpers: Helpers) -> Iterator[Answers]:
         with Cluster(helpers.scheduler) as cluster:
             yield partial(in_order, cluster, partial(_answer_there, asked))
         return
-    with Pool(helpers.workers, MEMORY, (ONE_FILE,)) as pool:
-        import_module(ONE_FILE)  # once, for all workers
+    with Pool(helpers.workers, MEMORY, MODULES) as pool:
         pool.fork()
         yield partial(in_order, pool, partial(answer, pool, asked))
 
@@ -93,4 +94,4 @@ def _answer_there(asked: Given, scene: SceneGiven) -> Printed:
 
 @lru_cache(maxsize=1)
 def _pool() -> Pool:
-    return Pool(modules=(ONE_FILE,))
+    return Pool(modules=MODULES)
