@@ -15,10 +15,8 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from dofkit.base.libraries import np
-from dofkit.configuration.drawing.measured import independent_rows
-from dofkit.configuration.drawing.measured_blocks import drawing_of_block
-from dofkit.configuration.drawing.measured_relations import SLACK, MeasuredRelations
-from dofkit.configuration.finite_blocks import finite_answer, measured_place
+from dofkit.configuration.finite_blocks import finite_answer
+from dofkit.configuration.measured.equations import SLACK, ScaledEquations, float_point, independent_rows, pose_of_block
 from dofkit.exact.errors import NoValueError, OutsideDomainError
 from dofkit.exact.matrices.singular_values import dependency_pattern, greedy_pivots
 from dofkit.exact.matrices.sparse import sparse
@@ -47,7 +45,7 @@ ROUGH = 1e-9
 class _Tangents:
     """M at the drawing, in scaled columns: the Jacobian ``j``, orthonormal ``ways`` (m x n), ``error`` of these."""
 
-    relations: MeasuredRelations
+    relations: ScaledEquations
     at: Mapping[Expr, float]
     j: Any
     ways: Any
@@ -104,11 +102,11 @@ def _told(block: Block, setting: Setting, tangents: _Tangents, found: _Forms, re
 def _tangents(block: Block, setting: Setting, dimension: int) -> _Tangents | None:
     """M at the drawing, of a known dimension; None where that is not drawn."""
     chart = make_chart(Block(block.coordinates, block.finite, block.conditions), setting)
-    drawing = drawing_of_block(chart, setting)
-    at = None if drawing is None else measured_place(chart, drawing)
+    drawing = pose_of_block(chart, setting)
+    at = None if drawing is None else float_point(chart, drawing)
     if at is None:
         return None
-    relations = MeasuredRelations(chart, setting, at)
+    relations = ScaledEquations(chart, setting, at)
     j = relations.system(at)[1]
     _, singular, right = np.linalg.svd(j)
     rank = len(block.coordinates) - dimension
