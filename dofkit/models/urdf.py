@@ -5,6 +5,7 @@ The drawing has every joint at 0, one that mimics another at its offset. A link 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -42,6 +43,8 @@ _KINDS = {
     "revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic", "fixed": "weld", "planar": "planar",
     "ball": "spherical", "spherical": "spherical", "cylindrical": "cylindrical",
 }  # fmt: skip
+#: An angle that differs by more than the first and less than the second from a multiple of pi/2 is taken as rounded.
+EXACT_ANGLE, ROUNDED_ANGLE = 1e-12, 1e-5
 
 
 def read(file: ModelFile) -> ModelDocument:
@@ -170,8 +173,23 @@ class _UrdfScene:
     def _rest(self) -> None:
         if any(body.get("mass") for body in self.draft.bodies):
             self.draft.forces.append({"type": "gravity", "acceleration": [0, 0, -9.81]})
-        for told in self.robot.unread:
+        for told in (*self.robot.unread, *_rounded_angles(self.robot)):
             self.draft.leave_out(told)
+
+
+def _rounded_angles(robot: Robot) -> Iterator[str]:
+    """Yield a sentence about every angle that is nearly, but not exactly, a multiple of a right angle."""
+    for element in robot.root.every():
+        for text in element.get("rpy").split():
+            turns = round(float(text) / (math.pi / 2))
+            gap = abs(float(text) - turns * math.pi / 2)
+            if EXACT_ANGLE < gap < ROUNDED_ANGLE:
+                size = {0: "0", 1: "pi/2", 2: "pi"}.get(abs(turns), f"{abs(turns)} pi/2")
+                meant = f"-{size}" if turns < 0 else size
+                yield (
+                    f"line {element.line}: the angle {text} is not equal to {meant} but within 1e-5 of it, so it is "
+                    "probably rounded; it is used as written"
+                )
 
 
 def _written(robot: Robot) -> Iterator[str]:

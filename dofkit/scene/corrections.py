@@ -14,6 +14,8 @@ from dofkit.scene.fields import meant_key
 
 def likely_types(word: object, entry: Mapping[str, Any]) -> list[str]:
     """Return the type that a word means, or else the types with the keys of an entry, misspelt ones only if need be."""
+    if word is None:
+        word = next((part for key, part in entry.items() if str(key).lower() == "type"), None)
     meant = meant_type(word, entry)
     able = [] if meant else [kind for kind in TYPES if with_right_keys(kind, entry)]
     exact = [kind for kind in able if set(entry) - {"type"} <= TYPES[kind].model_fields.keys()]
@@ -33,11 +35,12 @@ def with_right_keys(kind: str, entry: Mapping[str, Any]) -> dict[str, Any] | Non
     fields, given = TYPES[kind].model_fields, TYPES[kind].restated(entry)
     right: dict[str, Any] = {"type": kind}
     for key, part in given.items():
+        if str(key).lower() == "type":
+            continue
         meant = key if key in fields else meant_key(key, tuple(field for field in fields if field not in given))
-        if key != "type" and (meant is None or meant in right):
+        if meant is None or meant in right:
             return None
-        if key != "type":
-            right[str(meant)] = part
+        right[meant] = part
     renamed = {key: part if key in entry else _in_form(key, part) for key, part in right.items()}
     for attempt in (renamed, {key: _in_form(key, part) for key, part in right.items()}):
         try:

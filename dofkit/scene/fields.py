@@ -126,7 +126,7 @@ def exact(value: object) -> Fraction:
         found = _literal(value)
         if found is not None:
             return found
-    raise fault_error(f"a number is needed, not {_in_words(value)}")
+    raise fault_error(f"a number is needed, not {in_words(value)}")
 
 
 def _from_decimal(value: Decimal) -> Fraction:
@@ -152,7 +152,7 @@ def _value(value: object) -> Fraction | str:
         found = _literal(text)
         return value if found is None else found
     if isinstance(value, (list, tuple, dict)):
-        raise fault_error(f"a number or a text is needed, not {_in_words(value)}")
+        raise fault_error(f"a number or a text is needed, not {in_words(value)}")
     return exact(value)
 
 
@@ -162,7 +162,7 @@ def _text(value: object) -> str:
             raise fault_error("a text is needed, not an empty one")
         return value
     if isinstance(value, (list, tuple, dict)) or value is None:
-        raise fault_error(f"a text is needed, not {_in_words(value)}")
+        raise fault_error(f"a text is needed, not {in_words(value)}")
     return str(exact(value))
 
 
@@ -228,7 +228,8 @@ def named(value: object) -> object:
 Listed = BeforeValidator(listed)
 
 
-def _in_words(value: object) -> str:
+def in_words(value: object) -> str:
+    """Return a short description of a value that was given: ``'x'``, ``a list``, ``nothing``."""
     if value is None:
         return "nothing"
     if isinstance(value, bool):
@@ -262,18 +263,18 @@ def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tup
     if kind == "extra_forbidden":
         return f"unknown key '{place[-1]}' in {owner}", suggestion(place[-1], known, "keys")
     if kind == "invalid_key":
-        return f"a key is a text, not {_in_words(place[-1])}", "put it in quotes"
+        return f"a key is a text, not {in_words(place[-1])}", "put it in quotes"
     if kind == "missing":
         if isinstance(place[-1], int):
             return f"{place[-1] + 1} entries are needed here, not {place[-1]}", None
         return f"{owner} needs '{place[-1]}'", None
     if kind == "model_type" and not place:
-        return f"{owner} is {_AS.get(owner, 'a mapping')}, not {_in_words(detail['input'])}", None
+        return f"{owner} is {_AS.get(owner, 'a mapping')}, not {in_words(detail['input'])}", None
     if kind in _NEEDS:
-        return f"{_NEEDS[kind]} is needed, not {_in_words(detail['input'])}", None
+        return f"{_NEEDS[kind]} is needed, not {in_words(detail['input'])}", None
     if kind == "literal_error":
         known = re.findall(r"'([^']*)'", str(context["expected"]))
-        return f"{_in_words(detail['input'])} is not one of {context['expected']}", suggestion(
+        return f"{in_words(detail['input'])} is not one of {context['expected']}", suggestion(
             detail["input"], known, "choices"
         )
     if kind in ("too_short", "too_long"):

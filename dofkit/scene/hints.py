@@ -27,9 +27,11 @@ _HINTS = (
 )
 #: Hints that show what to write already, or need no line.
 _ENOUGH = re.compile(
-    r"`|'[^']*[:=]|column|^(?:the (?:particles|bodies) are|declared|rename|leave|choose|check|delete|keep|move)"
+    r"`|'[^']*[:=]|column|"
+    r"^(?:the (?:particles|bodies|joints) are|give each|declared|rename|leave|choose|check|delete|keep|move)"
 )
 _SUGGESTED = re.compile(r"did you mean '(\w+)'\?")
+_MEANT_NAME = re.compile(r"did you mean `(.+)`\?")
 #: A longer line is not shown as what to write.
 LONGEST_LINE = 160
 _FORCES = ("spring", "damper", "force", "gravity")
@@ -75,6 +77,10 @@ def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fa
         for fault in faults
         if not (fault.where and "needs" in fault.message and (fault.where[:-1], fault.where[-1]) in meant)
     ]
+    refused = tuple(
+        _name_at(value, fault.where) for fault in kept if re.match("the name h|.* cannot be the name of", fault.message)
+    )
+    kept = [f for f in kept if not ((match := _MEANT_NAME.fullmatch(f.hint or "")) and match[1].endswith(refused))]
     kept = _undeclared_at_once(kept, value)
     first: dict[Path, Fault] = {}
     for fault in sorted(kept, key=lambda fault: not fault.message.startswith(UNKNOWN_KEY)):
@@ -84,6 +90,18 @@ def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fa
         for fault in kept
         if fault.where[:1] != ("constraints",) or fault is first[fault.where[:2]] or not _mended(value, fault.where)
     ]
+
+
+def _name_at(value: Any, where: Path) -> str:
+    """Return the name that a path leads to, which is a key or a text; a name stands for its owner."""
+    found: Any = value
+    for key in where:
+        if isinstance(found, Mapping):
+            part = found.get(key)
+            found = part if key == "name" or isinstance(part, (Mapping, list, tuple)) else key
+        elif isinstance(found, (list, tuple)) and isinstance(key, int):
+            found = found[key]
+    return str(found)
 
 
 def _undeclared_at_once(faults: list[Fault], value: Mapping[str, Any]) -> list[Fault]:
@@ -163,9 +181,11 @@ def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:
 def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
     hint = _said_twice(fault, value) or _direction(fault, value) or fault.hint
     hint = hint or next((hint for pattern, hint in _HINTS if re.search(pattern, fault.message)), None)
-    undeclared = re.match(r"`(\w+)` is not declared$", fault.message)
+    undeclared = re.match(r"`(\w+)` is not declared(, and numbers)?", fault.message)
+    name = undeclared[1] if undeclared else ""
+    if undeclared and undeclared[2]:
+        return f"for a unit, {hint}; for a quantity, declare `parameters: [{name}]`"
     if undeclared and hint and re.match("the declared|no names", hint):
-        name = undeclared[1]
         return f"declare it: `coordinates: [{name}]`, or `parameters: [{name}]` for a constant; {hint}"
     if hint is not None and _ENOUGH.search(hint):
         return hint
@@ -198,7 +218,8 @@ def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:
     """A line that would work in the place of a fault: of a constraint, or of a key."""
     where, d = fault.where, dimension_of(value)
     suggested = _SUGGESTED.fullmatch(told)
-    if not where or (suggested and suggested[1] not in TYPES and suggested[1] not in LINES):
+    unknown = len(where) == 1 and fault.message.startswith(UNKNOWN_KEY) and not suggested
+    if not where or unknown or (suggested and suggested[1] not in TYPES and suggested[1] not in LINES):
         return None
     missing = re.search(r"needs [`'](\w+)[`']", fault.message)
     if where[:1] == ("constraints",) and len(where) > 1:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
@@ -58,8 +59,18 @@ def show_point(point: str | Vector | BodyPoint) -> str:
 
 
 def show_vector(vector: Vector) -> str:
-    """``(2, 1/2)``."""
-    return "(" + ", ".join(as_written(value) for value in vector) + ")"
+    """``(2, 1/2)``; a longer decimal with six significant digits."""
+    return "(" + ", ".join(_shortened(as_written(value)) for value in vector) + ")"
+
+
+def _shortened(number: str) -> str:
+    """Return a decimal of a model or a measurement with six significant digits, and any other text as it is.
+
+    >>> _shortened("-0.999999999996"), _shortened("0.70710678"), _shortened("123456789"), _shortened("sqrt(2)/2")
+    ('-1', '0.707107', '123456789', 'sqrt(2)/2')
+    """
+    long_decimal = re.fullmatch(r"-?\d*\.\d{7,}", number)
+    return f"{float(number):.6g}" if long_decimal else number
 
 
 class Particle(WrittenModel):
@@ -122,6 +133,10 @@ _REASONS = {
 
 class Energies(WrittenModel):
     """The energies of the system, for its equations of motion."""
+
+    @classmethod
+    def called(cls) -> str:
+        return "the energies"
 
     kinetic: Text | None = Field(None, description="kinetic energy T in the coordinates and their velocities")
     potential: Text | None = Field(None, description="potential energy V")

@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError, ValidatorFunctionWrapHandler
 
-from dofkit.scene.fields import fault_at, fault_error, retold, suggestion
+from dofkit.scene.fields import fault_at, fault_error, in_words, retold, suggestion
 
 
 @dataclass(frozen=True)
@@ -34,10 +34,14 @@ class TaggedUnion:
         """A member, its faults at paths free of the key. Raises as Pydantic's validators do."""
         if isinstance(value, (dict, Mapping)):
             given = value.get(self.key)
+            if given is not None and not isinstance(given, str):
+                raise fault_at(
+                    (self.key,), f"the `{self.key}` is a text, not {in_words(given)}", self.advise(None, value)
+                )
             if given is None:
                 hint = self.advise(None, value) or self.listing + ", ".join(self.known)
                 raise fault_error(f"{self.called} needs its `{self.key}`", hint)
-            if not isinstance(given, str) or given not in self.known:
+            if given not in self.known:
                 hint = self.advise(given, value) or suggestion(given, list(self.known), self.names)
                 raise fault_at((self.key,), self.unknown.format(given), hint)
         elif not isinstance(value, self.base):

@@ -323,7 +323,7 @@ BAD: list[tuple[Any, tuple[str | int, ...], int | None, str, str]] = [
     ),
     (plane({"type": "on", "members": ["A"], "surface": "x + w"}), (*C0, "surface"), 5, "`w` is not declared", ""),
     (plane({"type": "on", "members": ["A", [1, 0]], "curve": "x/y = 1"}), (*C0, "members", 1), None, "no value", ""),
-    (plane({"type": "on", "members": ["A"]}), C0, None, "`surface` or `curve`", ""),
+    (plane({"type": "on", "members": ["A"]}), C0, None, "`surface` and `curve`", ""),
     (plane({"type": "rigid", "members": ["A", "A"]}), (*C0, "members", 1), None, "named twice", ""),
     (plane({"type": "fixed", "body": "ground"}), (*C0, "body"), None, "fixed already", ""),
     (plane({"type": "roll", "body": "crank", "radius": 0}), (*C0, "radius"), None, "positive", ""),

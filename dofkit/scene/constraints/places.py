@@ -43,7 +43,7 @@ class Fixed(ConstraintBase):
 
     def relations(self, world: World) -> Iterator[Relation]:
         if (self.point is None) == (self.body is None):
-            world.fault("either `point` or `body` is needed", hint="`point: A`, or `body: B`")
+            world.fault("one of `point` and `body` is needed, and not both", hint="`point: A`, or `body: B`")
         elif self.point is not None:
             yield from self._hold_point(world, self.point)
         elif self.body == GROUND:
