@@ -56,7 +56,6 @@ def system_of(scene: Scene, found: Survey) -> System:
             warnings.append(LEVEL.format(", ".join(level)))
         elif reference is None:
             warnings += _partly(found, undrawn(drawing, found.drawn, pose, touched()) if found.drawn else ())
-    names = names_by_position("f", [force.name for force in scene.forces])
     return System(
         name=scene.name,
         dimension=scene.dimension,
@@ -70,7 +69,7 @@ def system_of(scene: Scene, found: Survey) -> System:
         pose=pose if reference is None else reference,
         particles=tuple(vocabulary.table.particles),
         bodies=tuple(vocabulary.table.bodies),
-        forces=tuple(ListedForce(name, force.reason) for name, force in zip(names, scene.forces, strict=True)),
+        forces=_forces(scene),
         links=found.links,
         distances=found.distances if reference is None else {},
         connections=found.connections,
@@ -82,6 +81,11 @@ def system_of(scene: Scene, found: Survey) -> System:
         left_out=scene.left_out,
         drawn=singular,
     )
+
+
+def _forces(scene: Scene) -> tuple[ListedForce, ...]:
+    names = names_by_position("f", [force.name for force in scene.forces])
+    return tuple(ListedForce(name, force.reason) for name, force in zip(names, scene.forces, strict=True))
 
 
 def _touched(constraints: Iterable[Constraint]) -> frozenset[str]:

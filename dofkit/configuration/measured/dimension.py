@@ -6,13 +6,6 @@ is then dependent is taken to be exactly dependent in the geometry that was meas
 where it is continued within the tolerance; it is not where the second order of that geometry, or the residuals along
 it, exclude it by more than the tolerance can hide. Where that leaves it open, the geometry exactly as written may
 decide, as it is one of those that the tolerance allows. All else is undecided.
-
-Second order: let J be the Jacobian at the pose, of rank r within the tolerance, and J_0 a matrix of rank r near it,
-that of an exact geometry within the tolerance. A stress l, with l J_0 = 0, and a motion v, with J_0 v = 0, give the
-number Q_l(v) = sum l_i (d^2 f_i)(v, v), the second order of the dependent equation l f on the manifold of the others.
-The null spaces of J and J_0 differ by |J - J_0| / s, s the least singular value that counts [Wedin1972], and the forms
-by that times the second derivatives, for the stress and for both motions, and by what the second derivatives change
-themselves: entries are balls of this radius, so that what they prove holds for all such geometries.
 """
 
 from __future__ import annotations
@@ -20,13 +13,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
-
-from flint import arb
+from typing import Any
 
 from dofkit.base.libraries import np
 from dofkit.configuration.drawing.at_reference import AtReference, at_reference
-from dofkit.configuration.local.quadratic_cone import MAX_CUTS, definite_combination, macaulay_matrix
+from dofkit.configuration.local.germ import Conclusion
 from dofkit.configuration.measured.continuation import BEYOND, LONGEST, Path, follow, is_motion, reach_of
 from dofkit.configuration.measured.equations import (
     GREY,
@@ -37,6 +28,7 @@ from dofkit.configuration.measured.equations import (
     float_point,
     independent_rows,
 )
+from dofkit.configuration.measured.second_order import StressForms
 from dofkit.exact.matrices.singular_values import dependency_pattern, greedy_pivots
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
@@ -47,12 +39,6 @@ from dofkit.relations.setting import Setting
 NEAR, FAR_AWAY = 2.0, 30.0
 #: Directions in which motions are followed; how much farther one is that is nearly straight.
 DIRECTIONS, FARTHER = 3, 3.0
-#: Second derivatives are differences over `DELTA`, and accurate to `ROUGH`.
-DELTA, ROUGH = 1e-5, 1e-6
-#: The perturbations of size |J - J_0| / s in a form: of its stress and of both its motions.
-PERTURBATIONS = 3.0
-#: Random subspaces on which forms without a common zero are sought.
-SUBSPACES = 3
 
 FOLLOWED = "the motion was continued for a finite step within the tolerance"
 MISSED = (
@@ -67,14 +53,6 @@ STOPPED = (
     "as written, so the tolerance leaves it open"
 )
 HIDDEN = "the geometry as written allows no finite motion, but lengths within the tolerance may allow one"
-
-
-class Decision(NamedTuple):
-    """A dimension, time counted, or None if it is undecided, and why; ``confined``: time may be constant on the set."""
-
-    dimension: int | None
-    reason: str
-    confined: bool = False
 
 
 @dataclass(frozen=True)
@@ -146,18 +124,18 @@ def _within_tolerance(chart: Chart, at: Mapping[Expr, float], setting: Setting) 
     problem = _Problem(
         MeasuredPose(equations, at, timed, rank, tolerance), lever > FAR_AWAY or equations.rounding(at) > tolerance
     )
-    decision = next(d for criterion in CRITERIA if (d := criterion(problem)) is not None)
-    bound = problem.bound if decision.reason == OPEN else None
+    conclusion = next(c for criterion in CRITERIA if (c := criterion(problem)) is not None)
+    bound = problem.bound if conclusion.reason == OPEN else None
     if chart.time is not None:
-        decision = _at_fixed_time(problem.pose, decision)
+        conclusion = _at_fixed_time(problem.pose, conclusion)
     return MeasuredFreedom(
         n - rank,
-        decision.dimension,
+        conclusion.dimension,
         dependency_pattern(j, independent_rows(j, rank, tolerance)),
         tuple(greedy_pivots(j.T, rank)),
         gap,
-        decision.reason,
-        decision.reason == FIXED,
+        conclusion.reason,
+        conclusion.reason == FIXED,
         bound,
     )
 
@@ -169,7 +147,7 @@ class _Problem:
         self.pose = pose
         self.is_far = is_far
         self.equations, columns = pose.j.shape
-        self.first = columns - pose.rank
+        self.first = int(columns) - pose.rank
         self.rigid = len(pose.rigid_motions)
 
     @cached_property
@@ -189,62 +167,62 @@ class _Problem:
         return [(follow(self.pose, d, reach), follow(self.pose, -d, reach)) for d in _directions(self.pose.flexes)]
 
 
-def _independent(problem: _Problem) -> Decision | None:
+def _independent(problem: _Problem) -> Conclusion | None:
     """Independent equations cut out a manifold [ImplicitFunctions]."""
     if problem.pose.rank < problem.equations:
         return None
-    return Decision(problem.first, "all equations are independent within the tolerance")
+    return Conclusion(problem.first, "all equations are independent within the tolerance")
 
 
-def _rigid_to_first_order(problem: _Problem) -> Decision | None:
+def _rigid_to_first_order(problem: _Problem) -> Conclusion | None:
     """Nothing moves but the system as a rigid body [AsimowRoth1978]."""
     if problem.first > problem.rigid:
         return None
-    return Decision(problem.first, "the only infinitesimal motions are rigid motions of the system", confined=True)
+    return Conclusion(problem.first, "the only infinitesimal motions are rigid motions of the system", confined=True)
 
 
-def _indistinct(problem: _Problem) -> Decision | None:
+def _indistinct(problem: _Problem) -> Conclusion | None:
     """No motion can be followed: nothing is decided."""
     if problem.is_far:
-        return Decision(
+        return Conclusion(
             None,
             "the reference configuration is too far from the origin, relative to its size, to continue a motion "
             "in floating point",
         )
     if reach_of(problem.pose.tolerance) > LONGEST:
-        return Decision(None, "the tolerance is too coarse to distinguish a finite motion from an infinitesimal one")
+        return Conclusion(None, "the tolerance is too coarse to distinguish a finite motion from an infinitesimal one")
     if len(problem.pose.flexes) != problem.first - problem.rigid:
-        return Decision(
+        return Conclusion(
             None, "rigid motions of the system cannot be distinguished from other motions within the tolerance"
         )
     return None
 
 
-def _indefinite_form(problem: _Problem) -> Decision | None:
+def _indefinite_form(problem: _Problem) -> Conclusion | None:
     """One dependent equation whose second order takes both signs parts the manifold [HurewiczWallman1941]."""
     if not problem.forms.change_sign:
         return None
     why = "branches cross here: the second-order form is indefinite by more than the tolerance"
-    return Decision(problem.first - 1, why)
+    return Conclusion(problem.first - 1, why)
 
 
-def _definite_combination(problem: _Problem) -> Decision | None:
+def _definite_combination(problem: _Problem) -> Conclusion | None:
     """A stress whose form is definite leaves rigid motions alone [ConnellyWhiteley1996]."""
     if problem.forms.vanish or not problem.forms.definite:
         return None
     why = "a stress is definite to second order by more than the tolerance: no finite motion"
-    return Decision(problem.rigid, why, confined=True)
+    return Conclusion(problem.rigid, why, confined=True)
 
 
-def _continued(problem: _Problem) -> Decision | None:
+def _continued(problem: _Problem) -> Conclusion | None:
     """Random motions are continued both ways, and no second-order form is known not to vanish."""
     reach = reach_of(problem.pose.tolerance)
     if not problem.forms.vanish or not all(is_motion(*paths, reach) for paths in problem.paths):
         return None
-    return Decision(problem.first, FOLLOWED)
+    return Conclusion(problem.first, FOLLOWED)
 
 
-def _violated(problem: _Problem) -> Decision | None:
+def _violated(problem: _Problem) -> Conclusion | None:
     """The only motion violates the equations both ways: their zero on this curve is isolated [IsolatedZeros]."""
     if not problem.forms.vanish or problem.first - problem.rigid != 1:
         return None
@@ -252,7 +230,7 @@ def _violated(problem: _Problem) -> Decision | None:
     if not all(path.violates for path in paths) and not _violated_farther(problem.pose):
         return None
     why = "the one infinitesimal motion violates the equations by more than the tolerance"
-    return Decision(problem.rigid, why, confined=True)
+    return Conclusion(problem.rigid, why, confined=True)
 
 
 def _violated_farther(pose: MeasuredPose) -> bool:
@@ -260,12 +238,12 @@ def _violated_farther(pose: MeasuredPose) -> bool:
     return all(follow(pose, sign * pose.flexes[0], reach).violates for sign in (1, -1))
 
 
-def _undecided(problem: _Problem) -> Decision:
-    return Decision(None, OPEN)
+def _undecided(problem: _Problem) -> Conclusion:
+    return Conclusion(None, OPEN)
 
 
 #: The criteria in the order in which they are asked; the first that comes to a conclusion decides.
-CRITERIA: tuple[Callable[[_Problem], Decision | None], ...] = (
+CRITERIA: tuple[Callable[[_Problem], Conclusion | None], ...] = (
     _independent,
     _rigid_to_first_order,
     _indistinct,
@@ -285,17 +263,17 @@ def _directions(flexes: Any) -> list[Any]:
     return [rng.standard_normal(len(flexes)) @ flexes for _ in range(DIRECTIONS)]
 
 
-def _at_fixed_time(pose: MeasuredPose, decision: Decision) -> Decision:
+def _at_fixed_time(pose: MeasuredPose, conclusion: Conclusion) -> Conclusion:
     """Return the dimension without that of time; undecided where time may be constant on the set."""
     rank, (equations, columns) = clear_rank(pose.j, pose.tolerance), pose.j.shape
     if rank == columns:
-        return Decision(None, FIXED)
+        return Conclusion(None, FIXED)
     if rank is not None and rank == equations > pose.rank and _time_moves(replace(pose, rank=rank)):
         why = "all equations are independent within the tolerance, with time as a variable"
-        return Decision(columns - equations - 1, why)
-    if rank != pose.rank or (decision.dimension is not None and decision.confined):
-        return Decision(None, "whether a motion passes through this instant is not decided within the tolerance")
-    return decision if decision.dimension is None else decision._replace(dimension=decision.dimension - 1)
+        return Conclusion(columns - equations - 1, why)
+    if rank != pose.rank or (conclusion.dimension is not None and conclusion.confined):
+        return Conclusion(None, "whether a motion passes through this instant is not decided within the tolerance")
+    return conclusion if conclusion.dimension is None else conclusion._replace(dimension=conclusion.dimension - 1)
 
 
 def _time_moves(pose: MeasuredPose) -> bool:
@@ -305,69 +283,3 @@ def _time_moves(pose: MeasuredPose) -> bool:
     path = follow(pose, _directions(pose.flexes)[-1], reach_of(pose.tolerance))
     ahead = pose.equations.between(pose.at, path.stages[-1].at)[-1]
     return abs(float(ahead)) > GREY * pose.tolerance
-
-
-class StressForms:
-    """``forms`` (k x w x w) of the stresses on a pose's w flexes; ``noise`` bounds their change by the tolerance."""
-
-    def __init__(self, pose: MeasuredPose) -> None:
-        equations, flexes = pose.equations, pose.flexes
-        forms = np.zeros((len(pose.stresses), len(flexes), len(flexes)))
-        slopes = []
-        for a, v in enumerate(flexes):
-            ahead = equations.system(equations.moved(pose.at, DELTA * v), pose.norms)[1]
-            back = equations.system(equations.moved(pose.at, -DELTA * v), pose.norms)[1]
-            slope = (ahead - back) / (2 * DELTA)
-            slopes.append(slope)
-            forms[:, a, :] = pose.stresses @ slope @ flexes.T
-        self.forms = (forms + forms.transpose(0, 2, 1)) / 2
-        bend = float(np.linalg.norm(np.hstack(slopes), 2))
-        turned = SLACK * pose.tolerance / pose.least
-        perturbation = PERTURBATIONS * turned * (1 + turned) * bend + SLACK * pose.tolerance
-        self.noise = perturbation + ROUGH * (1 + bend)
-        self.flexes = len(flexes)
-
-    @cached_property
-    def balls(self) -> list[list[list[arb]]]:
-        """The forms with their noise."""
-        return [[[arb(v, self.noise) for v in row] for row in form.tolist()] for form in self.forms]
-
-    @cached_property
-    def vanish(self) -> bool:
-        """Whether all of them may be 0."""
-        return all(v.contains(0) for form in self.balls for row in form for v in row)
-
-    @property
-    def change_sign(self) -> bool:
-        """Whether there is one form, and it takes both signs; no eigenvalue changes by more than the noise."""
-        if len(self.forms) != 1:
-            return False
-        values = np.linalg.eigvalsh(self.forms[0])
-        return bool(values[0] < -self.noise and values[-1] > self.noise)
-
-    @property
-    def definite(self) -> bool:
-        """Whether a combination of them is definite."""
-        for values in np.linalg.eigvalsh(self.forms):
-            if np.all(values > self.noise) or np.all(values < -self.noise):
-                return True
-        return definite_combination(self.balls, self.flexes)
-
-    @property
-    def cone_bound(self) -> int:
-        """An upper bound of the dimension of their common zeros, over the complex numbers [Macaulay1902].
-
-        See `quadratic_cone.bound`; the Macaulay matrices are of full rank for all forms within the noise.
-        """
-        w = self.flexes
-        rng = np.random.default_rng(5)
-        for cuts in range(min(w, len(self.forms), MAX_CUTS), 0, -1):
-            for _ in range(SUBSPACES):
-                basis = np.linalg.qr(rng.standard_normal((w, cuts)))[0]
-                restricted = [(basis.T @ form @ basis).tolist() for form in self.forms]
-                rows = np.array(macaulay_matrix(restricted, cuts), dtype=float)
-                change = 2 * self.noise * w * float(np.sqrt(np.count_nonzero(rows)))
-                singular = np.linalg.svd(rows, compute_uv=False)
-                if len(singular) == rows.shape[1] and singular[-1] > change:
-                    return w - cuts
-        return w
