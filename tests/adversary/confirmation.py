@@ -152,10 +152,13 @@ class Confirmation(NamedTuple):
         return bool(self.residue < ZERO)
 
 
-@mp.workdps(DIGITS)
 def confirmed(case: KnownScene, seed: int = 1) -> Confirmation:
     """The chart at a random point."""
-    rng = random.Random(seed)
+    with mp.workdps(DIGITS):
+        return _confirmed(case, random.Random(seed))
+
+
+def _confirmed(case: KnownScene, rng: random.Random) -> Confirmation:
     assert case.chart is not None
     chart, names = case.chart, list(case.scene["coordinates"])
     many = max((int(k) + 1 for text in chart.values() for k in re.findall(r"\bp(\d+)\b", text)), default=0)
