@@ -194,13 +194,6 @@ _OWN: dict[ArgumentKey, Argument] = {
     "inequality": Argument(
         "not holonomic", "", "it is an inequality", "dofkit.classification.labels.entry.entry", "the text"
     ),
-    "one side": Argument(
-        "not holonomic",
-        "",
-        "a certified state of motion satisfies the constraint's equation but not its half-space condition",
-        "dofkit.classification.labels.one_sided.with_sides",
-        "the state",
-    ),
     "curved velocities": Argument(
         "not holonomic",
         "",

@@ -7,10 +7,6 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.expressions import tree as ex
-from dofkit.relations.normal.edges import at_edge, given_by
-
-X, Y, Z = (ex.coordinate(name) for name in "xyz")
 
 #: Coordinates, constraints, (dof, velocity_dof), whether each is holonomic beside the others and alone, and why.
 DECIDED: list[tuple[str, list[str], tuple[int, int], list[bool], list[bool], str]] = [
@@ -206,16 +202,3 @@ def test_the_integral_is_of_the_branch_in_use() -> None:
     """At z = 0 only y is constant; where z < 0 x would be so too."""
     report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": ["z xdot^4 = ydot^4", "z = 0"]})
     assert report.constraints[0].integral in (None, "y = C")
-
-
-def test_coordinates_that_relations_give() -> None:
-    assert given_by([X - 2 * Y, Y + Z]) == {X: -2 * Z, Y: -Z}
-    assert given_by([X * X + Y * Y - 1]) == {}
-
-
-def test_an_expression_at_an_edge() -> None:
-    assert at_edge(Z * X + Y, (Z,)) == Y
-    assert at_edge(X / Z, (Z,)) is None
-    circle = X * X + Y * Y - 1
-    assert at_edge(circle * Z + Y, (circle,)) == Y
-    assert at_edge(X * X * Z + Y * Y * Z - Z + Y, (circle,)) == Y

@@ -56,7 +56,7 @@ class Inequality:
     strict: bool = False
 
 
-Piece = Finite | Pfaffian | Nonlinear | Inequality | DomainCondition
+Piece = Finite | Pfaffian | Nonlinear | DomainCondition
 #: All pieces of a branch hold together; one of the branches holds. No branch: nothing satisfies it.
 Branches = tuple[tuple[Piece, ...], ...]
 
