@@ -17,7 +17,7 @@ Form = Literal["finite", "pfaffian", "nonlinear", "inequality"]
 FORMS: tuple[Form, ...] = ("finite", "pfaffian", "nonlinear", "inequality")
 
 #: Said of a constraint that is a product.
-BRANCH_WARNING = "'{name}' holds on several branches; the numbers are those of the largest"
+BRANCH_WARNING = "'{name}' is satisfied on several branches; the degrees of freedom are those of the largest"
 
 
 class ToldModel(BaseModel):

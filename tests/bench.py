@@ -12,7 +12,6 @@ import statistics
 import subprocess
 import sys
 import time
-from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from itertools import combinations
@@ -148,20 +147,6 @@ def large() -> None:
     print(f"{'a delta robot, 50 orders, places, turns and sizes':<58} {ratio:9.2f}-fold  (at most 2)")
 
 
-def stability() -> None:
-    """Of every family of scenes with known truth: how many trials, and the share right, undecided and wrong."""
-    from shared.families import FAMILIES
-    from shared.trials import outcome
-
-    print(f"{'family':<40} {'trials':>7} {'right':>9} {'undecided':>10} {'wrong':>9} {'seconds':>9}")
-    for name, family in FAMILIES.items():
-        start = time.process_time()
-        found = Counter(outcome(t, dofkit.classify(dofkit.load(dict(t.scene)))) for t in family.trials())
-        spent, total = time.process_time() - start, sum(found.values())
-        shares = [found[kind] / total for kind in ("right", "undecided", "wrong")]
-        print(f"{name:<40} {total:7d} {shares[0]:9.2%} {shares[1]:10.2%} {shares[2]:9.2%} {spent:9.1f}")
-
-
 def table_of_speed() -> None:
     """The rows of the table in the site, each in a process of its own; the page is left as it is."""
     print("\nthe table of speed: measured, (goal), reached?", flush=True)
@@ -182,7 +167,6 @@ def main() -> None:
     report, wedge = medians(rolling_disc, wedges, rounds=10 * ROUNDS)
     told("rolling disc, warm: whole report against wedge, simplify", report, wedge, "below 1")
     large()
-    stability()
     table_of_speed()
 
 

@@ -224,6 +224,20 @@ def unknown_jobs() -> Iterator[str]:
                     yield f"{name}:{node.value}"
 
 
+#: Rooms so small, or so clear from the names in them, that a list of modules would say nothing.
+UNLISTED = {"motion_checker", "base", "configuration", "integrability", "interface", "relations"}
+
+
+def unlisted_modules() -> Iterator[str]:
+    """Modules and packages directly in a room that its docstring does not name."""
+    for room in sorted(name for name in TOP - UNLISTED if (PACKAGE / name / "__init__.py").exists()):
+        text = ast.get_docstring(TREES[f"{room}/__init__.py"]) or ""
+        for path in sorted((PACKAGE / room).iterdir()):
+            is_module = path.suffix == ".py" or (path / "__init__.py").exists()
+            if is_module and not path.stem.startswith("__") and f"`{path.stem}`" not in text:
+                yield f"{room}/{path.name}"
+
+
 RULES = {
     "long function": long_functions,
     "many parameters": many_parameters,
@@ -238,6 +252,7 @@ RULES = {
     "catch all": catch_all,
     "reasons told apart": reasons_told_apart,
     "unknown job": unknown_jobs,
+    "module that the docstring of its room does not name": unlisted_modules,
 }
 
 

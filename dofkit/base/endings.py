@@ -29,7 +29,9 @@ def format_of_path(path: Path, known: Collection[str], asked: str | None = None)
     """
     ending = path.suffix.lower()
     if not known:
-        raise ArgumentError(f"'{path}' has the ending of a file, and a folder is written: name one without an ending")
+        raise ArgumentError(
+            f"'{path}' has the ending of a file, but a folder is written: give a name without an ending"
+        )
     if not ending and asked is not None:
         return asked
     if not ending:

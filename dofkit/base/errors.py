@@ -63,7 +63,8 @@ class Fault:
     """One fault of an input: what is wrong, its location, and what to do next.
 
     ``where`` is the path of keys and list positions from the top of the scene, ``line`` and
-    ``column`` count from 1 (None where the input has no lines, such as a Python mapping).
+    ``column`` count from 1 (None where the input has no lines, such as a Python mapping). ``see`` is a word that
+    `dofkit explain` knows more about.
 
     >>> print(Fault("`dz` is not declared", ("constraints", 0, "text")))
     constraints[0]: `dz` is not declared
@@ -74,6 +75,7 @@ class Fault:
     line: int | None = None
     column: int | None = None
     hint: str | None = None
+    see: str | None = None
 
     def __str__(self) -> str:
         location = f"{self.location}: " if self.location else ""

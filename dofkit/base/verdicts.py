@@ -123,9 +123,9 @@ class Claim:
         if self.verdict != "undecided" and self.argument not in ARGUMENTS:
             raise ValueError(f"{self.verdict!r} by no argument of the table: {self.argument}")
         if self.verdict == "probable" and self.bits is None:
-            raise ValueError("what is probable has a bound of its error")
+            raise ValueError("a probable answer needs a bound on its error")
         if self.verdict == "numeric" and self.gap is None:
-            raise ValueError("what is numeric has a gap")
+            raise ValueError("a numeric answer needs a gap")
 
     @property
     def bound(self) -> str | None:

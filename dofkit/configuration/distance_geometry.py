@@ -145,7 +145,9 @@ class _Web:
                 others = [web[u][v]["side"] for u, v in pairwise(ways[b])]
                 if self._longer(side, others):
                     way, most = "-".join(node[1] for node in ways[b]), sum(o.length for o in others)
-                    told = f"{a[1]} and {b[1]} cannot be {_side_text(side)} apart: by way of {way} they are at most"
+                    told = (
+                        f"the points {a[1]} and {b[1]} cannot be {_side_text(side)} apart: along {way} they are at most"
+                    )
                     return Unmet(_owners((side, *others)), f"{told} {most:.{DIGITS}g} apart.")
             if visits > MAX_VISITS:
                 return None

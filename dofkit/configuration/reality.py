@@ -23,7 +23,7 @@ from dofkit.relations.chart import Chart
 #: Blocks with more columns than this are not certified with balls.
 BALL_COLUMNS = 60
 NEARLY = "nearly dependent equations are satisfied at a real point within its precision, but a zero was not certified"
-ALLOWING = "for an unknown function that admits real configurations"
+ALLOWING = "the answers assume unknown functions for which real configurations exist"
 
 
 def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:

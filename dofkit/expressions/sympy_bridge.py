@@ -11,6 +11,7 @@ from typing import Any
 
 from dofkit.base.errors import DofkitError
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 
 _ELEMENTARY = {
@@ -176,3 +177,24 @@ _READ: dict[str, Callable[[Bridge, Any], Expr]] = {
     "Subs": Bridge.substituted,
     "sign": _sign,
 }  # fmt: skip
+
+
+def antiderivative_by_sympy(e: Expr, x: Expr, positive: frozenset[Expr]) -> Expr | None:
+    """Return the antiderivative of ``e`` by the symbol ``x`` that Risch's algorithm finds in SymPy, or None.
+
+    It covers rational functions, exponentials and logarithms, and says so quickly where an integrand is none of them.
+    Raises UntranslatableError where the result cannot be written as an expression.
+    """
+    from sympy import Integral
+    from sympy.integrals.risch import risch_integrate
+    from sympy.polys.polyerrors import BasePolynomialError
+
+    plain = {s: ex.parameter(f"p{i}") for i, s in enumerate(sorted(e.symbols, key=repr))}
+    bridge = Bridge((), frozenset(plain[s] for s in e.symbols & positive))
+    try:
+        integral = risch_integrate(bridge.sympy(substitute(e, plain)), bridge.sympy(plain[x]))
+    except (ArithmeticError, AttributeError, BasePolynomialError, LookupError, RuntimeError, TypeError, ValueError):
+        return None  # NotImplementedError is a RuntimeError
+    if integral.has(Integral):
+        return None
+    return substitute(bridge.expr(integral), {p: s for s, p in plain.items()})

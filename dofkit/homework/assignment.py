@@ -53,7 +53,7 @@ def _attempts(value: object) -> object:
     """A number of attempts, 1 or more; without it they are unlimited."""
     found = exact(value)
     if found.denominator != 1 or found < 1:
-        hint = "leave it out where they are unlimited"
+        hint = "omit it if attempts are unlimited"
         raise fault_error(f"attempts are a whole number, 1 or more, not {value}", hint)
     return int(found)
 
@@ -62,14 +62,20 @@ class Assignment(WrittenModel):
     """What a lecturer hands out."""
 
     title: str = Field(description="its title")
-    convention: Convention = Field("configuration", description='which freedom a bare "degrees of freedom" means')
-    feedback: FeedbackLevel = Field("hint", description="`hint` says what went wrong, `full` also what is right")
+    convention: Convention = Field(
+        "configuration",
+        description='what "degrees of freedom" means: `configuration` space dimension or `velocity` freedom',
+    )
+    feedback: FeedbackLevel = Field(
+        "hint", description="`hint` says what went wrong, `full` also gives the correct answer"
+    )
     unreadable: UnreadablePolicy = Field(
-        "review", description="what cannot be read: `review`, a person looks at it, or `zero`, students hand in again"
+        "review",
+        description="answers that cannot be read: `review` (by a person) or `zero` (no points; submit again)",
     )
     language: Language = Field("en", description="the language of the feedback: `en`, `de`, `fr` or `es`")
     attempts: Annotated[int, BeforeValidator(_attempts)] | None = Field(
-        None, description="how often a student may hand in; without it as often as they like"
+        None, description="how many times a student may submit; unlimited by default"
     )
     visibility: Visibility | None = Field(
         None,
@@ -77,7 +83,9 @@ class Assignment(WrittenModel):
         "`hidden`; by default `after_due_date` where attempts are unlimited",
     )
     problems: Annotated[tuple[Problem, ...], Field(min_length=1)] = Field(description="the problems")
-    variants: Variants | None = Field(None, description="written by `dofkit assignment vary`: a sheet for each student")
+    variants: Variants | None = Field(
+        None, description="written by `dofkit assignment vary`: a variant for each student"
+    )
 
     @property
     def shown(self) -> Visibility:
@@ -174,7 +182,7 @@ def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -
         assignment = Assignment.model_validate(value)
         assignment = assignment.model_copy(update={"problems": tuple(map(weighted, assignment.problems))})
     except ValidationError as error:
-        raise _error(_without_shortness(without_echoes(faults_of(error))), document) from None
+        raise _error(_without_shortness(without_echoes(faults_of(error), value)), document) from None
     faults: list[Fault] = list(_repeats(assignment))
     keys: dict[str, Key] = {}
     for i, problem in enumerate(assignment.problems):
@@ -239,7 +247,7 @@ def _within(fault: Fault, i: int, problem: Problem) -> Fault:
 def _scene_faults(i: int, problem: Problem, key: Key) -> Iterator[Fault]:
     if key.report.consistent is False:
         message = f"the scene of problem '{problem.id}' is inconsistent: {', '.join(key.report.conflicting)}"
-        yield Fault(message, ("problems", i, "scene"), hint="no motion satisfies its constraints; mend the scene")
+        yield Fault(message, ("problems", i, "scene"), hint="no motion satisfies its constraints; correct the scene")
         return
     for fault in faults_of_own(key):
         yield replace(fault, where=("problems", i, "also", *fault.where))

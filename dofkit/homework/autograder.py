@@ -36,14 +36,15 @@ from dofkit.homework.result import Item, Result
 from dofkit.homework.runs.batch import Orders
 from dofkit.homework.runs.keeper import Keeper
 from dofkit.homework.runs.review_files import TABLE, RunReview
+from dofkit.homework.sentences.said import Language
 from dofkit.homework.stand_ins import list_open
 
 #: A longer file of a platform is not read.
 MOST_BYTES = 8_000_000
 #: Of several files that could be the submission, the one called so.
 _NAMES = ("answers", "submission")
-TOO_LONG = "the time for grading it was not enough."
-BROKEN = "the grader's assignment cannot be read. It is not your fault: please tell your teachers."
+TOO_LONG = "the time limit was reached."
+BROKEN = "the assignment of this autograder cannot be read. This is not your fault: please tell your instructors"
 
 
 @dataclass(frozen=True)
@@ -94,18 +95,26 @@ def _prairielearn_form(root: Path, prepared: Prepared) -> Handed | None:
     return Handed("student", FilePlace("data.json"), {"answers": answers_of(given, prepared.columns())})
 
 
+def _language(prepared: Prepared | None) -> Language:
+    return "en" if prepared is None else prepared.assignment.language
+
+
 SITES: dict[str, Site] = {
     "gradescope": Site(
         Path("/autograder"), "submission", "results/results.json", 240.0,
-        lambda result, prepared, root: gradescope.document(result, _gradescope_visibility(prepared, root)),
+        lambda result, prepared, root: gradescope.document(
+            result, _gradescope_visibility(prepared, root), _language(prepared)
+        ),
         _gradescope_users,
     ),
     "prairielearn": Site(
-        Path("/grade"), "student", "results/results.json", 25.0, lambda result, *_: prairielearn.document(result),
+        Path("/grade"), "student", "results/results.json", 25.0,
+        lambda result, prepared, _: prairielearn.document(result, _language(prepared)),
         form=_prairielearn_form,
     ),
     "coursera": Site(
-        Path("/shared"), "submission", "feedback.json", 120.0, lambda result, *_: coursera.document(result),
+        Path("/shared"), "submission", "feedback.json", 120.0,
+        lambda result, prepared, _: coursera.document(result, _language(prepared)),
         excuses=False, listed="open.csv",
     ),
 }  # fmt: skip
@@ -132,7 +141,7 @@ def grade_at(site: Site, assignment: Path, memory: int, reviewed: Path | None = 
     users = site.users(site.root)
     student = ", ".join(user.student for user in users) or "student"
     prepared = _prepared(site, assignment, student, reviewed)
-    _write(site, undecided(prepared, student, "grading was cut short."), prepared)
+    _write(site, undecided(prepared, student, "grading was interrupted."), prepared)
     try:
         prepared = own_of(prepared, [name for user in users for name in (user.student, *user.called())])
         one = _only_hand_in(site, prepared)
@@ -176,12 +185,12 @@ def _only_hand_in(site: Site, prepared: Prepared) -> Handed | Result:
         found = [replace(one, place=replace(one.place, file=shown)) for one in hand_ins([str(chosen[0])], known)]
         if len(found) == 1:
             return found[0]
-        why = f"{chosen[0].name} holds {len(found)} submissions, not one"
+        why = f"{chosen[0].name} contains {len(found)} submissions, not one"
     elif chosen:
         names = ", ".join(str(path.relative_to(folder)) for path in chosen)
-        why = f"there is more than one file: {names}; call one of them answers.yaml"
+        why = f"there is more than one file: {names}; name one of them answers.yaml"
     else:
-        why = "there is no file with answers: hand in one called answers.yaml, answers.json or answers.csv"
+        why = "there is no file with answers: submit one named answers.yaml, answers.json or answers.csv"
     return Result(student="", score=None, max_score=most, items=[], error=clean(why))
 
 
@@ -210,7 +219,7 @@ def _result(one: Handed, prepared: Prepared, seconds: float, memory: int, studen
         finally:
             watch.cancel()
     if len(lines) != 1:
-        why = f"{one.place}: it holds {len(lines)} submissions, not one"
+        why = f"{one.place}: it contains {len(lines)} submissions, not one"
         return Result(student="", score=None, max_score=orders.max_score, items=[], error=why)
     return Result.model_validate_json(lines[0].text)
 

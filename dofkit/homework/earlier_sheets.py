@@ -56,7 +56,7 @@ def _assignment(value: Mapping[str, Any]) -> Assignment | None:
 def followed(before: Sequence[StudentSheet], roster: Roster) -> tuple[tuple[StudentSheet, ...], tuple[str, ...]]:
     """Those who have a sheet, then the others of a roster; and who of them are not in the roster any more.
 
-    Raises VaryError where two in the roster go by the names of one who has a sheet.
+    Raises VaryError where two in the roster go by the names of one the students.
     """
     known = Variants(seed="-", version="", students=tuple(before))
     heirs: dict[str, Participant] = {}

@@ -42,7 +42,7 @@ from dofkit.homework.result import Item, PossibleReading, Result
 from dofkit.homework.review.filled_table import read_table
 from dofkit.homework.review.identity import answer_id
 from dofkit.homework.review.rows import Decision
-from dofkit.homework.sentences.said import Said, say
+from dofkit.homework.sentences.said import Said, in_language, say
 
 #: Seconds of processor time for one answer; what is not decided then needs a review.
 ANSWER_SECONDS = 5.0
@@ -90,7 +90,7 @@ class Grader:
         except MemoryError:
             raise
         except Exception as error:
-            return self.refused(submission.student, f"dofkit failed on this submission ({type(error).__name__})")
+            return self.refused(submission.student, f"an internal error occurred ({type(error).__name__})")
 
     def _steps(self, submission: Submission) -> Generator[Spot, None, Result]:
         if submission.error is not None:
@@ -151,7 +151,7 @@ class Grader:
     def _decided(self, problem: Problem, question: QuestionBase, decision: Decision, answer: Given) -> Item:
         """An answer with the points that a person gave it."""
         share = decision.points / question.points if question.points else FULL
-        found = partly(share, "", decision.remark or "A person has looked at this answer.")
+        found = partly(share, "", decision.remark or "A person has reviewed this answer.")
         item = self._item(problem, question, found, answer)
         return item.model_copy(update={"score": float(decision.points), "decided_by": decision.by})
 
@@ -179,11 +179,11 @@ class Grader:
                 return found.saying(question.solution(key))
             return found
         except OutOfTimeError:
-            return needs_review("", "the time for it was not enough.")
+            return needs_review("", "the time limit was reached.")
         except MemoryError:
             raise
         except Exception as error:
-            return needs_review("", say("dofkit failed here ({error}).", error=type(error).__name__))
+            return needs_review("", say("an internal error occurred ({error}).", error=type(error).__name__))
 
     def _read(self, question: QuestionBase, answer: Given, key: Key, earlier: Mapping[str, Fraction]) -> Judgement:
         """What an answer is worth, or why it is open where it cannot be read in one way."""
@@ -235,7 +235,7 @@ def _points(share: Fraction | None, question: QuestionBase) -> float | None:
     return None if share is None else float(share * question.points)
 
 
-_MISSING = Judgement("missing", NOTHING, said=(Said("There is no answer."),))
+_MISSING = Judgement("missing", NOTHING, said=(Said("No answer was given."),))
 
 
 def _spot(problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]) -> Spot:
@@ -249,9 +249,14 @@ def _number(question: QuestionBase, answer: Given) -> Fraction | None:
         return None
 
 
+_NO_PROBLEM = "There is no problem '{word}' ({hint})."
+_NO_QUESTION = "There is no question '{word}' ({hint})."
+
+
 def unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
     """Answers to questions that were not asked: they count nothing, and say what was meant."""
     asked: dict[str, list[str]] = {}
+    language = prepared.assignment.language
     for problem, question in prepared.questions():
         asked.setdefault(problem.id, []).append(question.id)
     places = (
@@ -262,12 +267,15 @@ def unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
     )
     for problem_id, question_id in islice(places, MOST_UNASKED):
         known = asked.get(problem_id)
-        what, word, names = ("problem", problem_id, [*asked]) if known is None else ("question", question_id, known)
+        word, names = (problem_id, [*asked]) if known is None else (question_id, known)
+        what = "problem" if known is None else "question"
         near = nearest(word, names)
-        hint = f": did you mean '{near}'?" if near else f": there are {', '.join(names[:12])}"
+        hint = f"did you mean '{near}'?" if near else f"the {what}s are {', '.join(names[:12])}"
+        sentence = _NO_PROBLEM if known is None else _NO_QUESTION
         yield Item(
             problem=problem_id[:LONGEST_NAME], question=question_id[:LONGEST_NAME], score=0.0, max_score=0.0,
-            status="unreadable", codes=[], read_as="", feedback=f"There is no {what} '{word[:LONGEST_NAME]}'{hint}",
+            status="unreadable", codes=[], read_as="",
+            feedback=in_language(language, sentence, word=word[:LONGEST_NAME], hint=hint),
         )  # fmt: skip
 
 

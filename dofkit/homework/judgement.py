@@ -79,7 +79,7 @@ def partly(share: Fraction, read_as: str, feedback: Sentence = "", *codes: str) 
 def needs_review(read_as: str, reason: Sentence) -> Judgement:
     """Not decided: a person has to look."""
     (why,) = _said(reason)
-    told = (Said("This could not be decided and will be looked at:"), why)
+    told = (Said("A person will review this answer:"), why)
     return Judgement("needs_review", None, read_as, (), told)
 
 

@@ -15,7 +15,7 @@ TESTS`` and ``### END HIDDEN TESTS``: the assignment's file has the key in it.
 >>> questions = [{"id": "f", "ask": "dof", "points": 2}]
 >>> sheet = {"title": "Sheet 1", "problems": [{"id": "pendulum", "scene": scene, "questions": questions}]}
 >>> points(sheet, "pendulum", "f", "f = 1")
-pendulum.f: 2 of 2. Right.
+pendulum.f: 2 of 2. Correct.
 Read as: 1
 2.0
 """
@@ -27,10 +27,11 @@ from collections.abc import Mapping
 from dofkit.homework.formats.wording import points as told_points
 from dofkit.homework.formats.wording import remark, stand_in, title
 from dofkit.homework.notebooks import Source, item_of
+from dofkit.homework.sentences.said import in_language
 from dofkit.homework.stand_ins import list_open
 
-HALF = "Half of the points stand in until a person has looked."
-UNREAD = "It counts nothing as long as it cannot be read: write it in another way, and hand in again."
+HALF = "It counts half of the points until a person has reviewed it."
+UNREAD = "It counts nothing as long as it cannot be read: write it differently and submit again."
 
 
 def points(
@@ -43,10 +44,10 @@ def points(
     knows: the feedback says that a person has to look, who then sets the points in the formgrader. Raises
     AssignmentError, and QuestionError for a question that is not asked.
     """
-    item = item_of(assignment, problem, question, None if answer is ... else answer, others or {})
-    print(f"{title(item)}: {told_points(item)}. {remark(item)}")
+    item, language = item_of(assignment, problem, question, None if answer is ... else answer, others or {})
+    print(f"{title(item)}: {told_points(item, language)}. {remark(item, language)}")
     list_open([item])
     score = stand_in(item)
     if item.score is None:
-        print(HALF if score else UNREAD)
+        print(in_language(language, HALF if score else UNREAD))
     return min(max(float(score), 0.0), float(item.max_score))

@@ -16,6 +16,7 @@ from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.grading import Grader
 from dofkit.homework.result import Item
+from dofkit.homework.sentences.said import Language
 
 #: An assignment: its path, or what was made of it.
 Source = str | os.PathLike[str] | Mapping[str, Any] | Prepared
@@ -25,8 +26,12 @@ class QuestionError(DofkitError):
     """A question that the assignment does not ask."""
 
 
-def item_of(assignment: Source, problem: str, question: str, answer: object, others: Mapping[str, object]) -> Item:
-    """What is found of one answer; ``others``: the student's answers to other questions of the problem.
+def item_of(
+    assignment: Source, problem: str, question: str, answer: object, others: Mapping[str, object]
+) -> tuple[Item, Language]:
+    """Return the result of one answer, and the language of the assignment.
+
+    ``others``: the student's answers to other questions of the problem.
 
     Nothing is written to standard error meanwhile. Raises AssignmentError, and QuestionError for what is not asked.
     """
@@ -34,16 +39,15 @@ def item_of(assignment: Source, problem: str, question: str, answer: object, oth
         warnings.simplefilter("ignore")
         grader = _grader_of(assignment)
         if grader.prepared.assignment.variants is not None:
-            raise QuestionError(
-                "every student has a sheet of their own: grade them with `dofkit grade`, not in a notebook"
-            )
+            raise QuestionError("every student has a variant: grade them with `dofkit grade`, not in a notebook")
         if (problem, question) not in {(p.id, q.id) for p, q in grader.prepared.questions()}:
-            raise QuestionError(f"the assignment has no question '{question}' of a problem '{problem}'")
+            raise QuestionError(f"the assignment has no question '{question}' in a problem '{problem}'")
         given = {"answers": {problem: {**others, question: answer}}}
         result = grader.grade(of_value(given, "student"))
     if result.error is not None:
         raise QuestionError(result.error)
-    return next(item for item in result.items if (item.problem, item.question) == (problem, question))
+    item = next(item for item in result.items if (item.problem, item.question) == (problem, question))
+    return item, grader.prepared.assignment.language
 
 
 def _grader_of(assignment: Source) -> Grader:

@@ -33,11 +33,11 @@ def check(assignment: Source, answers: object, problem: str, question: str, numb
     Raises AssertionError otherwise: its text is the feedback.
     """
     found = _given(answers, problem)
-    item = item_of(assignment, problem, question, found.pop(question, None), found)
+    item, language = item_of(assignment, problem, question, found.pop(question, None), found)
     list_open([item])
     share = stand_in(item) / item.max_score if item.max_score else 1.0
     if share * parts < number - 1e-9:
-        raise AssertionError(remark(item))
+        raise AssertionError(remark(item, language))
 
 
 def _given(answers: object, problem: str) -> dict[str, object]:

@@ -94,8 +94,8 @@ def own_of(prepared: Prepared, names: Iterable[str]) -> Prepared:
         return prepared
     known = {one.student for name in names if (one := variants.find(name)) is not None}
     if len(known) != 1:
-        told = "several of its students" if known else "none of its students"
-        raise NobodysSheetError(f"every student has a sheet of their own here, and this was handed in by {told}")
+        told = "several students of the assignment" if known else "none of the students of the assignment"
+        raise NobodysSheetError(f"every student has a variant, and this was submitted by {told}")
     return own(prepared, known.pop())
 
 
@@ -136,8 +136,7 @@ class SheetDrawer:
         found = variants.find(student)
         if found is None:
             raise NobodysSheetError(
-                f"'{student[:200]}' is not among the students of this assignment, or is the name of two: whose sheet "
-                "is it?"
+                f"'{student[:200]}' is not among the students of this assignment, or is the name of two"
             )
         sheet = yield from self._steps(variants.seed, found)
         if found.sheet and found.sheet != sheet.digest:

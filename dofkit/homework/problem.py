@@ -32,8 +32,8 @@ _QUESTION = TaggedUnion(
     key="ask",
     known=KINDS,
     names="questions",
-    listing="what can be asked: ",
-    unknown="'{}' cannot be asked",
+    listing="the questions are: ",
+    unknown="there is no question '{}'",
     otherwise=("a question is a mapping with `id` and `ask`", "write {id: f, ask: dof} or the like"),
 )
 
@@ -51,7 +51,7 @@ class Varying(WrittenModel):
     what: Annotated[tuple[Aspect, ...], Listed] = Field(
         ASPECTS, description="any of geometry, names, constraints, supports, rolling"
     )
-    drop: Annotated[tuple[str, ...], Listed] = Field((), description="constraints of which one is left out")
+    drop: Annotated[tuple[str, ...], Listed] = Field((), description="constraints of which one is omitted")
     add: Annotated[
         tuple[Annotated[AnyConstraint, BeforeValidator(as_equation, json_schema_input_type=str | AnyConstraint)], ...],
         Listed,
@@ -69,15 +69,15 @@ class Problem(WrittenModel):
     """A scene and what is asked of it."""
 
     id: Identifier = Field(description="its name, unique within the assignment")
-    title: str | None = Field(None, description="one line about it")
+    title: str | None = Field(None, description="its title")
     text: Text | None = Field(
         None,
-        description="what students read: Markdown with formulas in $; [[rod]] or [[rod.length]] is as in the scene",
+        description="the problem statement: Markdown, formulas in $; [[rod]], [[rod.length]] insert parts of the scene",
     )
     figure: str | None = Field(
         None, description="a picture's file beside the assignment, `scene` (drawn) or `none`; by default drawn"
     )
-    points: Points | None = Field(None, description="what it is worth in all; its questions' points are shares of it")
+    points: Points | None = Field(None, description="its total points; the points of its questions are shares of it")
     scene: str | dict[str, Any] = Field(description="a catalog name, a path beside the assignment, or a scene in place")
     also: dict[str, str] = Field(
         default_factory=dict, description="further coordinates that answers may use, by name: `theta: atan2(x, -y)`"
@@ -85,13 +85,13 @@ class Problem(WrittenModel):
     names: Annotated[
         dict[str, tuple[str, ...]],
         BeforeValidator(_aliases, json_schema_input_type=dict[str, str | list[str]]),
-    ] = Field(default_factory=dict, description="what else students may call things, by name: `theta_A: [theta, phi]`")
+    ] = Field(default_factory=dict, description="other names that answers may use: `theta_A: [theta, phi]`")
     vary: Annotated[Varying, BeforeValidator(_varying)] | None = Field(
-        None, description="what may differ between students: a list of aspects, false for nothing; by default all"
+        None, description="what may differ between students: a list of aspects, or false for nothing; by default all"
     )
     questions: Annotated[
         tuple[Annotated[AnyQuestion, WrapValidator(_QUESTION.validated)], ...], Field(min_length=1)
-    ] = Field(description="what is asked")
+    ] = Field(description="its questions")
 
     @property
     def other_names(self) -> dict[str, str]:
@@ -102,18 +102,22 @@ class Problem(WrittenModel):
 class StudentSheet(WrittenModel):
     """Whose sheet is which."""
 
-    student: str = Field(min_length=1, description="what results call the student")
-    known_as: Annotated[tuple[str, ...], Listed] = Field((), description="other names, addresses and numbers of theirs")
-    draw: int = Field(0, ge=0, description="which draw of the seed it is: 0, but where that was another student's too")
-    sheet: str = Field("", description="what tells whether the sheet comes out the same again")
+    student: str = Field(min_length=1, description="the name of the student in results")
+    known_as: Annotated[tuple[str, ...], Listed] = Field(
+        (), description="other names, addresses and numbers of the student"
+    )
+    draw: int = Field(
+        0, ge=0, description="which draw of the seed it is; 0 unless that gives another student's variant"
+    )
+    sheet: str = Field("", description="a mark that tells whether the variant is reproduced exactly")
 
 
 class Variants(WrittenModel):
     """That every student has a sheet of their own, made from a seed."""
 
-    seed: Annotated[str, BeforeValidator(identifier)] = Field(min_length=1, description="what the sheets are made from")
-    version: str = Field("", description="of dofkit, that made them")
-    students: tuple[StudentSheet, ...] = Field((), description="who has a sheet")
+    seed: Annotated[str, BeforeValidator(identifier)] = Field(min_length=1, description="the seed of the variants")
+    version: str = Field("", description="the version of dofkit that made them")
+    students: tuple[StudentSheet, ...] = Field((), description="the students")
 
     def find(self, text: str) -> StudentSheet | None:
         """Whose name, address or number it is; None for nobody's, and for that of two."""
@@ -145,8 +149,8 @@ def faults_of_names(problem: Problem, key: Key) -> Iterator[Fault]:
         for n, other in enumerate(others):
             wrong = valid_name(other)
             if other in taken or wrong is not None:
-                why = f"'{other}' means something already" if other in taken else str(wrong)
-                yield Fault(why, ("names", name, n), hint="give a name that the scene does not have")
+                why = f"'{other}' already has a meaning" if other in taken else str(wrong)
+                yield Fault(why, ("names", name, n), hint="choose a name that the scene does not use")
             taken.add(other)
     if problem.vary is not None:
         for fault in _faults_of_dropped(problem.vary, key):

@@ -23,7 +23,7 @@ from dofkit.homework.notebooks import QuestionError
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.repairs import nearest_reading
 from dofkit.homework.result import Item
-from dofkit.homework.sentences.said import Language
+from dofkit.homework.sentences.said import Language, in_language
 from dofkit.scene.reading import load
 
 
@@ -44,22 +44,22 @@ def reading_of(names: str | os.PathLike[str], problem: str, question: str, answe
     prepared = _prepared(str(path), path.stat().st_mtime_ns)
     asked = next((q for p, q in prepared.questions() if (p.id, q.id) == (problem, question)), None)
     if asked is None:
-        raise QuestionError(f"the assignment has no question '{question}' of a problem '{problem}'")
+        raise QuestionError(f"the assignment has no question '{question}' in a problem '{problem}'")
     found = of_value({"answers": {problem: {question: None if answer is ... else answer}}}, "student")
     given = found.answers.get(problem, {}).get(question)
-    where = f"{line(problem)}.{line(question)}"
+    where, language = f"{line(problem)}.{line(question)}", prepared.assignment.language
     if given is None or says_nothing(given):
-        return Understood(False, f"{where}: there is no answer.")
+        return Understood(False, f"{where}: {in_language(language, 'No answer was given.')}")
     key = prepared.keys[problem]
     try:
         with by_processor(ANSWER_SECONDS):
-            return Understood(True, f"{where} is read as: {plain(asked.read(given, key))}")
+            return Understood(
+                True, f"{where}: {in_language(language, 'Read as: {text}', text=plain(asked.read(given, key)))}"
+            )
     except DoubtError as error:
-        return Understood(True, f"{where} can be read; left open here: {plain(error.message)}")
+        return Understood(True, f"{where}: {needs_review('', error.message).feedback(language)}")
     except TextError as error:
-        return Understood(
-            False, f"{where}: {_stopped(error, problem, asked, given, key, prepared.assignment.language)}"
-        )
+        return Understood(False, f"{where}: {_stopped(error, problem, asked, given, key, language)}")
 
 
 def _stopped(error: TextError, problem: str, asked: QuestionBase, given: Given, key: Key, language: Language) -> str:
@@ -67,7 +67,7 @@ def _stopped(error: TextError, problem: str, asked: QuestionBase, given: Given, 
     error = in_whole(given, error, partial(asked.read, key=key))
 
     def judged(text: str) -> Judgement:
-        return needs_review(asked.read(text, key), "it is not judged here.")
+        return needs_review(asked.read(text, key), "grading was interrupted.")
 
     nearest = nearest_reading(given, error, judged)
     found = unreadable(error, () if nearest is None else (nearest,))
@@ -76,12 +76,12 @@ def _stopped(error: TextError, problem: str, asked: QuestionBase, given: Given, 
         read_as="", feedback=found.feedback(language), column=found.column, answer=shown_text(given),
         would_read=None if nearest is None else nearest.read_as,
     )  # fmt: skip
-    return remark(item)
+    return remark(item, language)
 
 
 @lru_cache(maxsize=8)
 def _prepared(path: str, changed: int) -> Prepared:
-    """The names of an assignment; nothing is asked of them but how texts read."""
+    """The names of an assignment; no question of the assignment has this name of them but how texts read."""
     del changed
     value = json.loads(Path(path).read_text(encoding="utf-8"), parse_float=Decimal)
     assignment = Assignment.model_validate(value)

@@ -99,4 +99,4 @@ def faults_of_places(text: str, scene: Scene) -> Iterator[Fault]:
     for name, field in places(text):
         if _told(name, field, scene) is None:
             what = name if field is None else f"{name}.{field}"
-            yield Fault(f"[[{what}]] is nothing of the scene", (), hint=suggestion(name, known, "names"))
+            yield Fault(f"[[{what}]] is not a name in the scene", (), hint=suggestion(name, known, "names"))

@@ -22,7 +22,7 @@ from dofkit.expressions.text import to_text
 from dofkit.expressions.text.derivatives import by_time
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, GivenUpError
-from dofkit.integrability.integrals.potential import potential
+from dofkit.integrability.integrals.antiderivative import potential
 from dofkit.relations.normal.normal_form import linear_form, normalise
 from dofkit.relations.normal.pieces import Normal, Piece
 from dofkit.relations.normal.zero_set import zero_set
@@ -65,7 +65,7 @@ def without_accelerations(e: Expr, positive: frozenset[Expr], fresh: Iterator[st
             said += normal.notes
             parts.append(normal.branches)
         found += [tuple(p for part in choice for p in part) for choice in cartesian(*parts)]
-    special = [f"{c} = 0 is a special case: time may then not enter, and labels can be others" for c in constants]
+    special = [f"{c} = 0 is a special case, in which time may not occur and the labels may differ" for c in constants]
     return Normal(tuple(found), tuple(dict.fromkeys((*told, *special, *said))), tuple(constants), "; ".join(told))
 
 

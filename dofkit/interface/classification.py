@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Generator, Iterator
+from collections.abc import Generator, Iterator, Sequence
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +15,7 @@ import typer
 
 from dofkit.base.errors import ArgumentError
 from dofkit.base.surface import handed_on
+from dofkit.base.wording import many
 from dofkit.interface.outcome import headline
 from dofkit.interface.presentation import Telling
 from dofkit.interface.progress import Progress
@@ -57,9 +58,15 @@ def echo(printed: Printed) -> None:
     typer.echo(printed.err, nl=False, err=True, color=True)
 
 
+def echo_count(errors: Sequence[int]) -> None:
+    """Print how many errors there are in how many files, where there are several."""
+    if sum(errors) > 1:
+        typer.echo(f"{many(sum(errors), 'error')} in {many(sum(map(bool, errors)), 'file')}", err=True)
+
+
 def classified(asked: Asked) -> int:
     """Print what there is of each file, and a summary of several; returns the exit status."""
-    summary, unread = Summary(), False
+    summary, errors = Summary(), []
     telling = asked.telling
     plain = not (telling.as_json or telling.only)
     if plain and telling.brief and asked.out is None:
@@ -68,11 +75,13 @@ def classified(asked: Asked) -> int:
     for seconds, printed in _timed(asked, progress):
         echo(printed)
         summary.add(printed.outcome, seconds)
-        unread = unread or printed.failed
+        errors.append(printed.errors)
     if plain and len(asked.files) > 1:
         lines = [safe(line) for line in summary.lines()]
         typer.echo("\n".join(["", *lines] if telling.brief and asked.out is None else lines))
-    if unread:
+    if any(errors):
+        if plain and asked.out is None:
+            echo_count(errors)
         return UNREADABLE
     return FAILED if summary.fails(asked.fail_on) else 0
 

@@ -134,7 +134,7 @@ def lagrange(
     """Derive the equations of motion from the energies."""
     from dofkit.interface.supervised import motions
 
-    _print(motions(files, linearize, Telling.here(as_json), certificate))
+    _print(motions(files, linearize, Telling.here(as_json), certificate), as_json)
 
 
 @_command()
@@ -286,16 +286,18 @@ def _pictures(files: list[str], kind: str, out: Path | None, form: str | None, k
     _print(pictures(files, kind, out, form or known[0]))
 
 
-def _print(printed: Generator[Printed]) -> None:
+def _print(printed: Generator[Printed], as_json: bool = False) -> None:
     """Print the output for each file; exit with status 2 if a file could not be read."""
-    from dofkit.interface.classification import echo
+    from dofkit.interface.classification import echo, echo_count
 
-    failed = False
+    errors = []
     with closing(printed) as stream:
         for printed_of_file in stream:
             echo(printed_of_file)
-            failed = failed or printed_of_file.failed
-    if failed:
+            errors.append(printed_of_file.errors)
+    if any(errors):
+        if not as_json:
+            echo_count(errors)
         raise typer.Exit(UNREADABLE)
 
 

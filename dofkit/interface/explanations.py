@@ -16,6 +16,8 @@ from dofkit.homework.key.codes import CODES
 from dofkit.interface.field_meanings import OF_CONSTRAINT, OF_REPORT
 from dofkit.interface.show.assurance import VERDICT_MEANS
 from dofkit.scene.constraints import TYPES, ConstraintBase
+from dofkit.scene.hints import LINES, SECTIONS
+from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import synonyms
 
 _THEOREM = re.compile(r"^\| `(?P<key>\w+)` \| (?P<author>[^|]+) \| (?P<year>[^|]+) \| (?P<says>[^|]+) \|", re.MULTILINE)
@@ -106,6 +108,7 @@ def all_explanations() -> tuple[Explanation, ...]:
         *_fields("field of a constraint", OF_CONSTRAINT),
         *(Explanation(name, "verdict", _sentence(meaning)) for name, meaning in VERDICT_MEANS.items()),
         *(Explanation(word, "word", meaning) for word, meaning in _WORDS.items()),
+        *(_section(name) for name in SECTIONS),
         *(_type(name, cls) for name, cls in TYPES.items()),
         *(Explanation(word, "synonym", f"In a scene: `{kind}`.") for word, kind in synonyms().items()),
         *_arguments(),
@@ -116,6 +119,12 @@ def all_explanations() -> tuple[Explanation, ...]:
 def _fields(kind: str, meanings: Mapping[str, str]) -> Iterator[Explanation]:
     for name, meaning in meanings.items():
         yield Explanation(name, kind, _sentence(meaning))
+
+
+def _section(name: str) -> Explanation:
+    line = LINES[name]
+    about = f"{_sentence(Scene.model_fields[name].description or '')} For example `{line}`."
+    return Explanation(name, "section of a scene", about)
 
 
 def _sentence(text: str) -> str:

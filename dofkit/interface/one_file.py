@@ -168,9 +168,9 @@ def _equations(scene: Scene, given: Given) -> Iterator[Json]:
         yield streams(show.as_text(sheet, _screen(given)) + "\n\n")
 
 
-def streams(out: str = "", err: str = "", failed: bool = False, outcome: Json = None) -> Json:
+def streams(out: str = "", err: str = "", errors: int = 0, outcome: Json = None) -> Json:
     """What goes to standard output and to standard error, and what a summary counts."""
-    return {"out": out, "err": err, "failed": failed, "outcome": outcome}
+    return {"out": out, "err": err, "errors": errors, "outcome": outcome}
 
 
 def _report_text(report: Report, title: str | None, given: Given, more: Sequence[SheetSection] = ()) -> str:
@@ -203,9 +203,9 @@ def _line(value: Any, given: Given) -> str:
 def _fault_streams(given: Given, name: str, faults: tuple[Fault, ...], document: Document | None) -> Json:
     """What is printed of a file that could not be read, or not be answered."""
     if given.telling.as_json:
-        return streams(out=_line({"scene": name, "error": _error_object(faults)}, given), failed=True)
+        return streams(out=_line({"scene": name, "error": _error_object(faults)}, given), errors=len(faults))
     file = STDIN if given.file == "-" else given.file
-    return streams(err=show.complaint(file, faults, document, given.telling.loud) + "\n", failed=True)
+    return streams(err=show.complaint(file, faults, document, given.telling.loud) + "\n", errors=len(faults))
 
 
 def _error_object(faults: Iterable[Fault]) -> dict[str, Any]:

@@ -92,14 +92,14 @@ class Cut:
 
 
 class Printed(NamedTuple):
-    """What is printed of a file, on standard output and on standard error, and whether it could not be read.
+    """What is printed of a file, on standard output and on standard error, and how many errors it has.
 
     ``outcome``: of a report what a summary counts.
     """
 
     out: str
     err: str
-    failed: bool
+    errors: int
     outcome: Mapping[str, Any] | None = None
 
 
@@ -241,9 +241,9 @@ def _plain(given: Given, reason: str) -> Printed:
     """Where not even a worker can tell."""
     message = f"it could not be looked at: {reason}"
     if not given.telling.as_json:
-        return Printed("", f"{given.name}: error: {message}\n", True)
+        return Printed("", f"{given.name}: error: {message}\n", 1)
     error: dict[str, Any] = {"message": message, "line": None, "column": None, "hint": None, "faults": []}
-    return Printed(json.dumps({"scene": given.name, "error": error}) + "\n", "", True)
+    return Printed(json.dumps({"scene": given.name, "error": error}) + "\n", "", 1)
 
 
 def data_of(file: str) -> bytes | None:

@@ -123,7 +123,7 @@ def _why(system: System, joints: Sequence[CountedJoint], kutzbach: int, freedom:
     placement = drawn()
     said = "" if placement is None else _of_screws(system, joints, freedom, placement)
     more = freedom - kutzbach
-    start = f"{more} of the equations that the count treats as independent {verb(more)} not"
+    start = f"{more} of the equations that are counted as independent {verb(more, 'depends', 'depend')} on the others"
     return f"{start}: {said}" if said else start
 
 

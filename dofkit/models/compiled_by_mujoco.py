@@ -71,7 +71,7 @@ def _fault(reason: str, error: str) -> Fault:
     while (shorter := _NOISE.sub("", said).strip()) != said:
         said = shorter
     line = int(lines[-1]) if lines and int(lines[-1]) > 0 else None
-    hint = "mend the model; `python -m mujoco.viewer --mjcf=FILE` shows it"
+    hint = "correct the model; `python -m mujoco.viewer --mjcf=FILE` shows it"
     return Fault(f"MuJoCo's compiler: {said}", line=line, column=None if line is None else 1, hint=hint)
 
 

@@ -54,10 +54,10 @@ def format_of(data: bytes | str) -> ModelFormat | None:
     tag = _first_tag(_beginning(data))
     found = next((one for one in FORMATS if one.tag == tag), None)
     if found is None and tag:
-        message = f"an XML file that begins with <{tag}> is no model that is read"
+        message = f"an XML file that begins with <{tag}> is not a model that dofkit reads"
         hint = "models begin with <mujoco> (MJCF) or <robot> (URDF)"
         if tag in _PARTS:
-            hint = "this is a part of a model: name the file that includes it"
+            hint = "this is a part of a model: give the file that includes it"
         raise SceneError((Fault(message, line=1, column=1, hint=hint),))
     return found
 
@@ -67,7 +67,7 @@ def read_model(file: ModelFile) -> ModelDocument:
     found = format_of(file.data)
     if found is None:
         titles = ", ".join(one.title for one in FORMATS)
-        raise SceneError((Fault("this is no model", hint=f"those that are read: {titles}"),), file.name)
+        raise SceneError((Fault("this is not a model", hint=f"the formats that are read: {titles}"),), file.name)
     missing = [name for name in found.needs if find_spec(name) is None]
     if missing:
         message = f"{found.title} is read with {' and '.join(missing)}, which is not installed"

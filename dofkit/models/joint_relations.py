@@ -9,7 +9,9 @@ from typing import Any, NamedTuple
 from dofkit.models.model_document import DECIMALS
 
 #: Why a hinge's range is not read.
-OVER = "it reaches over half a turn from the drawing, where the angle of a hinge in space is counted anew"
+OVER = (
+    "it extends beyond half a turn from the reference configuration, where the angle of a hinge in space starts again"
+)
 _LETTERS = "pqrsuvwabcdefgh"
 
 

@@ -100,14 +100,16 @@ def read_markup(data: bytes | str, name: str) -> Element:
     try:
         defusedxml.sax.parseString(raw, reader)
     except DefusedXmlException:
-        hint = "write out what the entity stands for"
-        fault = Fault("entities are not read: they can grow without bound", line=_entity(raw), column=1, hint=hint)
+        hint = "write out the text that the entity stands for"
+        fault = Fault(
+            "entities are not read, because they can expand without bound", line=_entity(raw), column=1, hint=hint
+        )
         raise SceneError((fault,), name) from None
     except xml.sax.SAXParseException as error:
         told = (error.getMessage() or "it cannot be read").rstrip(".")
         line, column = error.getLineNumber() or 1, (error.getColumnNumber() or 0) + 1
         raise SceneError(
-            (Fault(f"this is no XML: {told}", line=line, column=column, hint="mend the XML"),), name
+            (Fault(f"this is not well-formed XML: {told}", line=line, column=column, hint="correct the XML"),), name
         ) from None
     if reader.root is None:
         raise SceneError((Fault("the file is empty", line=1, column=1, hint="write a model"),), name)

@@ -34,8 +34,8 @@ def read(file: ModelFile) -> ModelDocument:
     """The scene of an MJCF file. Raises SceneError for what the compiler does not take."""
     found = compiled(file)
     if not found.told["closed"]:
-        hint = "give a pose in which they hold, or switch them off: active='false'"
-        fault = Fault("the equalities hold neither in the pose that is written nor in one near it", hint=hint)
+        hint = "give a pose that satisfies them, or switch them off: active='false'"
+        fault = Fault("the equalities are satisfied neither in the given pose nor in one near it", hint=hint)
         raise SceneError((fault,), file.name)
     title = found.root.get("model") or file.name
     return _MjcfScene(found, SceneDraft(title), file.limits).document()
@@ -78,9 +78,9 @@ class _MjcfScene:
             else:
                 self._body(i, body)
         if still:
-            self.draft.leave_out(f"{listed(still)}: fixed to the world, so they are the ground")
+            self.draft.leave_out(f"{listed(still)}: fixed to the world, so they belong to the ground")
         if markers:
-            self.draft.leave_out(f"{listed(markers)}: markers without mass, which nothing mentions")
+            self.draft.leave_out(f"{listed(markers)}: markers without mass that nothing refers to")
         for equality in self.told["equalities"]:
             self._equality(equality)
         self._ranges()
@@ -135,7 +135,7 @@ class _MjcfScene:
         elif kind in ("joint", "tendon"):
             self._coupling(name, kind, told, line)
         else:
-            self.draft.leave_out(f"{name}: of kind {kind}, which only MuJoCo knows", binding=True)
+            self.draft.leave_out(f"{name}: of kind {kind}, which only MuJoCo defines", binding=True)
 
     def _coupling(self, name: str, kind: str, told: Mapping[str, Any], line: int | None) -> None:
         of = [i for i in told["of"] if i >= 0]
@@ -144,7 +144,7 @@ class _MjcfScene:
         sums = [self._joint_sum(i) if kind == "joint" else self._fixed_tendon(i) for i in of]
         known = [one for one in sums if one is not None]
         if len(known) < len(sums):
-            self.draft.leave_out(f"{name}: of tendons that run around shapes", binding=True)
+            self.draft.leave_out(f"{name}: of tendons that wrap around shapes", binding=True)
             return
         given = relation(known[0], known[1] if len(known) > 1 else None, told["polynomial"])
         self.draft.constraint(name, "coupling", line, **given)
@@ -181,7 +181,9 @@ class _MjcfScene:
         if not self.limits:
             shown = [f"{name} from {j['range'][0]:.4g} to {j['range'][1]:.4g}" for name, j in ranged.items()]
             if shown:
-                self.draft.leave_out(f"the ranges of joints ({listed(shown)}): with `--limits` they are inequalities")
+                self.draft.leave_out(
+                    f"the ranges of joints ({listed(shown)}): with `--limits` they become inequalities"
+                )
             if tendons:
                 self.draft.leave_out(f"the ranges of tendons ({listed(t['name'] or str(i) for i, t in tendons)})")
             return
@@ -209,20 +211,20 @@ class _MjcfScene:
         if any(told["gravity"]) and self.draft.bodies:
             self.draft.forces.append({"type": "gravity", "acceleration": vector(told["gravity"])})
         for key, what in (
-            ("contacts", "contacts between shapes: they come and go"),
-            ("actuators", "actuators: they are forces, and constrain nothing"),
-            ("springs", "springs of joints and tendons: they are forces, and constrain nothing"),
-            ("friction", "damping and friction of joints and tendons: they are forces, and constrain nothing"),
-            ("rotors", "armature, the inertia of rotors that turn with joints: it constrains nothing"),
-            ("lifted", "compensation of gravity: it is a force, and constrains nothing"),
-            ("medium", "the medium that bodies move in: its drag is a force, and constrains nothing"),
-            ("flexible", "flexible bodies: only MuJoCo knows them"),
+            ("contacts", "contacts between shapes: they open and close during the motion"),
+            ("actuators", "actuators: they are forces, not constraints"),
+            ("springs", "springs of joints and tendons: they are forces, not constraints"),
+            ("friction", "damping and friction of joints and tendons: they are forces, not constraints"),
+            ("rotors", "armature, the inertia of rotors that turn with joints: it is not a constraint"),
+            ("lifted", "compensation of gravity: it is a force, not a constraint"),
+            ("medium", "the medium that bodies move in: its drag is a force, not a constraint"),
+            ("flexible", "flexible bodies: only MuJoCo defines them"),
         ):
             if told[key]:
                 self.draft.leave_out(what)
         around = [t["name"] or f"tendon_{i}" for i, t in enumerate(told["tendons"]) if _runs_around(t)]
         if around:
-            what = "run around shapes or pulleys: how long they are there only MuJoCo knows"
+            what = "wrap around shapes or pulleys: their length there is defined by MuJoCo only"
             self.draft.leave_out(f"the tendons {listed(around)}, which {what}; without an equality they only pull")
         for note in told["notes"]:
             self.draft.leave_out(note)

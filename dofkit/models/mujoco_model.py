@@ -45,7 +45,7 @@ def described_model(given: Mapping[str, Any]) -> dict[str, Any]:
     except ValueError:
         spec.compiler.boundmass = spec.compiler.boundinertia = LEAST
         model = spec.compile()
-        notes.append("masses: some bodies that move have none that can be read")
+        notes.append("masses: some moving bodies have none that can be read")
     data = mujoco.MjData(model)
     compiled = Compiled(model, data, notes)
     closed = _draw(compiled)
@@ -85,7 +85,7 @@ def _without_files(spec: Any, folder: str) -> Iterator[str]:
             spec.delete(geom)
     names = [*lost.values()]
     shown = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
-    yield f"the shapes of {shown}: the files are not there, so what they weigh is not known"
+    yield f"the shapes of {shown}: their files are missing, so their masses are unknown"
 
 
 def _without_looks(spec: Any) -> None:
@@ -120,7 +120,9 @@ def _draw(found: Compiled) -> bool:
         data.qpos[:] = started
         _place(found)
         return False
-    found.notes.append("the pose as it is written: it does not satisfy the equalities, and the drawing is one near it")
+    found.notes.append(
+        "the given pose: it does not satisfy the equalities, and the reference configuration is a pose near it"
+    )
     return True
 
 

@@ -122,12 +122,12 @@ class PlaneSketch(SketchScene):
         if kind.says is None:
             raise UnreadError("constraints of this kind are not read")
         if record.handle("workplane.v") not in (0, self.plane):
-            raise UnreadError("it is seen in another workplane than that which is read")
+            raise UnreadError("it belongs to a workplane other than the one that is read")
         mentioned = self._mentioned(record)
         given = len(mentioned.points), len(mentioned.lines), len(mentioned.curves)
         fits = given in kind.needs and all(isinstance(one, kind.curves) for one in mentioned.curves)
         if not fits or sum(given) != len(self.mentioned(record)):
-            raise UnreadError("it mentions what is not in the plane that is read")
+            raise UnreadError("it refers to something outside the plane that is read")
         return kind.says(mentioned)
 
     def _mentioned(self, record: Record) -> SketchMentions:

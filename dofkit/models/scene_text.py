@@ -30,20 +30,20 @@ def _lines(value: Mapping[str, Any]) -> Iterator[str]:
     for key, part in value.items():
         if key in _LISTED:
             yield f"{key}:"
-            yield from (f"- {_flow(entry)}" for entry in part)
+            yield from (f"- {on_one_line(entry)}" for entry in part)
         elif key == "configuration":
             yield f"{key}:"
-            yield from (f"  {_flow(name)}: {_flow(number)}" for name, number in part.items())
+            yield from (f"  {on_one_line(name)}: {on_one_line(number)}" for name, number in part.items())
         else:
-            yield f"{key}: {_flow(part)}"
+            yield f"{key}: {on_one_line(part)}"
 
 
-def _flow(value: Any) -> str:
-    """A value on one line."""
+def on_one_line(value: Any) -> str:
+    """Return a value as YAML on one line."""
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_flow(key)}: {_flow(part)}" for key, part in value.items()) + "}"
+        return "{" + ", ".join(f"{on_one_line(key)}: {on_one_line(part)}" for key, part in value.items()) + "}"
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(map(_flow, value)) + "]"
+        return "[" + ", ".join(map(on_one_line, value)) + "]"
     if isinstance(value, str):
         plain = _PLAIN.fullmatch(value) and value.lower() not in _WORDS
         return value if plain else json.dumps(value, ensure_ascii=False)

@@ -73,7 +73,7 @@ class MovedCopies:
         vector = self.vectors[own] = moving_vector(names, drawn)
         if plane is None:
             if group.handle("predef.entityB.v") and group.whole("subtype") not in _SKEWED:
-                self.draft.leave_out(f"{group_name(self.file, own)}: the way that it moves", binding=True)
+                self.draft.leave_out(f"{group_name(self.file, own)}: its displacement", binding=True)
             return vector
         along = group.whole("type") == EXTRUDE
         axes = (plane.frame.u, plane.frame.v) if along else (plane.frame.n,)

@@ -76,9 +76,9 @@ class SketchScene(ABC):
         try:
             written = list(self._written(record))
             if not written:
-                raise UnreadError("what it mentions has no such ends")
+                raise UnreadError("the entities that it refers to have no such ends")
             if any(len(one.get("text", "")) > MAX_CHARACTERS for one in written):
-                raise UnreadError("its equation is longer than a scene's texts may be")
+                raise UnreadError("its equation is longer than a text of a scene may be")
         except UnreadError as why:
             self.draft.leave_out(f"{name}: {why}", binding=True)
             return
@@ -94,7 +94,7 @@ class SketchScene(ABC):
         if record.whole("reference") or measures:
             return "a reference dimension, which only measures"
         relaxed = group is not None and group.whole("relaxConstraints") and kind != _COINCIDENT
-        return "its group is relaxed, so that it does not hold" if relaxed else ""
+        return "its group is relaxed, so it is not enforced" if relaxed else ""
 
     def is_whole_circle(self, arc: Record) -> bool:
         """Is an arc made a whole circle, its ends by a constraint of its group in one place?"""
@@ -115,10 +115,11 @@ class SketchScene(ABC):
         """What of the file no constraint holds, or is derived and not read."""
         if len({c.handle("group.v") for c in self.file.constraints.values()}) > 1:
             self.draft.leave_out(
-                "the order of the groups: all hold at once, where SolveSpace keeps what it solved before"
+                "the order of the groups: all constraints are enforced at once, whereas SolveSpace keeps earlier "
+                "groups as they were solved"
             )
         if any(is_own(h) and e.whole("type") in (CUBIC, CUBIC_RING) for h, e in self.file.entities.items()):
-            self.draft.leave_out("cubic curves: their points are read, and what is tangent at their ends")
+            self.draft.leave_out("cubic curves: only their points and the tangents at their ends are read")
         drawn = {h for h, g in self.file.groups.items() if g.whole("type") in (IN_SPACE, IN_PLANE)}
         groups = [g.values.get("name", "") for h, g in self.file.groups.items() if h not in drawn | self._derived()]
         if groups:

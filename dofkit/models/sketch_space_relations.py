@@ -214,7 +214,7 @@ def _on_circle(m: SpaceMentions) -> Iterator[Written]:
     to = m.points[0].place.minus(one.centre.place)
     seen = Projection(one.frame, m.points[0].plane == one.centre.plane != 0)
     if not (seen.metric if one.frame is not None else seen.within):
-        raise UnreadError("how its circle is turned is not read")
+        raise UnreadError("the orientation of its circle is not read")
     yield equal(seen.squared(to), one.squared)
 
 

@@ -37,7 +37,7 @@ def read(file: ModelFile) -> ModelDocument:
             break
     if best is None or "particles" not in best[0].value:
         hint = "draw something: points, lines, circles"
-        raise SceneError((Fault("this file has no point that is read", line=1, column=1, hint=hint),), file.name)
+        raise SceneError((Fault("this file has no point that dofkit reads", line=1, column=1, hint=hint),), file.name)
     return best[0]
 
 

@@ -114,10 +114,10 @@ class SpatialSketch(SketchScene):
             raise UnreadError("constraints of this kind are not read")
         found = self._mentions(record)
         if found.counted not in kind.needs:
-            raise UnreadError("it mentions what is not read")
+            raise UnreadError("it refers to something that is not read")
         measured = self._measured(found, record) if kind.seen else found
         if not kind.reads(measured):
-            raise UnreadError("it is seen in a workplane in which it is not read")
+            raise UnreadError("it belongs to a workplane in which such constraints are not read")
         return kind.says(measured)
 
     def _mentions(self, record: Record) -> SpaceMentions:
@@ -149,7 +149,7 @@ class SpatialSketch(SketchScene):
             return found
         plane = self.found.plane(seen)
         if plane is None:
-            raise UnreadError("it is seen in a workplane that is not read")
+            raise UnreadError("it belongs to a workplane that is not read")
         return found._replace(measure=Projection(plane.frame, seen == common), origin=plane.origin)
 
     def _fresh(self, record: Record) -> Callable[[float], Expr]:
@@ -163,6 +163,6 @@ def _read(handles: Iterable[int], reader: Callable[[int], _Read | None]) -> tupl
     for handle in handles:
         one = reader(handle)
         if one is None:
-            raise UnreadError("it mentions what is not read")
+            raise UnreadError("it refers to something that is not read")
         found.append(one)
     return tuple(found)

@@ -5,6 +5,7 @@ The drawing has every joint at 0, one that mimics another at its offset. A link 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -42,6 +43,8 @@ _KINDS = {
     "revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic", "fixed": "weld", "planar": "planar",
     "ball": "spherical", "spherical": "spherical", "cylindrical": "cylindrical",
 }  # fmt: skip
+#: An angle that differs by more than the first and less than the second from a multiple of pi/2 is taken as rounded.
+EXACT_ANGLE, ROUNDED_ANGLE = 1e-12, 1e-5
 
 
 def read(file: ModelFile) -> ModelDocument:
@@ -86,13 +89,13 @@ class _UrdfScene:
             elif joint is None and (link.mass == 0 and name in parents):
                 self.stands[name] = GROUND
                 if name != "world":
-                    self.draft.leave_out(f"{name}: the link that all others hang on, without mass, is the ground")
+                    self.draft.leave_out(f"{name}: the root link, without mass, is the ground")
             else:
                 self._link(name, poses.pose[name], joint)
             if joint is not None and not loose:
                 self._joint(joint, poses.frame[joint.name])
         if markers:
-            self.draft.leave_out(f"{listed(markers)}: frames without mass at the end, which nothing hangs on")
+            self.draft.leave_out(f"{listed(markers)}: frames without mass at the ends of the tree")
         for joint in poses.closing:
             self._joint(joint, poses.frame[joint.name])
         for loop in robot.loops:
@@ -111,7 +114,7 @@ class _UrdfScene:
         self.draft.place(own, centre.at)
         if joint is None:
             self.draft.constraint(name, "weld", link.line, between=[GROUND, own])
-            self.draft.leave_out(f"what holds {name}, the link that all others hang on: it is taken to be fixed")
+            self.draft.leave_out(f"the support of {name}, the root link: it is taken to be fixed")
 
     def _joint(self, joint: RobotJoint, frame: Transform) -> None:
         kind = _KINDS.get(joint.kind)
@@ -156,7 +159,7 @@ class _UrdfScene:
         ranged = [joint for joint in self.robot.joints if joint.range and joint.kind in SCALAR]
         if ranged and not self.limits:
             shown = [f"{j.name} from {j.range[0]:.4g} to {j.range[1]:.4g}" for j in ranged if j.range]
-            self.draft.leave_out(f"the ranges of joints ({listed(shown)}): with `--limits` they are inequalities")
+            self.draft.leave_out(f"the ranges of joints ({listed(shown)}): with `--limits` they become inequalities")
             return
         for joint in ranged:
             stands, between = self.drawn.get(joint.name, 0.0), joint.range or ()
@@ -170,8 +173,23 @@ class _UrdfScene:
     def _rest(self) -> None:
         if any(body.get("mass") for body in self.draft.bodies):
             self.draft.forces.append({"type": "gravity", "acceleration": [0, 0, -9.81]})
-        for told in self.robot.unread:
+        for told in (*self.robot.unread, *_rounded_angles(self.robot)):
             self.draft.leave_out(told)
+
+
+def _rounded_angles(robot: Robot) -> Iterator[str]:
+    """Yield a sentence about every angle that is nearly, but not exactly, a multiple of a right angle."""
+    for element in robot.root.every():
+        for text in element.get("rpy").split():
+            turns = round(float(text) / (math.pi / 2))
+            gap = abs(float(text) - turns * math.pi / 2)
+            if EXACT_ANGLE < gap < ROUNDED_ANGLE:
+                size = {0: "0", 1: "pi/2", 2: "pi"}.get(abs(turns), f"{abs(turns)} pi/2")
+                meant = f"-{size}" if turns < 0 else size
+                yield (
+                    f"line {element.line}: the angle {text} is not equal to {meant} but within 1e-5 of it, so it is "
+                    "probably rounded; it is used as written"
+                )
 
 
 def _written(robot: Robot) -> Iterator[str]:

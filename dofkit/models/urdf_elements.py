@@ -22,10 +22,10 @@ SCALAR = ("revolute", "continuous", "prismatic")
 WITH_AXIS = (*SCALAR, "planar", "cylindrical")
 #: Elements that say nothing of how a robot moves, and what they are.
 _OTHERS = {
-    "transmission": "transmissions: actuators are forces, and constrain nothing",
-    "gazebo": "what is said to Gazebo: only it knows that",
+    "transmission": "transmissions: actuators are forces, not constraints",
+    "gazebo": "elements for Gazebo, which only Gazebo defines",
     "sensor": "sensors",
-    "ros2_control": "what is said to controllers",
+    "ros2_control": "elements for controllers",
 }
 
 
@@ -177,7 +177,7 @@ class _RobotReader:
         """The robot, of which nothing may be used where there are faults."""
         macro = next((part for part in self.root.every() if part.tag.startswith("xacro:")), None)
         if macro is not None:
-            self._fault(macro, "this file has macros", "expand them first: `xacro FILE > robot.urdf`")
+            self._fault(macro, "this file has xacro macros", "expand them first: `xacro FILE > robot.urdf`")
             return Robot("", self.root, {}, (), (), ())
         links: dict[str, RobotLink] = {}
         for part in self.root.all("link"):
@@ -194,11 +194,11 @@ class _RobotReader:
         unread = [told for tag, told in _OTHERS.items() if self.root.first(tag) is not None]
         rubs = [part.first("dynamics") for part in self.root.all("joint")]
         if any((one.get("damping") + one.get("friction")).strip(" 0.") for one in rubs if one is not None):
-            unread.append("damping and friction of joints: they are forces, and constrain nothing")
+            unread.append("damping and friction of joints: they are forces, not constraints")
         known = {"link", "joint", "material", "loop_joint", "ball_constraint", *_OTHERS}
         odd = dict.fromkeys(f"<{part.tag}>" for part in self.root.below if part.tag not in known)
         if odd:
-            unread.append(f"{listed(odd)}: elements that no one defined")
+            unread.append(f"{listed(odd)}: elements that URDF does not define")
         return Robot(self.root.get("name"), self.root, links, joints, loops, tuple(unread))
 
     def _link(self, part: Element) -> RobotLink:
@@ -208,7 +208,7 @@ class _RobotReader:
         mass, inertia = inertial.first("mass"), inertial.first("inertia")
         weight = 0.0 if mass is None else self._numbers(mass, "value", (0.0,))[0]
         if mass is not None and weight < 0:
-            self._fault(mass, f"the mass of '{part.get('name')}' is negative", "write what it weighs, or 0")
+            self._fault(mass, f"the mass of '{part.get('name')}' is negative", "write its mass, or 0")
         xx, xy, xz, yy, yz, zz = (
             0.0 if inertia is None else self._numbers(inertia, key, (0.0,))[0]
             for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
@@ -246,7 +246,7 @@ class _RobotReader:
             seen: set[str] = set()
             for part in self.root.all("joint"):
                 if part.get("name") in seen:
-                    self._fault(part, f"the joint '{part.get('name')}' is there twice", "rename one of them")
+                    self._fault(part, f"the joint '{part.get('name')}' is defined twice", "rename one of them")
                 seen.add(part.get("name"))
         for joint in joints:
             if joint.mimic is None:
@@ -260,7 +260,7 @@ class _RobotReader:
         self._check_mimics(known, lines)
         children = {joint.child for joint in joints}
         if links and children.issuperset(links):
-            self._fault(self.root, "every link is the child of a joint: nothing holds them", "leave the root free")
+            self._fault(self.root, "no link is the root: each is the child of a joint", "remove the joint of the root")
 
     def _check_mimics(self, known: Mapping[str, RobotJoint], lines: Mapping[str, Element]) -> None:
         for name, joint in known.items():
@@ -269,7 +269,7 @@ class _RobotReader:
                 one = known[one.mimic.joint]
                 seen.add(one.name)
             if one.mimic is not None and one.mimic.joint == name:
-                self._fault(lines[name], f"'{name}' mimics itself by way of others", "let one of them go")
+                self._fault(lines[name], f"'{name}' mimics itself through other joints", "remove one `mimic` element")
 
     def _loop(self, part: Element, links: Mapping[str, RobotLink]) -> LoopJoint | None:
         """A joint that closes a loop, as <loop_joint> or Drake's <ball_constraint> say it."""

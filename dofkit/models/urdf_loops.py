@@ -80,7 +80,7 @@ def drawn_joints(robot: Robot, poses: Poses, size: float, tolerance: float) -> t
     """
     adrift = [name for name in robot.links if name not in poses.pose]
     if adrift:
-        told = f"the link '{adrift[0]}' hangs on no link that no joint carries, only on what hangs on itself"
+        told = f"the link '{adrift[0]}' is not connected to a root link: the joints above it form a cycle"
         hint = "let the joints lead from one root to every link"
         return {}, [Fault(told, line=robot.links[adrift[0]].line, column=1, hint=hint)]
     drawn, faults = robot.drawn(), list[Fault]()
@@ -88,8 +88,8 @@ def drawn_joints(robot: Robot, poses: Poses, size: float, tolerance: float) -> t
         moved = closure.moved(size, tolerance)
         if moved is None:
             places = " and ".join(f"({', '.join(map(str, _short(f.at)))})" for f in (closure.first, closure.second))
-            told = f"its ends stand at {places}, or turned as a {closure.kind} joint cannot turn them"
-            message = f"the loop that '{closure.name}' closes is open where every joint stands at 0: {told}"
+            told = f"its ends are at {places}, or in orientations that a {closure.kind} joint does not allow"
+            message = f"the loop that '{closure.name}' closes is open where every joint is at 0: {told}"
             faults.append(Fault(message, line=closure.line, column=1, hint="change the origins so that its ends meet"))
         else:
             drawn[closure.name] = moved
@@ -111,7 +111,8 @@ def _open_mimics(robot: Robot, poses: Poses, drawn: Mapping[str, float], gap: fl
         wanted = mimic.factor * there + mimic.offset
         if abs(here - wanted) > gap * max(1.0, abs(wanted)):
             message = (
-                f"'{joint.name}' stands at {here:.6g} in the drawing, where what it mimics puts it at {wanted:.6g}"
+                f"'{joint.name}' is at {here:.6g} in the reference configuration, but what it mimics puts it at "
+                f"{wanted:.6g}"
             )
             yield Fault(message, line=mimic.line, column=1, hint="change the origins, or the offset")
 

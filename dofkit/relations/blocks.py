@@ -15,7 +15,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import linear_form
-from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Pfaffian, Piece
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian, Piece
 from dofkit.relations.reductions import Reductions
 
 
@@ -145,8 +145,3 @@ def uses_time(block: Block) -> bool:
     rows = tuple(row for row in block.rows if not isinstance(row.piece, JointEquation))
     dt = any(isinstance(r.piece, Pfaffian) and not r.piece.dt.is_zero for r in rows)
     return dt or any(ex.TIME in e.symbols for e in expressions(Block(block.coordinates, rows)))
-
-
-def is_inequality(piece: Piece) -> bool:
-    """Unilateral pieces belong to no block."""
-    return isinstance(piece, Inequality)

@@ -42,61 +42,63 @@ REDUCTIONS: Mapping[ReductionName, Reduction] = {
     ),
     "blocks": Reduction(
         "independent blocks",
-        "the zeros between relations that share no coordinate anywhere",
+        "the zeros between equations that share no coordinate",
         "the configuration space is a product, and the codistribution, its derived flag and its rank are direct sums",
     ),
     "twins": Reduction(
         "equal blocks once",
-        "blocks that are another one's up to the names of coordinates",
+        "blocks that equal another one up to the names of coordinates",
         "renaming coordinates is a diffeomorphism, and every answer is invariant under those",
     ),
     "copies": Reduction(
         "constraints written twice",
-        "relations that an earlier constraint wrote already, up to a number",
-        "the same set and the same span; what is redundant is told from the list of copies",
+        "equations that an earlier constraint states already, up to a numerical factor",
+        "the solution set and the span are the same; which constraints are redundant is known from the list of copies",
     ),
     "still": Reduction(
         "bodies that do not turn",
-        "where relations are followed from a drawing, the angles that a linear relation fixes or ties to other angles",
+        "where equations are evaluated at the reference configuration, the angles that a linear equation fixes or "
+        "relates to other angles",
         "the configuration space is a graph over the other coordinates, so they are coordinates of it",
     ),
     "welds": Reduction(
         "welded bodies are one",
-        "where relations are followed from a drawing, the coordinates of the second body of a weld that is linear: of "
-        "bodies whose frames coincide there",
+        "where equations are evaluated at the reference configuration, the coordinates of the second body of a linear "
+        "weld, whose frames coincide there",
         "the set is a graph over the coordinates of the first body",
     ),
     "clusters": Reduction(
         "rigid clusters of links are one body",
-        "where relations are followed from a drawing in the plane, all but two particles of a cluster whose links are "
-        "infinitesimally rigid there, at rational places",
+        "where equations are evaluated at the reference configuration in the plane, all but two particles of a cluster "
+        "whose links are infinitesimally rigid there, at rational positions",
         # [AsimowRoth1978]
-        "infinitesimally rigid is rigid (Asimow and Roth): near the drawing the cluster is where a body takes it",
+        "infinitesimal rigidity implies rigidity (Asimow and Roth): near the reference configuration the cluster moves "
+        "as one body",
     ),
     "eliminations": Reduction(
         "explicit coordinates",
-        "linear relations among the finite ones, solved beforehand and not at every point; where relations are "
-        "followed from a drawing, the coordinates that such a relation gives (z = 0)",
+        "linear holonomic equations, solved beforehand and not at every point; where equations are evaluated at the "
+        "reference configuration, the coordinates that such an equation gives (z = 0)",
         "an invertible change of linear equations has the same solutions (Gauss), and they are a graph",
     ),
     "bridges": Reduction(
         "joints that close no loop",
-        "at a drawing, the equations of joints that are all that holds some bodies to the rest; in space they are not "
-        "even written out",
+        "at a reference configuration, the equations of joints that alone connect some bodies to the others; in space "
+        "they are not written out",
         "the set is a product with the joint's own manifold, after moving these bodies as one; so its equations are "
         "independent of all others",
     ),
     "classes": Reduction(
         "classes of dependent relations",
-        "at a drawing, relations that are in no dependent set are not followed; the others class by class, and a class "
-        "that leaves the motions of a rigid body only is one",
+        "at a reference configuration, equations in no dependent set are not evaluated further; the others are "
+        "treated class by class, and a class that allows rigid motions only is one body",
         # [ImplicitFunctions] [AsimowRoth1978]
-        "where every class cuts out a manifold, so do all relations together (implicit function theorem); "
-        "infinitesimally rigid is rigid (Asimow and Roth)",
+        "where every class defines a manifold, so do all equations together (implicit function theorem); "
+        "infinitesimal rigidity implies rigidity (Asimow and Roth)",
     ),
     "closed": Reduction(
-        "no Frobenius test of finite relations",
-        "the integrability test of blocks all of whose relations are finite",
+        "no Frobenius test of holonomic equations",
+        "the integrability test of blocks all of whose equations are holonomic",
         "d(dg) = 0: their differentials are closed, so they are in I^(inf)",
     ),
     "cheapest": Reduction(

@@ -42,7 +42,7 @@ def read_equations(answer: str | Sequence[str], names: Names, constants: bool) -
     if not any(text.strip() for _, text in texts):
         raise TextError("there is no equation", 1, "write an equation such as x^2 + y^2 = l^2")
     if len(texts) > MAX_EQUATIONS:
-        raise TextError(f"there are {len(texts)} equations", texts[MAX_EQUATIONS][0] + 1, "give fewer")
+        raise TextError(f"there are {len(texts)} equations", texts[MAX_EQUATIONS][0] + 1, "give fewer equations")
     own: dict[str, None] = {}
     found = [(text, _read(text, before, names, own, constants)) for before, text in texts if text.strip()]
     shown = "; ".join(as_text(c) for _, relations in found for c in relations)

@@ -55,7 +55,7 @@ def motor_warnings(constraints: Sequence[Constraint], connections: Sequence[Conn
             name, other = constraints[motor.constraint].name, constraints[joint.constraint].name
             yield (
                 f"'{name}' and '{other}' join '{motor.members[0]}' and '{motor.members[1]}' at the same place, so "
-                f"their equations stand here twice. If '{name}' is the motor of '{other}', write its `drive` on "
+                f"their equations occur twice. If '{name}' is the motor of '{other}', write its `drive` on "
                 f"'{other}' and remove '{name}'."
             )
 

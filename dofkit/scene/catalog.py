@@ -76,7 +76,7 @@ def catalog_search(words: Sequence[str]) -> dict[str, str]:
     found = {name: titles[name] for name in (*in_title, *in_text)}
     if not found:
         said = " ".join(words)
-        raise SceneError((Fault(f"no scene of the catalog holds '{said}'", hint=nearest_hint(said)),), said)
+        raise SceneError((Fault(f"no scene of the catalog contains '{said}'", hint=nearest_hint(said)),), said)
     return found
 
 

@@ -85,7 +85,7 @@ def _place(texts: Texts, particle: Particle, names: tuple[str, ...], configurati
     if stands is not None and given:
         for name, part in zip(names, stands, strict=True):
             if name in configuration and differs_from_zero(configuration[name] - part):
-                message = f"'{particle.name}' is given two places: `at`, and {name} in `configuration`"
+                message = f"'{particle.name}' is given two positions: `at`, and {name} in `configuration`"
                 texts.fault(message, "at", hint="leave one of them out")
     if stands is None and len(given) == len(names):
         stands = tuple(configuration[name] for name in names)

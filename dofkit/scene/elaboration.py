@@ -70,7 +70,7 @@ def _constraint_of(world: World, constraint: ConstraintBase, name: str) -> Const
     kind = constraint.kind()
     if world.dimension not in constraint.dimensions:
         allowed = " or ".join(str(d) for d in constraint.dimensions)
-        message = f"'{kind}' is for dimension {allowed}; this scene has dimension {world.dimension}"
+        message = f"'{kind}' is defined in dimension {allowed}; this scene has dimension {world.dimension}"
         world.fault(message, "type", hint=_INSTEAD[world.dimension])
         return Constraint(name, kind, constraint.facts, constraint.in_words, ())
     found = constraint.relations(world)

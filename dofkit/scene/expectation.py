@@ -20,13 +20,13 @@ _SETS = frozenset({"redundant", "conflicting", "infeasible", "generalized_coordi
 
 
 def unmet(scene: Scene, told: Mapping[str, Any]) -> list[str]:
-    """Every field that the scene expects and a report does not tell, as ``KEY: ... expected, ... told``.
+    """Every field that the scene expects and a report does not have, as ``KEY: ... expected, but the report has ...``.
 
     ``told``: the report as it is written in JSON.
     """
     entries = {entry["name"]: entry for entry in told["constraints"]}
     return [
-        f"{key}: {wanted} expected, {found} told"
+        f"{key}: {wanted} expected, but the report has {found}"
         for key, wanted, found in _pairs(scene.expect, told, entries)
         if not _agrees(scene, key.rpartition(".")[2], wanted, found)
     ]

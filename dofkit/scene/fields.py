@@ -12,6 +12,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
+from functools import lru_cache
 from numbers import Integral
 from typing import Annotated, Any, Self
 
@@ -39,11 +40,43 @@ LONGEST_LITERAL = 400
 
 _LITERAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,6})?)(?:\s*/\s*(\d+))?", re.ASCII)
 _OURS = "dofkit"
+#: Words that people write for a key of a scene or of a constraint; the first key that is known there is suggested.
+_KEYS_MEANT: dict[str, tuple[str, ...]] = {
+    "parameters": ("params", "constants", "consts", "constant"),
+    "coordinates": ("variables", "unknowns", "dofs", "generalized_coordinates", "q"),
+    "particles": ("points", "masses", "nodes"),
+    "bodies": ("rigid_bodies",),
+    "constraints": ("joint", "equations", "relations", "conditions"),
+    "configuration": ("initial", "initial_conditions", "reference", "state", "pose"),
+    "energies": ("energy", "lagrangian"),
+    "dimension": ("dim", "dimensions"),
+    "between": ("members", "points", "bodies", "ends", "particles", "joins", "nodes"),
+    "members": ("between", "points", "particles", "point", "particle", "nodes"),
+    "along": ("over", "through", "via", "points", "members", "particles"),
+    "point": ("member", "members", "particle", "particles", "points"),
+    "body": ("bodies",),
+    "surface": ("text",),
+    "text": ("expression", "formula"),
+    "at": ("position", "place", "pos", "location", "point"),
+    "length": ("l", "len"),
+    "radius": ("r",),
+    "joints": ("members",),
+}
+
+
+@lru_cache(maxsize=4096)
+def meant_key(word: object, known: tuple[str, ...]) -> str | None:
+    """Return the key of ``known`` that a word most likely stands for, or None.
+
+    >>> meant_key("members", ("type", "between")), meant_key("lenght", ("between", "length"))
+    ('between', 'length')
+    """
+    return next((key for key in known if word in _KEYS_MEANT.get(key, ())), None) or nearest(word, known)
 
 
 def suggestion(word: object, known: Sequence[str], what: str) -> str:
     """A sentence that names the nearest of ``known``, or lists them."""
-    found = nearest(word, known)
+    found = meant_key(word, tuple(known)) if what == "keys" else nearest(word, known)
     if found is not None:
         return f"did you mean '{found}'?"
     if not known:
@@ -93,7 +126,7 @@ def exact(value: object) -> Fraction:
         found = _literal(value)
         if found is not None:
             return found
-    raise fault_error(f"a number is needed, not {_in_words(value)}")
+    raise fault_error(f"a number is needed, not {in_words(value)}")
 
 
 def _from_decimal(value: Decimal) -> Fraction:
@@ -119,7 +152,7 @@ def _value(value: object) -> Fraction | str:
         found = _literal(text)
         return value if found is None else found
     if isinstance(value, (list, tuple, dict)):
-        raise fault_error(f"a number or a text is needed, not {_in_words(value)}")
+        raise fault_error(f"a number or a text is needed, not {in_words(value)}")
     return exact(value)
 
 
@@ -129,7 +162,7 @@ def _text(value: object) -> str:
             raise fault_error("a text is needed, not an empty one")
         return value
     if isinstance(value, (list, tuple, dict)) or value is None:
-        raise fault_error(f"a text is needed, not {_in_words(value)}")
+        raise fault_error(f"a text is needed, not {in_words(value)}")
     return str(exact(value))
 
 
@@ -195,7 +228,8 @@ def named(value: object) -> object:
 Listed = BeforeValidator(listed)
 
 
-def _in_words(value: object) -> str:
+def in_words(value: object) -> str:
+    """Return a short description of a value that was given: ``'x'``, ``a list``, ``nothing``."""
     if value is None:
         return "nothing"
     if isinstance(value, bool):
@@ -229,18 +263,18 @@ def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tup
     if kind == "extra_forbidden":
         return f"unknown key '{place[-1]}' in {owner}", suggestion(place[-1], known, "keys")
     if kind == "invalid_key":
-        return f"a key is a text, not {_in_words(place[-1])}", "put it in quotes"
+        return f"a key is a text, not {in_words(place[-1])}", "put it in quotes"
     if kind == "missing":
         if isinstance(place[-1], int):
             return f"{place[-1] + 1} entries are needed here, not {place[-1]}", None
         return f"{owner} needs '{place[-1]}'", None
     if kind == "model_type" and not place:
-        return f"{owner} is {_AS.get(owner, 'a mapping')}, not {_in_words(detail['input'])}", None
+        return f"{owner} is {_AS.get(owner, 'a mapping')}, not {in_words(detail['input'])}", None
     if kind in _NEEDS:
-        return f"{_NEEDS[kind]} is needed, not {_in_words(detail['input'])}", None
+        return f"{_NEEDS[kind]} is needed, not {in_words(detail['input'])}", None
     if kind == "literal_error":
         known = re.findall(r"'([^']*)'", str(context["expected"]))
-        return f"{_in_words(detail['input'])} is not one of {context['expected']}", suggestion(
+        return f"{in_words(detail['input'])} is not one of {context['expected']}", suggestion(
             detail["input"], known, "choices"
         )
     if kind in ("too_short", "too_long"):

@@ -34,7 +34,7 @@ def find(source: str | os.PathLike[str]) -> FoundFile:
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         message = f"'{_brief(shown)}' cannot be read: {reason[:1].lower()}{reason[1:]}"
-        raise SceneError((Fault(message, hint="check the path and who may read it"),), shown) from None
+        raise SceneError((Fault(message, hint="check the path and the permissions"),), shown) from None
     if folder:
         fault = Fault(f"'{shown}' is a folder, not a scene", hint=f"write '{path / '*.yaml'}' for the files in it")
         raise SceneError((fault,), shown)

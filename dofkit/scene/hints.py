@@ -9,9 +9,11 @@ from typing import Any
 
 from dofkit.base.errors import Fault
 from dofkit.base.spelling import nearest
+from dofkit.models.scene_text import on_one_line
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.constraints.equations import Equation
-from dofkit.scene.synonyms import dimension_of, other_keys
+from dofkit.scene.corrections import likely_types, with_right_keys
+from dofkit.scene.synonyms import Path, dimension_of, other_keys
 
 UNKNOWN_KEY = "unknown key"
 UNKNOWN_TYPE = "there is no constraint type"
@@ -21,12 +23,17 @@ _HINTS = (
     (r"^a text is needed", "put it in double quotes"),
     (r"is 1, 2 or 3", "write 1, 2 or 3"),
     (r"number", "write a number such as 2, 0.5 or 1e-3"),
-    (r"^at (?:least|most) \d+ entries", "add or take away entries"),
+    (r"^at (?:least|most) \d+ entries", "add or delete entries"),
 )
 #: Hints that show what to write already, or need no line.
 _ENOUGH = re.compile(
-    r"`|'[^']*[:=]|column|^(?:the (?:particles|bodies) are|declared|rename|leave|choose|check|delete|keep|move)"
+    r"`|'[^']*[:=]|column|"
+    r"^(?:the (?:particles|bodies|joints) are|give each|declared|rename|leave|choose|check|delete|keep|move)"
 )
+_SUGGESTED = re.compile(r"did you mean '(\w+)'\?")
+_MEANT_NAME = re.compile(r"did you mean `(.+)`\?")
+#: A longer line is not shown as what to write.
+LONGEST_LINE = 160
 _FORCES = ("spring", "damper", "force", "gravity")
 #: A line by the key that it gives; of some keys one for each dimension.
 LINES: dict[str, str | tuple[str, str, str]] = {
@@ -45,38 +52,102 @@ LINES: dict[str, str | tuple[str, str, str]] = {
     "kinetic": 'kinetic: "1/2 m xdot^2"', "potential": 'potential: "m g x"', "mass": "mass: m", "inertia": "inertia: J",
     "name": "name: pendulum", "title": 'title: "A pendulum"',
 }  # fmt: skip
+#: So many names are listed in a line that declares them.
+MOST_DECLARED = 12
+#: The sections of a scene that `dofkit explain` knows.
+SECTIONS = (
+    "dimension", "parameters", "functions", "particles", "bodies", "coordinates", "constraints", "forces", "energies",
+    "tolerance", "configuration", "expect",
+)  # fmt: skip
 
 
-def without_echoes(faults: Iterable[Fault]) -> list[Fault]:
-    """The faults less those that a misspelt key explains: the key that it should have been is not missing."""
+def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fault]:
+    """Return the faults without those that another one explains.
+
+    A misspelt key explains that the right one is missing, and one line that mends a constraint is shown once.
+    """
     faults = list(faults)
     meant = {
         (fault.where[:-1], match[1])
         for fault in faults
-        if fault.message.startswith(UNKNOWN_KEY) and (match := re.fullmatch(r"did you mean '(.*)'\?", fault.hint or ""))
+        if fault.message.startswith(UNKNOWN_KEY) and (match := _SUGGESTED.fullmatch(fault.hint or ""))
     }
-    return [
+    kept = [
         fault
         for fault in faults
         if not (fault.where and "needs" in fault.message and (fault.where[:-1], fault.where[-1]) in meant)
     ]
+    refused = {_name_at(value, fault.where) for fault in kept if fault.message.startswith("the name h")}
+    kept = [
+        fault for fault in kept if not (match := _MEANT_NAME.fullmatch(fault.hint or "")) or match[1] not in refused
+    ]
+    kept = _undeclared_at_once(kept, value)
+    first: dict[Path, Fault] = {}
+    for fault in sorted(kept, key=lambda fault: not fault.message.startswith(UNKNOWN_KEY)):
+        first.setdefault(fault.where[:2], fault)
+    return [
+        fault
+        for fault in kept
+        if fault.where[:1] != ("constraints",) or fault is first[fault.where[:2]] or not _mended(value, fault.where)
+    ]
 
 
-def _meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
-    """The constraint type that a word most likely means, by the keys that stand beside it; None for no idea."""
-    words = {kind: (kind, *cls.synonyms, *cls.understood) for kind, cls in TYPES.items()}
-    word = word.lower() if isinstance(word, str) else ""
-    near = nearest(word, dict.fromkeys(one for known in words.values() for one in known))
-    fields = {kind: TYPES[kind].model_fields for kind, known in words.items() if near in known}
-    return max(fields, key=lambda kind: sum(key in fields[kind] for key in entry), default=None)
+def _name_at(value: Any, where: Path) -> str:
+    """Return the name at a path, which is a key or a text."""
+    for key in where[:-1]:
+        value = value[key] if isinstance(value, (Mapping, list, tuple)) else None
+    return str(value[where[-1]] if isinstance(value, (list, tuple)) and isinstance(where[-1], int) else where[-1])
+
+
+def _undeclared_at_once(faults: list[Fault], value: Mapping[str, Any]) -> list[Fault]:
+    """Return the faults with one for all bodies of a scene that declares none, and one for all particles."""
+    for section, what in (("bodies", "body"), ("particles", "particle")):
+        missing = {
+            fault: match[1] for fault in faults if (match := re.match(f"there is no {what} '(.+)'$", fault.message))
+        }
+        if not missing or value.get(section) or any((fault.hint or "").startswith("did") for fault in missing):
+            continue
+        first, names = next(iter(missing)), list(dict.fromkeys(missing.values()))
+        listed = ", ".join(names[:MOST_DECLARED]) + (", ..." if len(names) > MOST_DECLARED else "")
+        message = first.message if len(names) == 1 else f"the {section} {listed} are not declared"
+        told = replace(first, message=message, hint=f"declare `{section}: [{listed}]`")
+        faults = [told if fault is first else fault for fault in faults if fault is first or fault not in missing]
+    return faults
+
+
+def meant_section(fault: Fault) -> str | None:
+    """Return the section that an unknown key of a scene should be, where one is meant."""
+    suggested = _SUGGESTED.match(fault.hint or "")
+    unknown = len(fault.where) == 1 and fault.message.startswith(UNKNOWN_KEY)
+    return suggested[1] if unknown and suggested else None
 
 
 def type_advice(word: object, entry: Mapping[str, Any]) -> str | None:
-    """What to write instead of a word that is no constraint type, where that is known."""
-    if word in _FORCES:
-        return f"write it under `forces`: `forces: [{{type: {word}, between: [A, B]}}]`; a force constrains nothing"
-    found = _meant_type(word, entry)
-    return None if found is None else f"did you mean '{found}'?"
+    """Return what to write instead of a word that is no constraint type, or of none, where that is known."""
+    if isinstance(word, str) and word in _FORCES:
+        return f"write it under `forces`: `forces: [{{type: {word}, between: [A, B]}}]`; a force is not a constraint"
+    kinds = likely_types(word, entry)
+    if len(kinds) == 1:
+        return f"did you mean '{kinds[0]}'?"
+    return f"the types with these keys are {', '.join(kinds)}" if kinds else None
+
+
+def _mended(value: Mapping[str, Any], where: Path) -> str | None:
+    """Return the line that a faulty constraint should be, where every key of it has one meaning; else None."""
+    entry, d = (
+        _entry_at(value, where[1]) if where[:1] == ("constraints",) and len(where) > 1 else None,
+        dimension_of(value),
+    )
+    if not isinstance(entry, Mapping):
+        return None
+    word = entry.get("type")
+    kinds = [word] if isinstance(word, str) and word in TYPES else likely_types(word, entry)
+    able = (with_right_keys(kind, entry) for kind in kinds if d in TYPES[kind].dimensions)
+    right = next((found for found in able if found is not None), None)
+    if right is None or right == entry:
+        return None
+    line = on_one_line(right)
+    return line if len(line) <= LONGEST_LINE else None
 
 
 def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
@@ -87,20 +158,40 @@ def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
     )
     if len(fault.where) > 2 and keys[-1] not in ("text", "name", "type") and keys[-1] not in message:
         message = f"`{keys[-1]}`: {message}"
-    return replace(fault, message=message, hint=_hint(fault, {} if value is None else value))
+    given = {} if value is None else value
+    return replace(fault, message=message, hint=_hint(fault, given), see=_see(fault, given))
+
+
+def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:
+    """Return the type of constraint or the section of a scene that a fault is about, where there is one."""
+    where = fault.where
+    suggested = _SUGGESTED.match(fault.hint or "")
+    if where[:1] == ("constraints",) and len(where) > 1:
+        kind = _type_at(value, where[1]) or (suggested[1] if suggested else None)
+        return kind if kind in TYPES else None
+    section = meant_section(fault) or next(iter(where), None)
+    return section if section in SECTIONS else None
 
 
 def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
-    told = _said_twice(fault, value) or _direction(fault, value) or fault.hint
-    told = told or next((hint for pattern, hint in _HINTS if re.search(pattern, fault.message)), None)
-    if told is not None and _ENOUGH.search(told):
-        return told
-    line = _line(fault, told or "", value)
+    hint = _said_twice(fault, value) or _direction(fault, value) or fault.hint
+    hint = hint or next((hint for pattern, hint in _HINTS if re.search(pattern, fault.message)), None)
+    undeclared = re.match(r"`(\w+)` is not declared(, and numbers)?", fault.message)
+    name = undeclared[1] if undeclared else ""
+    if undeclared and undeclared[2]:
+        return f"for a unit, {hint}; for a quantity, declare `parameters: [{name}]`"
+    if undeclared and hint and re.match("the declared|no names", hint):
+        return f"declare it: `coordinates: [{name}]`, or `parameters: [{name}]` for a constant; {hint}"
+    if hint is not None and _ENOUGH.search(hint):
+        return hint
+    mended = _mended(value, fault.where)
+    line = mended or _line(fault, hint or "", value)
     if line is None:
-        return told or "'dofkit schema' lists what can stand here"
-    if told is None:
-        return f"for example `{line}`"
-    return f"{told}{'' if told.endswith('?') else ';'} for example `{line}`"
+        return hint or "'dofkit schema' lists what can stand here"
+    if mended and (hint is None or not hint.startswith(("did you mean", "the types"))):
+        return f"write `{line}`"
+    shown = f"write `{line}`" if mended and hint and hint.endswith("?") else f"for example `{line}`"
+    return shown if hint is None else f"{hint}{'' if hint.endswith('?') else ';'} {shown}"
 
 
 def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:
@@ -108,9 +199,7 @@ def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:
     key = fault.where[-1] if fault.where and fault.message.startswith(UNKNOWN_KEY) else ""
     kind = _type_at(value, fault.where[1]) if fault.where[:1] == ("constraints",) and len(fault.where) == 3 else None
     meant = other_keys(kind).get(str(key)) if kind is not None else None
-    return (
-        None if meant is None else f"`{key}` is another word for `{meant}`, which is given too: leave one of them out"
-    )
+    return None if meant is None else f"`{key}` is a synonym of `{meant}`, which is given too: leave one of them out"
 
 
 def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
@@ -123,11 +212,14 @@ def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
 def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:
     """A line that would work in the place of a fault: of a constraint, or of a key."""
     where, d = fault.where, dimension_of(value)
-    suggested = re.fullmatch(r"did you mean '(\w+)'\?", told)
+    suggested = _SUGGESTED.fullmatch(told)
+    unknown = len(where) == 1 and fault.message.startswith(UNKNOWN_KEY) and not suggested
+    if not where or unknown or (suggested and suggested[1] not in TYPES and suggested[1] not in LINES):
+        return None
     missing = re.search(r"needs [`'](\w+)[`']", fault.message)
     if where[:1] == ("constraints",) and len(where) > 1:
         kind = suggested[1] if suggested and suggested[1] in TYPES else _type_at(value, where[1])
-        whole = missing or len(where) == 2 or where[-1] == "type" or fault.message.startswith(UNKNOWN_KEY)
+        whole = missing or len(where) == 2 or where[-1] in ("type", "text") or fault.message.startswith(UNKNOWN_KEY)
         if kind is None or d not in TYPES[kind].dimensions:
             return TYPES[_likely(_entry_at(value, where[1]), d)].example(d)
         if whole:

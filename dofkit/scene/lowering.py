@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache, partial
 
 from dofkit.base.errors import SceneError
-from dofkit.base.wording import verb
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import parameter
 from dofkit.scene.drawing import Drawing
@@ -19,15 +18,15 @@ from dofkit.system import Constraint, ListedForce, Rotation, System
 
 #: Said where the drawing is not used.
 SPECIAL = (
-    "The drawing has numbers where lengths are parameters: it fits only special values of them, "
+    "The given geometry has numbers where lengths are parameters: it is compatible with special values of them only, "
     "so it is not used as a reference configuration."
 )
 #: Below this size a sine is taken for 0: such a drawing is not looked at.
 SINGULAR = 1e-9
 #: Said where the drawing shows no velocities.
 LEVEL = (
-    "The drawing is not used as a reference configuration: texts name Euler angles, which are singular where {} is "
-    "drawn (theta = 0: the other two angles turn alike). Give another theta in `configuration` to draw it elsewhere."
+    "The given geometry is not used as a reference configuration: texts contain Euler angles, which are singular for "
+    "{} there (theta = 0: the other two angles turn alike). Give another theta in `configuration`."
 )
 
 
@@ -91,7 +90,7 @@ def _partly(found: Survey, missing: Sequence[str]) -> Iterator[str]:
     """A line where bodies are drawn and something else that is constrained is not."""
     if missing and found.drawn:
         shown = ", ".join(missing[:8]) + (", ..." if len(missing) > 8 else "")
-        yield f"There is no reference configuration: {shown} {verb(len(missing))} not drawn."
+        yield f"There is no reference configuration: the position of {shown} is not given."
 
 
 def _level(drawing: Drawing, touched: Callable[[], frozenset[str]]) -> list[str]:

@@ -194,7 +194,7 @@ def name_faults(scene: Declared, table: NameTable) -> tuple[Fault, ...]:
             continue
         seen[word] = what
         if name in RESERVED:
-            told = "time, and never declared" if name == "t" else "the fixed world, and never declared"
+            told = "time, and is never declared" if name == "t" else "the fixed world, and is never declared"
             ledger.fault(f"'{name}' is {told}", *where, hint="choose another name")
         else:
             why = valid_name(name)

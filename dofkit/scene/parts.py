@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
@@ -58,8 +59,18 @@ def show_point(point: str | Vector | BodyPoint) -> str:
 
 
 def show_vector(vector: Vector) -> str:
-    """``(2, 1/2)``."""
-    return "(" + ", ".join(as_written(value) for value in vector) + ")"
+    """``(2, 1/2)``; a longer decimal with six significant digits."""
+    return "(" + ", ".join(_shortened(as_written(value)) for value in vector) + ")"
+
+
+def _shortened(number: str) -> str:
+    """Return a decimal of a model or a measurement with six significant digits, and any other text as it is.
+
+    >>> _shortened("-0.999999999996"), _shortened("0.70710678"), _shortened("123456789"), _shortened("sqrt(2)/2")
+    ('-1', '0.707107', '123456789', 'sqrt(2)/2')
+    """
+    long_decimal = re.fullmatch(r"-?\d*\.\d{7,}", number)
+    return f"{float(number):.6g}" if long_decimal else number
 
 
 class Particle(WrittenModel):
@@ -68,7 +79,7 @@ class Particle(WrittenModel):
     name: str = Field(description="its name; its coordinates are x_NAME, y_NAME, z_NAME (_ for a hyphen)")
     coordinates: tuple[str, ...] | None = Field(None, description="other names for its coordinates, in order")
     at: Vector | None = Field(None, description="its position in the reference configuration")
-    mass: Value | None = Field(None, description="its mass: it never constrains")
+    mass: Value | None = Field(None, description="its mass, which is not a constraint")
 
 
 class Body(WrittenModel):
@@ -76,7 +87,7 @@ class Body(WrittenModel):
 
     name: str = Field(description="its name; its coordinates are x_NAME, y_NAME, theta_NAME, ... (_ for a hyphen)")
     coordinates: tuple[str, ...] | None = Field(None, description="other names for its coordinates, in order")
-    mass: Value | None = Field(None, description="its mass: it never constrains")
+    mass: Value | None = Field(None, description="its mass, which is not a constraint")
     inertia: Values | None = Field(None, description="its moment of inertia, or principal moments, or matrix rows")
 
 
@@ -90,14 +101,14 @@ Ends = tuple[Point, Point]
 class Force(WrittenModel):
     """A force: it enters the equations of motion and removes no freedom."""
 
-    type: Literal["spring", "damper", "force", "gravity"] = Field(description="what pulls")
+    type: Literal["spring", "damper", "force", "gravity"] = Field(description="the kind of force")
     name: str | None = Field(None, description="its name; by default f1, f2, ... by position")
     between: Ends | None = Field(None, description="the two points, or bodies, that it acts between")
     point: Point | None = Field(None, description="the point that it acts at")
     body: str | None = Field(None, description="the body that it acts on")
-    stiffness: Value | None = Field(None, description="of a spring: force by stretch")
+    stiffness: Value | None = Field(None, description="of a spring: force per unit of extension")
     rest_length: Value | None = Field(None, description="of a spring: its length without load")
-    damping: Value | None = Field(None, description="of a damper: force by speed")
+    damping: Value | None = Field(None, description="of a damper: force per unit of speed")
     value: Values | None = Field(None, description="of a force: its size, or its components")
     acceleration: Values | None = Field(None, description="of gravity: its size, or its components")
     direction: Vector | None = Field(None, description="of a force or gravity")
@@ -106,7 +117,10 @@ class Force(WrittenModel):
     @property
     def reason(self) -> str:
         """Why it is no constraint."""
-        return _REASONS[self.type] + " It enters the equations of motion and removes no degree of freedom."
+        return (
+            _REASONS[self.type]
+            + " It enters the equations of motion and does not reduce the number of degrees of freedom."
+        )
 
 
 _REASONS = {
@@ -119,6 +133,10 @@ _REASONS = {
 
 class Energies(WrittenModel):
     """The energies of the system, for its equations of motion."""
+
+    @classmethod
+    def called(cls) -> str:
+        return "the energies"
 
     kinetic: Text | None = Field(None, description="kinetic energy T in the coordinates and their velocities")
     potential: Text | None = Field(None, description="potential energy V")

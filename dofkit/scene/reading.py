@@ -21,7 +21,7 @@ from dofkit.models.formats import is_model, read_model
 from dofkit.models.model_document import ModelFile
 from dofkit.scene.constraints.equations import as_equation
 from dofkit.scene.found_files import find
-from dofkit.scene.hints import UNKNOWN_KEY, UNKNOWN_TYPE, with_hint, without_echoes
+from dofkit.scene.hints import UNKNOWN_KEY, UNKNOWN_TYPE, meant_section, with_hint, without_echoes
 from dofkit.scene.scene import Scene, check, faults_of
 from dofkit.scene.synonyms import StandardWords, standard_words
 from dofkit.system import System
@@ -170,7 +170,7 @@ class SceneFile:
     def _error(self, faults: Iterable[Fault]) -> SceneError:
         taken = {(fault.line, fault.column) for fault in self.document.faults}
         told = []
-        for fault in without_echoes(faults):
+        for fault in without_echoes(faults, self._words.value):
             found = self._with_place(fault)
             if fault.line is not None or (found.line, found.column) not in taken:
                 told.append(found)
@@ -202,14 +202,16 @@ def _model_document(file: ModelFile) -> Document:
 def _from_mapping(source: Mapping[str, Any], name: str | None) -> Scene:
     deep = _too_deep(source)
     if deep is not None:
-        raise SceneError((Fault(f"nested deeper than {DEEPEST} levels", deep, hint="write the scene flat"),), name)
+        raise SceneError(
+            (Fault(f"nested deeper than {DEEPEST} levels", deep, hint="write the scene with fewer levels"),), name
+        )
     words = standard_words(source)
     value = words.value
     if name is not None and value.get("name") is None:
         value["name"] = name
     scene, faults = _scene_and_faults(value, True)
     if scene is None or faults:
-        told = [with_hint(fault, value) for fault in without_echoes(faults)]
+        told = [with_hint(fault, value) for fault in without_echoes(faults, value)]
         raise SceneError(_first_faults([replace(f, where=words.written(f.where)) for f in told]), name)
     return scene
 
@@ -249,42 +251,58 @@ def _scene_and_faults(value: Mapping[str, Any], checked: bool) -> tuple[Scene | 
         found = check(Scene.model_validate(rest.value))
     except ValidationError:
         return None, faults
-    return None, faults + tuple(replace(fault, where=rest.written(fault.where)) for fault in found)
+    missed = {f"there is no joint '{name}'" for name in rest.names}
+    later = (replace(fault, where=rest.written(fault.where)) for fault in found if fault.message not in missed)
+    return None, (*faults, *later)
 
 
 class SoundPart(NamedTuple):
-    """A scene without its faulty parts, and which entries of its lists are left."""
+    """A scene without its faulty parts, and with its misspelt sections under their names.
+
+    ``kept``: which entries of its lists are left; ``names``: those of the entries that are not; ``sections``: what was
+    written for a section.
+    """
 
     value: dict[str, Any]
     kept: dict[str, list[int]]
+    names: frozenset[str]
+    sections: dict[str, str]
 
     @classmethod
     def without(cls, value: Mapping[str, Any], faults: Sequence[Fault]) -> SoundPart | None:
         """Take out what is at fault; None where the rest would not make sense without it."""
         rest: Any = dict(value)
         dropped: dict[str, set[int]] = {key: set() for key in _DROPPED_BY_ENTRY}
+        sections: dict[str, str] = {}
         for fault in faults:
             first, second = (*fault.where, None, None)[:2]
+            meant = meant_section(fault)
             if first in dropped and isinstance(second, int):
                 dropped[str(first)].add(second)
             elif first in _DROPPED_WHOLE:
                 rest.pop(first, None)
+            elif meant is not None and meant not in rest:
+                sections[meant] = str(first)
+                rest[meant] = rest.pop(first)
             elif fault.message.startswith(UNKNOWN_KEY):
                 rest = _cut(rest, fault.where)
             else:
                 return None
         kept: dict[str, list[int]] = {}
+        names: set[str] = set()
         for key, gone in dropped.items():
             if gone:
                 kept[key] = [i for i in range(len(rest[key])) if i not in gone]
+                entries = [rest[key][i] for i in gone]
+                names |= {str(entry["name"]) for entry in entries if isinstance(entry, Mapping) and "name" in entry}
                 rest[key] = [_with_name(key, i, rest[key][i]) for i in kept[key]]
-        return cls(rest, kept)
+        return cls(standard_words(rest).value if sections else rest, kept, frozenset(names), sections)
 
     def written(self, where: tuple[str | int, ...]) -> tuple[str | int, ...]:
         """A path of the rest as a path of the whole."""
         if len(where) >= 2 and where[0] in self.kept and isinstance(where[1], int):
             return (where[0], self.kept[str(where[0])][where[1]], *where[2:])
-        return where
+        return (self.sections.get(str(where[0]), where[0]), *where[1:]) if where else where
 
 
 def _with_name(key: str, index: int, entry: Any) -> Any:
@@ -310,5 +328,5 @@ def _first_faults(faults: list[Fault]) -> tuple[Fault, ...]:
     if len(faults) <= MOST_FAULTS:
         return tuple(faults)
     more = len(faults) - MOST_FAULTS
-    last = replace(faults[MOST_FAULTS], message=f"and {more} further faults from here on", hint="mend these first")
+    last = replace(faults[MOST_FAULTS], message=f"and {more} further faults from here on", hint="correct these first")
     return (*faults[:MOST_FAULTS], last)

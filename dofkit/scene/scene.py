@@ -120,13 +120,13 @@ class Scene(Displayed, WrittenModel):
 
     name: str = Field("scene", min_length=1, description="a short name, used in reports; by default the file's stem")
     title: str | None = Field(None, description="one line about it")
-    source: str | None = Field(None, description="where it is from")
+    source: str | None = Field(None, description="where it comes from")
     notes: str | None = Field(None, description="what is remarkable about it")
     left_out: Annotated[tuple[str, ...], Listed] = Field(
-        (), description="what the model that it was made of has besides, and why it is left out"
+        (), description="what was left out of the imported model, and why"
     )
     dimension: Annotated[Literal[1, 2, 3], BeforeValidator(_dimension)] = Field(
-        3, description="d, the dimension of the world"
+        3, description="the dimension of the world: 1, 2 or 3"
     )
     parameters: Annotated[
         dict[str, Value],
@@ -142,12 +142,14 @@ class Scene(Displayed, WrittenModel):
     particles: Annotated[tuple[AnyParticle, ...], Listed] = Field((), description="names, or mappings")
     bodies: Annotated[tuple[AnyBody, ...], Listed] = Field((), description="names, or mappings")
     coordinates: Annotated[tuple[str, ...], Listed] = Field(
-        (), description="further configuration coordinates, of no particle or body"
+        (), description="configuration coordinates that belong to no particle or body"
     )
     constraints: Annotated[tuple[_AnyConstraint, ...], Listed] = Field(
         (), description="mappings with a `type`; a plain text is an equation"
     )
-    forces: Annotated[tuple[Force, ...], Listed] = Field((), description="springs and the like: they never constrain")
+    forces: Annotated[tuple[Force, ...], Listed] = Field(
+        (), description="springs, dampers and other forces, which are not constraints"
+    )
     energies: Energies | None = Field(None, description="energies, for the equations of motion")
     tolerance: Annotated[Number, BeforeValidator(_tolerance)] | None = Field(
         None, description="measured geometry: right to within this fraction of the scene's size; absent: exact"

@@ -95,7 +95,7 @@ def _any_constraint() -> dict[str, Any]:
         "allOf": [{"if": untyped, "then": equation}, *by_type],
     }
     return {
-        "description": "a text is an equation; a mapping says its `type`",
+        "description": "a text is an equation; a mapping gives its `type`",
         "type": [_TEXT["type"], "object"],
         "if": {"type": "object"},
         "then": mapping,
@@ -118,7 +118,7 @@ def _with_other_words(schema: dict[str, Any], kind: str) -> dict[str, Any]:
         ]
     for other, key in other_keys(kind).items():
         if key in properties:
-            properties.setdefault(other, {**properties[key], "description": f"another word for `{key}`"})
+            properties.setdefault(other, {**properties[key], "description": f"synonym of `{key}`"})
     return found
 
 

@@ -230,4 +230,4 @@ def _expect_faults(scene: Surveyed) -> Iterator[Fault]:
     for key in scene.expect:
         if key not in Report.model_fields:
             hint = suggestion(key, known, "keys")
-            yield Fault(f"'{key}' is no part of a report", ("expect", key), hint=hint)
+            yield Fault(f"'{key}' is not a field of a report", ("expect", key), hint=hint)

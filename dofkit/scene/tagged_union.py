@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError, ValidatorFunctionWrapHandler
 
-from dofkit.scene.fields import fault_at, fault_error, retold, suggestion
+from dofkit.scene.fields import fault_at, fault_error, in_words, retold, suggestion
 
 
 @dataclass(frozen=True)
@@ -27,16 +27,21 @@ class TaggedUnion:
     listing: str
     unknown: str
     otherwise: tuple[str, str | None]
-    #: What is hinted of a word that is none of ``known``, by the word and what it stands in, where something is.
+    #: The hint for a word that is none of ``known`` (None: it is missing), by the word and the mapping that holds it.
     advise: Callable[[object, Mapping[str, Any]], str | None] = lambda word, entry: None
 
     def validated(self, value: object, handler: ValidatorFunctionWrapHandler) -> Any:
         """A member, its faults at paths free of the key. Raises as Pydantic's validators do."""
         if isinstance(value, (dict, Mapping)):
             given = value.get(self.key)
+            if given is not None and not isinstance(given, str):
+                raise fault_at(
+                    (self.key,), f"the `{self.key}` is a text, not {in_words(given)}", self.advise(None, value)
+                )
             if given is None:
-                raise fault_error(f"{self.called} needs its `{self.key}`", self.listing + ", ".join(self.known))
-            if not isinstance(given, str) or given not in self.known:
+                hint = self.advise(None, value) or self.listing + ", ".join(self.known)
+                raise fault_error(f"{self.called} needs its `{self.key}`", hint)
+            if given not in self.known:
                 hint = self.advise(given, value) or suggestion(given, list(self.known), self.names)
                 raise fault_at((self.key,), self.unknown.format(given), hint)
         elif not isinstance(value, self.base):

@@ -205,7 +205,7 @@ class World(Texts):
             self.mentioned.members.append(name)
             return found
         if name in self.particles:
-            hint = f"a particle is held by `link`, `slot`, `coincident` or `fixed`: `{{type: fixed, point: {name}}}`"
+            hint = f"constrain a particle by `link`, `slot`, `coincident` or `fixed`: `{{type: fixed, point: {name}}}`"
             self.fault(f"'{name}' is a particle where a body is needed", *where, hint=hint)
         else:
             self.unknown("body", name, chain(self.frames, (GROUND,)), *where, plural="bodies")

@@ -2,7 +2,7 @@
 
 python -m tests.adversary [--minutes 10] [--seed 1] [--kinds components,rounding/oval] [--certificates]
 
-A family is a file: its functions draw a `Case` from a random generator and a size. `registry` lists them,
+A family is a file: its functions draw a `KnownScene` from a random generator and a size. `registry` lists them,
 `disguises` write a case in another way, `judgement` holds the report against the truth, `shrinking` looks for the
 smallest case that is answered wrongly, and `found/` keeps those as tests. `certificates` asks the checker as well.
 """

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import random
 
-from .case import Case, at, plain, truths
-from .draws import nonzero
+from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
+
+from .draws import at, nonzero
 
 
 def _points(rng: random.Random, many: int) -> list[str]:
@@ -31,42 +32,44 @@ CURVES = (
 )
 
 
-def hidden(rng: random.Random, size: int) -> Case:
+def hidden(rng: random.Random, size: int) -> KnownScene:
     """x = 0 and dx = P dt with P a product: P = 0 is hidden. One factor is 0 on a curve, the others at points: dof
     1."""
     curve, chart = rng.choice(CURVES)
     factors = [curve, *_points(rng, rng.randint(1, 2 + 4 * size))]
     rng.shuffle(factors)
-    scene = plain("x y z", ["x = 0", f"xdot = {'*'.join(factors)}"])
-    return Case(scene, truths(1, holonomic=True), {"dof": [0], "velocity_dof": [0]}, chart and {"x": "0", **chart})
+    scene = scene_of("x y z", "x = 0", f"xdot = {'*'.join(factors)}")
+    return KnownScene(
+        scene, truths(1, holonomic=True), {"dof": [0], "velocity_dof": [0]}, chart and {"x": "0", **chart}
+    )
 
 
-def written(rng: random.Random, size: int) -> Case:
+def written(rng: random.Random, size: int) -> KnownScene:
     """The product itself as a relation."""
     curve, chart = rng.choice(CURVES)
     factors = [curve, *_points(rng, rng.randint(1, 4 + 3 * size))]
     rng.shuffle(factors)
-    scene = plain("y z", [f"{'*'.join(factors)} = 0"])
-    return Case(scene, truths(1, holonomic=True), {"dof": [0], "velocity_dof": [0]}, chart)
+    scene = scene_of("y z", f"{'*'.join(factors)} = 0")
+    return KnownScene(scene, truths(1, holonomic=True), {"dof": [0], "velocity_dof": [0]}, chart)
 
 
-def of_points(rng: random.Random, size: int) -> Case:
+def of_points(rng: random.Random, size: int) -> KnownScene:
     """Every factor is 0 at points only, or nowhere: dof 0; with x free 1."""
     factors = [f"((y - {k})^2 + (z - {k * k})^2)" for k in rng.sample(range(-9, 10), rng.randint(1, 4 + 2 * size))]
     factors += ["(y^2 + z^4 + 1)"] * rng.randint(0, 1)
-    return Case(plain("x y z", [f"{'*'.join(factors)} = 0"]), truths(1, holonomic=True))
+    return KnownScene(scene_of("x y z", f"{'*'.join(factors)} = 0"), truths(1, holonomic=True))
 
 
-def of_forms(rng: random.Random, size: int) -> Case:
+def of_forms(rng: random.Random, size: int) -> KnownScene:
     """A product of forms, of which one is non-holonomic (dof 3) and the others d(a x + b y + c z) (dof 2)."""
     flat = {f"(xdot + ({nonzero(rng)})*ydot + ({nonzero(rng)})*zdot)" for _ in range(rng.randint(1, 2 + 3 * size))}
     factors = [*sorted(flat), rng.choice(("(zdot - y*xdot)", "(xdot + z*ydot)", "(cos(z)*ydot - sin(z)*xdot)"))]
     rng.shuffle(factors)
-    scene = plain("x y z", [f"{'*'.join(factors)} = 0"])
-    return Case(scene, truths(3, 2), {"dof": [2], "velocity_dof": [2]})
+    scene = scene_of("x y z", f"{'*'.join(factors)} = 0")
+    return KnownScene(scene, truths(3, 2), {"dof": [2], "velocity_dof": [2]})
 
 
-def spaces(rng: random.Random, size: int) -> Case:
+def spaces(rng: random.Random, size: int) -> KnownScene:
     """A product of linear spaces of different dimension, each a sum of squares, disjoint where it matters: the
     largest."""
     letters = ["u", "v", "w", "y", "z"][: 3 + min(size, 2)]
@@ -75,10 +78,10 @@ def spaces(rng: random.Random, size: int) -> Case:
     least = min(map(len, drawn))
     n = len(letters)
     elsewhere = {key: sorted({n - len(some) for some in drawn}) for key in ("dof", "velocity_dof")}
-    return Case(plain(letters, [f"{'*'.join(factors)} = 0"]), truths(n - least, holonomic=True), elsewhere)
+    return KnownScene(scene_of(letters, f"{'*'.join(factors)} = 0"), truths(n - least, holonomic=True), elsewhere)
 
 
-def at_reference(rng: random.Random, size: int) -> Case:
+def at_reference(rng: random.Random, size: int) -> KnownScene:
     """A product of linear spaces with the reference on one only: its dimension."""
     letters = ["u", "v", "w", "y"]
     some = rng.sample(letters, rng.randint(1, 3))
@@ -87,8 +90,8 @@ def at_reference(rng: random.Random, size: int) -> Case:
     others = [f"({rng.choice(letters)} - {10 + k})" for k in range(1 + size)]
     factors = [f"({own})" if len(some) > 1 else f"({some[0]} - ({place[some[0]]}))", *others]
     rng.shuffle(factors)
-    scene = plain(letters, [f"{'*'.join(factors)} = 0"], configuration=at(place))
-    return Case(scene, truths(4 - len(some), holonomic=True))
+    scene = scene_of(letters, f"{'*'.join(factors)} = 0", configuration=at(place))
+    return KnownScene(scene, truths(4 - len(some), holonomic=True))
 
 
 FAMILY = {

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from itertools import combinations, product
 from math import comb
 
-from .case import Case, plain, truths
+from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
+
 from .draws import names, polynomial, simple_zero, smooth
 
 
@@ -26,7 +27,7 @@ def factored(rng: random.Random, factors: int) -> tuple[int, str]:
     return zeros[0], "*".join(simple_zero(rng, "x", a) for a in zeros)
 
 
-def ladder(rng: random.Random, size: int) -> Case:
+def ladder(rng: random.Random, size: int) -> KnownScene:
     """y = s(x) P(u), s(x) v_i = y Q_i(u, v_1, ..., v_i-1): off s = 0 it is the graph v_i = P Q_i over (x, u), of
     dimension 2; on s = 0 it says y = 0, and u with all of the v are free: 1 + k, the larger for k >= 2."""
     k = rng.randint(2, 2 + 3 * size)
@@ -35,10 +36,12 @@ def ladder(rng: random.Random, size: int) -> Case:
     relations = [f"y = {s}*({smooth(rng, ['u'])})"]
     relations += [f"{s}*{v[i]} = y*({smooth(rng, ['u', *v[:i]])})" for i in range(k)]
     chart = {"x": str(a), "y": "0"} | free(["u", *v])
-    return Case(plain(["x", "y", "u", *v], relations), truths(1 + k), {"dof": [2], "velocity_dof": [2]}, chart)
+    return KnownScene(
+        scene_of(["x", "y", "u", *v], *relations), truths(1 + k), {"dof": [2], "velocity_dof": [2]}, chart
+    )
 
 
-def powers(rng: random.Random, size: int) -> Case:
+def powers(rng: random.Random, size: int) -> KnownScene:
     """The ladder with plain powers: y = s u^m, s v_i = y v_i+1, s v_k = y u. Off s = 0 each v_i is u^m v_i+1, and the
     last u^m u: the graph over (x, u); on s = 0 it says y = 0, with u and k of the v free."""
     k, m = 2 + rng.randint(0, size), rng.randint(1, 5 + size)
@@ -46,10 +49,12 @@ def powers(rng: random.Random, size: int) -> Case:
     relations = [f"y = (x - 10)*u^{m}"]
     relations += [f"(x - 10)*{a} = y*{b}" for a, b in zip(v, [*v[1:], "u"], strict=True)]
     chart = {"x": "10", "y": "0"} | free(["u", *v])
-    return Case(plain(["x", "y", "u", *v], relations), truths(1 + k), {"dof": [2], "velocity_dof": [2]}, chart)
+    return KnownScene(
+        scene_of(["x", "y", "u", *v], *relations), truths(1 + k), {"dof": [2], "velocity_dof": [2]}, chart
+    )
 
 
-def unions(rng: random.Random, size: int) -> Case:
+def unions(rng: random.Random, size: int) -> KnownScene:
     """f_i g_j = 0 for all i, j says f = 0 or g = 0, with f_i = u_i - P_i(w), g_j = v_j - Q_j(w): two graphs, of
     codimensions m <= k; the smaller codimension counts."""
     m = rng.randint(1, 2 + size // 2)
@@ -63,10 +68,10 @@ def unions(rng: random.Random, size: int) -> Case:
     rng.shuffle(relations)
     n = m + k + len(w)
     elsewhere = {"dof": [n - k], "velocity_dof": [n - k]}
-    return Case(plain([*u, *v, *w], relations), truths(n - m), elsewhere, free([*w, *v]) | graph(u, first))
+    return KnownScene(scene_of([*u, *v, *w], *relations), truths(n - m), elsewhere, free([*w, *v]) | graph(u, first))
 
 
-def residual(rng: random.Random, size: int) -> Case:
+def residual(rng: random.Random, size: int) -> KnownScene:
     """h f_i = 0 for i = 1..k says h = 0, a graph of codimension 1, or f = 0, of codimension k."""
     k = rng.randint(2, 3 + 2 * size)
     v, w = names("v", k), names("w", 2 + size // 2)
@@ -74,20 +79,22 @@ def residual(rng: random.Random, size: int) -> Case:
     relations = [f"(z - ({height}))*({a} - ({smooth(rng, w)})) = 0" for a in v]
     n = k + len(w) + 1
     elsewhere = {"dof": [n - k], "velocity_dof": [n - k]}
-    return Case(plain([*v, *w, "z"], relations), truths(n - 1), elsewhere, free([*v, *w]) | {"z": height})
+    return KnownScene(scene_of([*v, *w, "z"], *relations), truths(n - 1), elsewhere, free([*v, *w]) | {"z": height})
 
 
-def minors(rng: random.Random, size: int) -> Case:
+def minors(rng: random.Random, size: int) -> KnownScene:
     """The 2 x m matrices of rank 1 or 0, b = c a: irreducible, of dimension m + 1, with m(m-1)/2 relations."""
     m = 3 + size
     a, b = names("a", m), names("b", m)
     relations = [f"{a[i]}*{b[j]} = {a[j]}*{b[i]}" for i, j in combinations(range(m), 2)]
     rng.shuffle(relations)
     chart = free(a) | {name: f"{other}*p{m}" for name, other in zip(b, a, strict=True)}
-    return Case(plain([*a, *b], relations), truths(m + 1, redundant_equations=comb(m, 2) - (m - 1)), chart=chart)
+    return KnownScene(
+        scene_of([*a, *b], *relations), truths(m + 1, redundant_equations=comb(m, 2) - (m - 1)), chart=chart
+    )
 
 
-def empty_part(rng: random.Random, size: int) -> Case:
+def empty_part(rng: random.Random, size: int) -> KnownScene:
     """The ladder over a factor s without real zeros: what is left is the graph v_i = u Q_i over (x, u), of dimension 2.
 
     x^4 + x + 1 and x^6 - x + 1 are positive: each is at least 1 - 3/4^(4/3) > 0.
@@ -97,10 +104,10 @@ def empty_part(rng: random.Random, size: int) -> Case:
     values = [polynomial(rng, ["u", *v[:i]]) for i in range(len(v))]
     relations = [f"y = {s}*u", *(f"{s}*{a} = y*({value})" for a, value in zip(v, values, strict=True))]
     chart = free(["x", "u"]) | {"y": f"{s}*u"} | graph(v, [f"u*({value})" for value in values])
-    return Case(plain(["x", "y", "u", *v], relations), truths(2), chart=chart)
+    return KnownScene(scene_of(["x", "y", "u", *v], *relations), truths(2), chart=chart)
 
 
-def form_on_the_larger(rng: random.Random, size: int) -> Case:
+def form_on_the_larger(rng: random.Random, size: int) -> KnownScene:
     """The ladder, and dz = s(x) dq: on s = 0, of dimension 1 + k with z and q, it says dz = 0: k + 2, and k >= 3 makes
     it the larger; on the graph it is non-holonomic: 4 coordinates, 3 velocities."""
     k = 3 + rng.randint(0, 1 + size)
@@ -108,8 +115,8 @@ def form_on_the_larger(rng: random.Random, size: int) -> Case:
     a, s = factored(rng, 1)
     relations = [f"y = {s}*u", *(f"{s}*{v[i]} = y*({polynomial(rng, ['u', *v[:i]])})" for i in range(k))]
     chart = {"x": str(a), "y": "0", "z": "3"} | free(["u", *v, "q"])
-    scene = plain(["x", "y", "u", *v, "z", "q"], [*relations, f"zdot = {s}*qdot"])
-    return Case(scene, truths(k + 2), {"dof": [4], "velocity_dof": [3]}, chart)
+    scene = scene_of(["x", "y", "u", *v, "z", "q"], *relations, f"zdot = {s}*qdot")
+    return KnownScene(scene, truths(k + 2), {"dof": [4], "velocity_dof": [3]}, chart)
 
 
 FAMILY = {

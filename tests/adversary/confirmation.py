@@ -14,8 +14,9 @@ from typing import Any, NamedTuple
 
 from mpmath import mp, mpf
 
-from .case import Case, texts
-from .texts import words
+from dofkit.benchmark.trials.construction import KnownScene
+
+from .texts import texts, words
 
 #: Digits, and what counts as 0 where a value is no fraction.
 DIGITS, ZERO = 60, mpf(10) ** -30
@@ -161,7 +162,7 @@ class Confirmation(NamedTuple):
         return bool(self.residue == 0 if isinstance(self.residue, Fraction | int) else self.residue < ZERO)
 
 
-def confirmed(case: Case, seed: int = 1) -> Confirmation:
+def confirmed(case: KnownScene, seed: int = 1) -> Confirmation:
     """The chart at a random rational point: in fractions, else with `DIGITS` digits."""
     try:
         return _confirmed(case, random.Random(seed), lambda number: number)
@@ -170,7 +171,7 @@ def confirmed(case: Case, seed: int = 1) -> Confirmation:
             return _confirmed(case, random.Random(seed), lambda number: mpf(number.numerator) / number.denominator)
 
 
-def _confirmed(case: Case, rng: random.Random, as_number: Callable[[Fraction], Number]) -> Confirmation:
+def _confirmed(case: KnownScene, rng: random.Random, as_number: Callable[[Fraction], Number]) -> Confirmation:
     assert case.chart is not None
     chart, names = case.chart, list(case.scene["coordinates"])
     many = max((int(k) + 1 for text in chart.values() for k in re.findall(r"\bp(\d+)\b", text)), default=0)
@@ -195,7 +196,7 @@ def _confirmed(case: Case, rng: random.Random, as_number: Callable[[Fraction], N
     return Confirmation(residue, dimension, dimension - rank(pulled), regular)
 
 
-def _split(case: Case) -> tuple[list[str], list[str]]:
+def _split(case: KnownScene) -> tuple[list[str], list[str]]:
     """Finite relations and forms."""
     moving = {word for c in case.scene["coordinates"] for word in (f"d{c}", f"{c}dot")}
     written = texts(case.scene)

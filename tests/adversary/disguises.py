@@ -12,11 +12,12 @@ from fractions import Fraction
 from itertools import permutations
 from typing import Any
 
-from .case import Case, Scene, Truth, texts
-from .draws import positive
-from .texts import substituted, words
+from dofkit.benchmark.trials.construction import KnownScene
 
-Disguise = Callable[[random.Random, Case], Case | None]
+from .draws import positive
+from .texts import substituted, texts, words
+
+Disguise = Callable[[random.Random, KnownScene], KnownScene | None]
 #: What depends on the order of the constraints: which of them are companions of another, so what it integrates to, too.
 ORDERED = ("redundant", "circuit", "independent", "conflicting", "integral")
 #: What one constraint alone says.
@@ -25,20 +26,20 @@ ALONE = ("exact", "integral", "integrating_factor", "holonomic_alone", "form", "
 NAMES = ("alpha", "beta", "kappa", "xi", "eta", "chi", "r_1", "r_2", "k", "l", "m", "n", "B7", "x_A", "theta", "phi2")
 
 
-def is_plain(scene: Scene) -> bool:
+def is_plain(scene: Mapping[str, Any]) -> bool:
     """Coordinates and equations as text, with nothing drawn."""
     return all(isinstance(c, str) or c.get("type") == "equation" for c in scene["constraints"]) and not (
         scene.get("particles") or scene.get("bodies")
     )
 
 
-def named(scene: Scene, written: Sequence[str]) -> list[dict[str, str]]:
+def named(scene: Mapping[str, Any], written: Sequence[str]) -> list[dict[str, str]]:
     """Equations under the names that the constraints have."""
     names = [f"c{k + 1}" if isinstance(c, str) else c["name"] for k, c in enumerate(scene["constraints"])]
     return [{"name": name, "type": "equation", "text": text} for name, text in zip(names, written, strict=True)]
 
 
-def without(truth: Truth, *dropped: str, of: str | None = None) -> Truth:
+def without(truth: Mapping[str, Any], *dropped: str, of: str | None = None) -> Mapping[str, Any]:
     """A truth without some fields: of one entry, or of the report and all entries."""
     return {
         key: value
@@ -57,20 +58,20 @@ def is_equation(text: str) -> bool:
     return "<" not in text and ">" not in text
 
 
-def is_finite(scene: Scene, text: str) -> bool:
+def is_finite(scene: Mapping[str, Any], text: str) -> bool:
     """No velocity and no differential of a coordinate occurs."""
     moving = {word for c in scene["coordinates"] for word in (f"d{c}", speed(c))}
     return not words(text) & moving
 
 
-def in_differentials(scene: Scene, text: str) -> bool:
+def in_differentials(scene: Mapping[str, Any], text: str) -> bool:
     return bool(words(text) & {f"d{c}" for c in scene["coordinates"]})
 
 
 # -- names and order -------------------------------------------------------------------------------
 
 
-def renamed(rng: random.Random, case: Case) -> Case | None:
+def renamed(rng: random.Random, case: KnownScene) -> KnownScene | None:
     """Coordinates with other names."""
     scene = case.scene
     if not is_plain(scene):
@@ -86,7 +87,7 @@ def renamed(rng: random.Random, case: Case) -> Case | None:
     return replace(case, scene={**scene, **changed}, chart=None)
 
 
-def reordered(rng: random.Random, case: Case) -> Case | None:
+def reordered(rng: random.Random, case: KnownScene) -> KnownScene | None:
     """Constraints, and coordinates, in another order."""
     if not is_plain(case.scene):
         return None
@@ -101,7 +102,7 @@ def reordered(rng: random.Random, case: Case) -> Case | None:
 # -- equations -------------------------------------------------------------------------------------
 
 
-def scaled(rng: random.Random, case: Case) -> Case | None:
+def scaled(rng: random.Random, case: KnownScene) -> KnownScene | None:
     """An equation times a function that is never 0."""
     if not is_plain(case.scene):
         return None
@@ -119,7 +120,7 @@ def scaled(rng: random.Random, case: Case) -> Case | None:
     return replace(case, scene={**case.scene, "constraints": constraints}, truth=truth)
 
 
-def _pairs(scene: Scene, written: Sequence[str]) -> list[tuple[int, int]]:
+def _pairs(scene: Mapping[str, Any], written: Sequence[str]) -> list[tuple[int, int]]:
     """(j, i) where a multiple of equation i may be added to equation j: i is finite, or both are forms of one style."""
     found = []
     equations = [k for k, text in enumerate(written) if is_equation(text)]
@@ -130,7 +131,7 @@ def _pairs(scene: Scene, written: Sequence[str]) -> list[tuple[int, int]]:
     return found
 
 
-def combined(rng: random.Random, case: Case) -> Case | None:
+def combined(rng: random.Random, case: KnownScene) -> KnownScene | None:
     """To one equation a multiple of another is added: a finite one to a finite one, or a form to a form, or a
     finite one times a differential to a form. The entry of the first then says something else of itself; the system
     does not."""
@@ -162,8 +163,8 @@ def _difference(text: str) -> str:
 
 
 def _replaced(
-    case: Case, table: Mapping[str, str], speeds: Mapping[str, str], reference: Mapping[str, Fraction]
-) -> Case:
+    case: KnownScene, table: Mapping[str, str], speeds: Mapping[str, str], reference: Mapping[str, Fraction]
+) -> KnownScene:
     """Coordinates replaced by functions of coordinates. ``speeds``: their velocities, in names that end in ``dot``; the
     reference in the new coordinates."""
     scene = case.scene
@@ -178,7 +179,7 @@ def _replaced(
     return replace(case, scene={**scene, **changed}, chart=None)
 
 
-def _two(rng: random.Random, case: Case) -> tuple[str, str] | None:
+def _two(rng: random.Random, case: KnownScene) -> tuple[str, str] | None:
     """Two coordinates of a plain scene without subscripts, of which something is written."""
     if (
         not is_plain(case.scene)
@@ -190,12 +191,12 @@ def _two(rng: random.Random, case: Case) -> tuple[str, str] | None:
     return x, y
 
 
-def _place(case: Case, *names: str) -> list[Fraction]:
+def _place(case: KnownScene, *names: str) -> list[Fraction]:
     configuration = case.scene.get("configuration", {})
     return [Fraction(str(configuration.get(name, 0))) for name in names]
 
 
-def moved(rng: random.Random, case: Case) -> Case | None:
+def moved(rng: random.Random, case: KnownScene) -> KnownScene | None:
     """Two coordinates turned by a rational angle, with another origin."""
     pair = _two(rng, case)
     if pair is None:
@@ -210,7 +211,7 @@ def moved(rng: random.Random, case: Case) -> Case | None:
     return _replaced(case, table, speeds, {x: c * u + s * v, y: c * v - s * u})
 
 
-def sheared(rng: random.Random, case: Case) -> Case | None:
+def sheared(rng: random.Random, case: KnownScene) -> KnownScene | None:
     """x + k y^m for x."""
     pair = _two(rng, case)
     if pair is None:
@@ -221,7 +222,7 @@ def sheared(rng: random.Random, case: Case) -> Case | None:
     return _replaced(case, {x: f"{x} + ({k})*{y}^{m}"}, {x: f"{x}dot + {slope}*{y}dot"}, {x: u - k * v**m})
 
 
-def stretched(rng: random.Random, case: Case) -> Case | None:
+def stretched(rng: random.Random, case: KnownScene) -> KnownScene | None:
     """x (1 + y^2) for x."""
     pair = _two(rng, case)
     if pair is None:
@@ -232,7 +233,7 @@ def stretched(rng: random.Random, case: Case) -> Case | None:
     return _replaced(case, {x: f"{x}*(1 + {y}^2)"}, {x: speed}, {x: u / (1 + v * v)})
 
 
-def split(rng: random.Random, case: Case) -> Case | None:
+def split(rng: random.Random, case: KnownScene) -> KnownScene | None:
     """A new coordinate s = x + k y, written first, and x in one of the equations given by it."""
     pair = _two(rng, case)
     if pair is None or "s0" in case.scene["coordinates"]:
@@ -255,10 +256,10 @@ def split(rng: random.Random, case: Case) -> Case | None:
     return replace(case, scene=scene, truth=without(truth, "growth_vector"), chart=None)
 
 
-def turned(rng: random.Random, case: Case) -> Case | None:
+def turned(rng: random.Random, case: KnownScene) -> KnownScene | None:
     """A drawing turned by a rational angle about z, in space about x too, and moved."""
     scene = case.scene
-    if is_plain(scene) or any(isinstance(c, str) for c in scene["constraints"]):
+    if is_plain(scene) or "dimension" not in scene or any(isinstance(c, str) for c in scene["constraints"]):
         return None
     d, shift = scene["dimension"], [rng.randint(-3, 3) for _ in range(3)]
 
@@ -273,8 +274,15 @@ def turned(rng: random.Random, case: Case) -> Case | None:
         return [str(v + s) for v, s in zip((x, y, *rest), by, strict=False)]
 
     def drawn(part: Any) -> Any:
+        if isinstance(part, str):
+            return part
         moves = {"at": shift[:d], "axis": [0, 0, 0]}
-        return {key: placed(value, moves[key]) if key in moves else value for key, value in part.items()}
+        moved = {key: placed(value, moves[key]) if key in moves else value for key, value in part.items()}
+        if "axes" in part:
+            moved["axes"] = [placed(axis, [0, 0, 0]) for axis in part["axes"]]
+        if "between" in part:
+            moved["between"] = [end if isinstance(end, str) else placed(end, shift) for end in part["between"]]
+        return moved
 
     parts = {key: [drawn(part) for part in scene[key]] for key in ("particles", "constraints") if key in scene}
     return replace(case, scene={**scene, **parts})
@@ -292,7 +300,7 @@ BESIDE: tuple[tuple[dict[str, int], tuple[str, ...], tuple[int, int, int]], ...]
 )
 
 
-def accompanied(rng: random.Random, case: Case) -> Case | None:
+def accompanied(rng: random.Random, case: KnownScene) -> KnownScene | None:
     """With a system beside it that has nothing to do with it."""
     scene, truth = case.scene, dict(case.truth)
     if "e1" in scene.get("coordinates", ()):
@@ -320,7 +328,7 @@ def accompanied(rng: random.Random, case: Case) -> Case | None:
     else:
         truth = {"consistent": False, "dof": None, "velocity_dof": None}
     elsewhere = {key: [v + added.get(key, 0) for v in values] for key, values in case.elsewhere.items()}
-    return Case({**scene, **changed}, without(truth, "growth_vector"), elsewhere)
+    return KnownScene({**scene, **changed}, without(truth, "growth_vector"), elsewhere)
 
 
 DISGUISES: Mapping[str, Disguise] = {

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from typing import Any
 
 
 def names(stem: str, many: int) -> list[str]:
@@ -19,6 +20,11 @@ def nonzero(rng: random.Random, most: int = 5) -> int:
 def ratio(rng: random.Random) -> Fraction:
     """Not 0."""
     return Fraction(nonzero(rng, 7), rng.randint(1, 4))
+
+
+def at(fields: Mapping[str, Any]) -> Mapping[str, str]:
+    """A reference configuration as text."""
+    return {name: str(value) for name, value in fields.items()}
 
 
 def factor(value: Fraction | int | str) -> str:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import random
 
-from .case import Case, plain, truths
+from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
+
 from .components import free
 from .draws import names, nonzero, simple_zero
 
 
-def bipartite(rng: random.Random, size: int) -> Case:
+def bipartite(rng: random.Random, size: int) -> KnownScene:
     """Points A_i and B_j of the plane at the distances that (a_i, 0) and (0, b_j) have, the a_i and the b_j of
     different lengths. abs(A_i - B_j)^2 - abs(A_0 - B_j)^2 is one number for all j, so the B_j lie on a line across
     A_i - A_0, and the A_i on one across that; a_i -> sqrt(a_i^2 + c), b_j -> sqrt(b_j^2 - c) is all that moves with
@@ -22,11 +23,11 @@ def bipartite(rng: random.Random, size: int) -> Case:
     relations = [f"(x{i} - u{j})^2 + (y{i} - v{j})^2 = {a[i] ** 2 + b[j] ** 2}" for i in range(m) for j in range(n)]
     rng.shuffle(relations)
     if rng.random() < 0.5:
-        return Case(plain([*coordinates, "r"], [*relations, "r = x0*u1 + 1"]), truths(4))
-    return Case(plain(coordinates, relations), truths(4))
+        return KnownScene(scene_of([*coordinates, "r"], *relations, "r = x0*u1 + 1"), truths(4))
+    return KnownScene(scene_of(coordinates, *relations), truths(4))
 
 
-def across(rng: random.Random, size: int) -> Case:
+def across(rng: random.Random, size: int) -> KnownScene:
     """A vector of the plane, other than 0, and k vectors across it, each of a given length: all turn as one, by 1.
     Across two of them the determinant is 0."""
     k = 2 + rng.randint(0, size)
@@ -36,10 +37,10 @@ def across(rng: random.Random, size: int) -> Case:
     relations += [f"x*u{j} + y*v{j} = 0" for j in range(k)]
     coordinates = ["x", "y", *(f"{c}{j}" for j in range(k) for c in "uv")]
     rng.shuffle(relations)
-    return Case(plain(coordinates, relations), truths(1))
+    return KnownScene(scene_of(coordinates, *relations), truths(1))
 
 
-def coinciding(rng: random.Random, size: int) -> Case:
+def coinciding(rng: random.Random, size: int) -> KnownScene:
     """k points P_j of the plane, each at one distance r_j from A and from C. Where A = C: A, and an angle for each P_j:
     2 + k. Else the P_j lie on the line that halves AC across: 4, less for k >= 3."""
     k = 3 + rng.randint(0, 1 + size)
@@ -53,10 +54,10 @@ def coinciding(rng: random.Random, size: int) -> Case:
             f"u{j}": f"a + 2*{d}*p{j + 2}/(1 + p{j + 2}^2)",
             f"v{j}": f"b + {d}*(1 - p{j + 2}^2)/(1 + p{j + 2}^2)",
         }
-    return Case(plain([*chart], relations), truths(2 + k), {"dof": [4], "velocity_dof": [4]}, chart)
+    return KnownScene(scene_of([*chart], *relations), truths(2 + k), {"dof": [4], "velocity_dof": [4]}, chart)
 
 
-def forced(rng: random.Random, size: int) -> Case:
+def forced(rng: random.Random, size: int) -> KnownScene:
     """s u = y v, s v = y w + e and y (y^2 + x^2 + 1) = e, where a sum of squares says x = a, s(a) = 0, and e = 0:
     so y = 0, and all u, v, w are free though each has an equation with a factor."""
     k, a = 1 + rng.randint(0, 1 + size), nonzero(rng)
@@ -71,7 +72,7 @@ def forced(rng: random.Random, size: int) -> Case:
     relations.append("y*(y^2 + x^2 + 1) = e")
     rng.shuffle(relations)
     chart = {"x": str(a), "e": "0", "y": "0"} | free([*u, *v, *w])
-    return Case(plain([*chart], relations), truths(3 * k), chart=chart)
+    return KnownScene(scene_of([*chart], *relations), truths(3 * k), chart=chart)
 
 
 FAMILY = {"bipartite": bipartite, "across": across, "coinciding": coinciding, "forced": forced}

@@ -7,7 +7,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from .case import Case
+from dofkit.benchmark.trials.construction import KnownScene
+
 from .judgement import judged, overall
 from .running import SECONDS, Answer, answered_apart
 from .trial import Trial, made
@@ -15,7 +16,7 @@ from .trial import Trial, made
 FOUND = Path(__file__).parent / "found"
 
 
-def faults(case: Case, answer: Answer) -> dict[str, Any]:
+def faults(case: KnownScene, answer: Answer) -> dict[str, Any]:
     """The fields that are answered wrongly with what was told; or the end, where there is no report.
 
     Where the checker was asked, ``certified FIELD``: wrong, and its certificate verifies; and the claims it refuses.
@@ -28,7 +29,7 @@ def faults(case: Case, answer: Answer) -> dict[str, Any]:
     return {**told, **answer.checked.faults}
 
 
-def outcome(case: Case, answer: Answer) -> str:
+def outcome(case: KnownScene, answer: Answer) -> str:
     """``right``, ``undecided``, ``wrong``, or how it ended without a report."""
     return answer.end if answer.report is None else overall(judged(case, answer.report))
 
@@ -57,7 +58,7 @@ def kept(trial: Trial, told: dict[str, Any], folder: Path = FOUND) -> Path:
     return path
 
 
-def read(path: Path) -> tuple[str, Case]:
+def read(path: Path) -> tuple[str, KnownScene]:
     """The kind and the case of such a file."""
     fields = json.loads(path.read_text(encoding="utf-8"))
-    return fields["kind"], Case(fields["scene"], fields["truth"], fields["elsewhere"])
+    return fields["kind"], KnownScene(fields["scene"], fields["truth"], fields["elsewhere"])

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import random
 
-from .case import Case, at, plain, truths
-from .draws import names, polynomial
+from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
+
+from .draws import at, names, polynomial
 
 #: A function whose only zero near 0 is 0, and the order of that zero.
 FLAT = (
@@ -38,16 +39,16 @@ def _unit(rng: random.Random, q: list[str]) -> str:
     return "(1" + "".join(f" + {c}^2" for c in q) + ")"
 
 
-def _case(coordinates: list[str], base: str, flat: str, dof: int, chart: dict[str, str]) -> Case:
+def _case(coordinates: list[str], base: str, flat: str, dof: int, chart: dict[str, str]) -> KnownScene:
     """y = base and y = base + flat, both with the differential dy - d base at 0: one less than all is free at first."""
     relations = [f"y = {base}", f"y = {base} + {flat}"]
-    scene = plain(["y", *coordinates], relations, configuration=at(dict.fromkeys(["y", *coordinates], 0)))
+    scene = scene_of(["y", *coordinates], *relations, configuration=at(dict.fromkeys(["y", *coordinates], 0)))
     n = len(coordinates)
     known = truths(dof, instantaneous_dof=n, singular=True, holonomic=True)
-    return Case(scene, known, chart=chart | {"y": base})
+    return KnownScene(scene, known, chart=chart | {"y": base})
 
 
-def touching(rng: random.Random, size: int) -> Case:
+def touching(rng: random.Random, size: int) -> KnownScene:
     """f(x)^a (1 + sum q^2) + g(x)^b q_1 = 0 with b's order the higher: near 0 it is x^m times what is not 0, so x =
     0."""
     q = _others(rng, size)
@@ -60,7 +61,7 @@ def touching(rng: random.Random, size: int) -> Case:
     return _case(["x", *q], base, flat, len(q), chart)
 
 
-def definite(rng: random.Random, size: int) -> Case:
+def definite(rng: random.Random, size: int) -> KnownScene:
     """A sum of even powers of x_1, ..., x_k times what is positive: all of them are 0."""
     q, k = _others(rng, size // 2), 2 + rng.randint(0, size)
     x = names("x", k)
@@ -70,14 +71,14 @@ def definite(rng: random.Random, size: int) -> Case:
     return _case([*x, *q], base, f"({flat})", len(q), chart)
 
 
-def passing(rng: random.Random, size: int) -> Case:
+def passing(rng: random.Random, size: int) -> KnownScene:
     """u^a = w^b (1 + sum q^2) with a odd holds on a hypersurface through 0: one less than x, u and the q."""
     q, a = _others(rng, size // 2), 3 + 2 * rng.randint(0, 1 + size)
     b = rng.randint(2, 4 + 2 * size)
     flat = f"(u^{a} - w^{b}*{_unit(rng, q)})"
     base = polynomial(rng, ["u", "w", *q]) if rng.random() < 0.4 else "0"
     case = _case(["u", "w", *q], base, flat, 1 + len(q), {})
-    return Case(case.scene, case.truth)
+    return KnownScene(case.scene, case.truth)
 
 
 FAMILY = {"touching": touching, "definite": definite, "passing": passing}

@@ -5,12 +5,15 @@ from __future__ import annotations
 import random
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Any
 
-from .case import Case, truths
+from flint import fmpq, fmpq_mat
+
+from dofkit.benchmark.trials.construction import KnownScene, truths
+from dofkit.benchmark.trials.random_systems import exact_rank
+
 from .draws import names, nonzero
-from .linear import eliminated
 
 
 def revolute(first: str, second: str, at: Sequence[Any], axis: Sequence[Any]) -> dict[str, Any]:
@@ -24,50 +27,33 @@ def _loop(bodies: Sequence[str], joints: Sequence[tuple[Sequence[Any], Sequence[
     return {"bodies": [*bodies], "constraints": made}
 
 
-def signature(form: Sequence[Sequence[Fraction]]) -> tuple[int, int, int]:
-    """Positive, negative and zero squares of a symmetric matrix, by Lagrange's reduction."""
-    left = [list(row) for row in form]
-    found = [0, 0, 0]
-    while left:
-        n = len(left)
-        i = next((k for k in range(n) if left[k][k]), None)
-        if i is None:
-            pair = next(((a, b) for a, b in combinations(range(n), 2) if left[a][b]), None)
-            if pair is None:
-                return found[0], found[1], found[2] + n
-            i, j = pair
-            left[i] = [x + y for x, y in zip(left[i], left[j], strict=True)]
-            for row in left:
-                row[i] += row[j]
-        pivot = left[i]
-        found[0 if pivot[i] > 0 else 1] += 1
-        left = [
-            [row[c] - row[i] * pivot[c] / pivot[i] for c in range(n) if c != i] for k, row in enumerate(left) if k != i
-        ]
-    return found[0], found[1], found[2]
+def _signs(form: Sequence[Sequence[Fraction]]) -> tuple[int, int]:
+    """Return how many eigenvalues of a symmetric matrix are positive and negative: all are real, so Descartes' rule
+    of signs is exact for the characteristic polynomial."""
+    characteristic = list(fmpq_mat([[fmpq(v.numerator, v.denominator) for v in row] for row in form]).charpoly())
+    return _changes(characteristic), _changes([c * (-1) ** k for k, c in enumerate(characteristic)])
 
 
-def _kernel(rows: Sequence[Sequence[Fraction]]) -> list[list[Fraction]]:
-    """All that is mapped to 0, as rows."""
-    n = len(rows[0])
-    left: list[list[Fraction]] = [list(row) for row in rows]
-    pivots: dict[int, int] = {}
-    for c in range(n):
-        i = next((k for k, row in enumerate(left) if row[c] and k not in pivots.values()), None)
-        if i is None:
-            continue
-        pivots[c] = i
-        left[i] = [v / left[i][c] for v in left[i]]
-        left = [
-            row if k == i else [v - row[c] * p for v, p in zip(row, left[i], strict=True)] for k, row in enumerate(left)
-        ]
-    found = []
-    for c in set(range(n)) - set(pivots):
-        found.append([Fraction(k == c) - (left[pivots[k]][c] if k in pivots else 0) for k in range(n)])
-    return found
+def _changes(coefficients: Sequence[fmpq]) -> int:
+    signs = [c > 0 for c in coefficients if c != 0]
+    return sum(a != b for a, b in pairwise(signs))
 
 
-def flat_vertex(rng: random.Random, size: int) -> Case:
+def _kernel(first: Sequence[Fraction], second: Sequence[Fraction]) -> list[list[Fraction]]:
+    """Return a basis of the vectors across both of two independent ones."""
+    n = len(first)
+    i, j = next((i, j) for i, j in combinations(range(n), 2) if first[i] * second[j] != first[j] * second[i])
+    det = first[i] * second[j] - first[j] * second[i]
+    rows = []
+    for k in set(range(n)) - {i, j}:
+        row = [Fraction(c == k) for c in range(n)]
+        row[i] = (first[j] * second[k] - first[k] * second[j]) / det
+        row[j] = (first[k] * second[i] - first[i] * second[k]) / det
+        rows.append(row)
+    return rows
+
+
+def flat_vertex(rng: random.Random, size: int) -> KnownScene:
     """k hinges through a point with axes a_i in one plane, in this order round the loop: to first order sum r_i a_i
     = 0, k - 2 freedoms; to second order the component across the plane is sum over i < j of r_i r_j det(a_i, a_j) =
     0. Where that form is not degenerate there and has both signs, the set is a cone of dimension k - 3 (the third
@@ -76,9 +62,9 @@ def flat_vertex(rng: random.Random, size: int) -> Case:
     while True:
         k = 3 + rng.randint(0, 1 + size // 2)
         plane = [(Fraction(nonzero(rng, 3)), Fraction(rng.randint(-3, 3))) for _ in range(k)]
-        if eliminated([list(axis) for axis in plane]) < 2:
+        if exact_rank(plane) < 2:
             continue
-        kernel = _kernel([[a[0] for a in plane], [a[1] for a in plane]])
+        kernel = _kernel([a[0] for a in plane], [a[1] for a in plane])
         cross = [[Fraction(0)] * k for _ in range(k)]
         for i, j in combinations(range(k), 2):
             cross[i][j] = cross[j][i] = plane[i][0] * plane[j][1] - plane[i][1] * plane[j][0]
@@ -86,8 +72,8 @@ def flat_vertex(rng: random.Random, size: int) -> Case:
             [sum((u[a] * cross[a][b] * v[b] for a in range(k) for b in range(k)), Fraction(0)) for v in kernel]
             for u in kernel
         ]
-        plus, minus, none = signature(form)
-        if not none:
+        plus, minus = _signs(form)
+        if plus + minus == len(kernel):
             break
     dof = k - 3 if plus and minus else 0
     bodies = names("b", k - 1)
@@ -96,10 +82,10 @@ def flat_vertex(rng: random.Random, size: int) -> Case:
     at = rng.choice(([0, 0, 0], [rng.randint(-2, 2) for _ in range(3)]))
     scene = {"dimension": 3, **_loop(bodies, [(at, axis) for axis in axes])}
     known = truths(dof, instantaneous_dof=k - 2, singular=dof != k - 2, redundant=[])
-    return Case(scene, known | {"redundant_equations": 5 * k - (6 * (k - 1) - dof)})
+    return KnownScene(scene, known | {"redundant_equations": 5 * k - (6 * (k - 1) - dof)})
 
 
-def coaxial(rng: random.Random, size: int) -> Case:
+def coaxial(rng: random.Random, size: int) -> KnownScene:
     """A door on k hinges of one axis: 1 freedom, all but the first redundant."""
     k, axis, at = (
         2 + rng.randint(0, 1 + size),
@@ -115,10 +101,10 @@ def coaxial(rng: random.Random, size: int) -> Case:
         redundant=[f"c{i}" for i in range(2, k + 1)],
         redundant_equations=5 * (k - 1),
     )
-    return Case({"dimension": 3, "bodies": ["door"], "constraints": joints}, known)
+    return KnownScene({"dimension": 3, "bodies": ["door"], "constraints": joints}, known)
 
 
-def planar_loop(rng: random.Random, size: int) -> Case:
+def planar_loop(rng: random.Random, size: int) -> KnownScene:
     """k parallel hinges at the corners of a polygon: k - 3 freedoms, regular where the corners are not on one line.
     On one line, to first order sum r_i = sum r_i x_i = 0, k - 2 freedoms, and to second order sum over i < j of r_i
     r_j (x_j - x_i) = 0 across: one sign where a bar is as long as the others together, and then nothing moves."""
@@ -129,10 +115,10 @@ def planar_loop(rng: random.Random, size: int) -> Case:
     scene = {"dimension": 3, **_loop(names("b", k - 1), [(place, (0, 0, 1)) for place in places])}
     first = k - 2 if line else k - 3
     known = truths(dof, instantaneous_dof=first, singular=line, redundant_equations=5 * k - (6 * (k - 1) - dof))
-    return Case(scene, known)
+    return KnownScene(scene, known)
 
 
-def parallelogram_loop(rng: random.Random, size: int) -> Case:
+def parallelogram_loop(rng: random.Random, size: int) -> KnownScene:
     """Four parallel hinges at the corners of a parallelogram, with a fifth body as a crank more: it moves, by 1."""
     a, b = (rng.randint(1, 4), rng.randint(0, 3)), (rng.randint(-2, 2), rng.randint(1, 4))
     more = size > 0
@@ -153,7 +139,7 @@ def parallelogram_loop(rng: random.Random, size: int) -> Case:
     bodies = ["b1", "b2", "b3", *(["b4"] if more else [])]
     extra = 5 * len(joints) - (6 * len(bodies) - 1)
     known = truths(1, instantaneous_dof=1, singular=False, redundant_equations=extra)
-    return Case({"dimension": 3, "bodies": bodies, "constraints": joints}, known)
+    return KnownScene({"dimension": 3, "bodies": bodies, "constraints": joints}, known)
 
 
 FAMILY = {

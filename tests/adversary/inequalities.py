@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from fractions import Fraction
 
-from .case import IMPOSSIBLE, Case, plain, truths
+from dofkit.benchmark.trials.construction import IMPOSSIBLE, KnownScene, scene_of, truths
 
 #: A function, its supremum, and whether it is attained.
 HIGHEST: tuple[tuple[str, str, bool], ...] = (
@@ -29,7 +29,7 @@ HIGHEST: tuple[tuple[str, str, bool], ...] = (
 )
 
 
-def alone(rng: random.Random, size: int) -> Case:
+def alone(rng: random.Random, size: int) -> KnownScene:
     """f >= c, or f > c: possible below the supremum, at it where it is attained and the sign is not strict."""
     f, text, attained = rng.choice(HIGHEST)
     top, step = Fraction(text), Fraction(1, 10 ** rng.randint(0, 2 + 5 * size))
@@ -42,7 +42,7 @@ def alone(rng: random.Random, size: int) -> Case:
     coordinates = ["x", *(["y"] if "y" in f else [])]
     known = truths(len(coordinates), holonomic=False, scleronomic=True)
     known |= {"c1.form": "inequality", "c1.bilateral": False}
-    return Case(plain(coordinates, [relation]), known if possible else IMPOSSIBLE)
+    return KnownScene(scene_of(coordinates, relation), known if possible else IMPOSSIBLE)
 
 
 #: Inequalities with relations; whether all can be met; a freedom of the relations.
@@ -68,12 +68,12 @@ TOGETHER: tuple[tuple[str, tuple[str, ...], bool, int], ...] = (
 )
 
 
-def together(rng: random.Random, size: int) -> Case:
+def together(rng: random.Random, size: int) -> KnownScene:
     """Each inequality by itself can be met, so `consistent` is true; `feasible` says whether all can, with the
     relations. sqrt(3) lies between 1.7 and 7/4; 4/5 is the largest y on the circle with x >= 3/5."""
     coordinates, relations, feasible, dof = rng.choice(TOGETHER)
     velocities = dof - any(relation.startswith("dz") for relation in relations)
-    return Case(plain(coordinates, relations), truths(dof, velocities, feasible=feasible, holonomic=False))
+    return KnownScene(scene_of(coordinates, *relations), truths(dof, velocities, feasible=feasible, holonomic=False))
 
 
 FAMILY = {"alone": alone, "together": together}

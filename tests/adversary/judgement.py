@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Literal, NamedTuple
 
-from .case import Case
+from dofkit.benchmark.trials.construction import KnownScene
 
 Outcome = Literal["right", "undecided", "wrong"]
 #: Fields whose order, or inner order, does not matter.
@@ -20,7 +20,7 @@ class Judgement(NamedTuple):
     verdict: str
 
 
-def judged(case: Case, report: Mapping[str, Any]) -> list[Judgement]:
+def judged(case: KnownScene, report: Mapping[str, Any]) -> list[Judgement]:
     """Each field of the truth. ``report``: as JSON. A field's own verdict counts where it has one, else that of the
     report or the entry; a value of a smaller part is right where the report says that it speaks of one only."""
     entries = {entry["name"]: entry for entry in report["constraints"]}

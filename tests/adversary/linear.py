@@ -6,22 +6,12 @@ import random
 from collections.abc import Sequence
 from fractions import Fraction
 
-from .case import IMPOSSIBLE, Case, plain, truths
+from dofkit.benchmark.trials.construction import IMPOSSIBLE, KnownScene, scene_of, truths
+from dofkit.benchmark.trials.random_systems import exact_rank
+
 from .draws import names
 
 Row = list[Fraction]
-
-
-def eliminated(rows: Sequence[Row]) -> int:
-    """The rank."""
-    left, rank = [list(row) for row in rows], 0
-    for c in range(len(rows[0]) if rows else 0):
-        pivot = next((row for row in left if row[c]), None)
-        if pivot is not None:
-            left.remove(pivot)
-            left = [[v - row[c] / pivot[c] * p for v, p in zip(row, pivot, strict=True)] for row in left]
-            rank += 1
-    return rank
 
 
 def _drawn(rng: random.Random, n: int, many: int) -> list[Row]:
@@ -48,23 +38,23 @@ def _text(row: Row, words: Sequence[str], right: str = "1") -> str:
 
 def _dependent(rows: Sequence[Row]) -> list[str]:
     """Names of the rows that depend on those before."""
-    return [f"c{k + 1}" for k in range(len(rows)) if eliminated(rows[:k]) == eliminated(rows[: k + 1])]
+    return [f"c{k + 1}" for k in range(len(rows)) if exact_rank(rows[:k]) == exact_rank(rows[: k + 1])]
 
 
-def positions(rng: random.Random, size: int) -> Case:
+def positions(rng: random.Random, size: int) -> KnownScene:
     """a q = b: consistent where b adds nothing to the rank, then of dimension n - rank; dependent rows are
     redundant."""
     n = rng.randint(1, 3 + 2 * size)
     rows = _drawn(rng, n, rng.randint(1, n + 2)) or [[Fraction(1)] * (n + 1)]
-    scene = plain(names("q", n), [_text(row, names("q", n)) for row in rows])
-    rank = eliminated([row[:-1] for row in rows])
-    if eliminated(rows) > rank:
-        return Case(scene, IMPOSSIBLE)
+    scene = scene_of(names("q", n), *([_text(row, names("q", n)) for row in rows]))
+    rank = exact_rank([row[:-1] for row in rows])
+    if exact_rank(rows) > rank:
+        return KnownScene(scene, IMPOSSIBLE)
     extra = len(rows) - rank
-    return Case(scene, truths(n - rank, redundant=_dependent(rows), redundant_equations=extra, holonomic=True))
+    return KnownScene(scene, truths(n - rank, redundant=_dependent(rows), redundant_equations=extra, holonomic=True))
 
 
-def speeds(rng: random.Random, size: int) -> Case:
+def speeds(rng: random.Random, size: int) -> KnownScene:
     """a dq = 0 with constant coefficients, beside finite relations written before: all integrate, and the rank
     counts."""
     n = rng.randint(2, 3 + 2 * size)
@@ -76,28 +66,28 @@ def speeds(rng: random.Random, size: int) -> Case:
     values = [Fraction(rng.randint(-3, 3)) for _ in range(n)]
     texts = [_text([*row[:-1], _dot(row, values)], q) for row in rows[:finite]]
     texts += [_text(row, [f"{c}dot" for c in q]) for row in rows[finite:]]
-    rank = eliminated(rows)
+    rank = exact_rank(rows)
     known = truths(n - rank, redundant=_dependent(rows), redundant_equations=len(rows) - rank, holonomic=True)
-    return Case(plain(q, texts), known)
+    return KnownScene(scene_of(q, *texts), known)
 
 
 def _dot(row: Row, values: Sequence[Fraction]) -> Fraction:
     return sum((a * v for a, v in zip(row, values, strict=False)), Fraction(0))
 
 
-def driven(rng: random.Random, size: int) -> Case:
+def driven(rng: random.Random, size: int) -> KnownScene:
     """a q = b t: no motion where a combination of the rows says t = 0; else of dimension n - rank."""
     n = rng.randint(1, 3 + 2 * size)
     q = names("q", n)
     rows = _drawn(rng, n, rng.randint(1, n + 2)) or [[Fraction(1)] * (n + 1)]
     moving = rng.random() < 0.5
     words = [f"{c}dot" for c in q] if moving else q
-    scene = plain(q, [_text(row, words, "1" if moving else "t") for row in rows])
-    rank = eliminated([row[:-1] for row in rows])
-    if eliminated(rows) > rank:
-        return Case(scene, IMPOSSIBLE)
+    scene = scene_of(q, *([_text(row, words, "1" if moving else "t") for row in rows]))
+    rank = exact_rank([row[:-1] for row in rows])
+    if exact_rank(rows) > rank:
+        return KnownScene(scene, IMPOSSIBLE)
     known = truths(n - rank, redundant=_dependent(rows), redundant_equations=len(rows) - rank, holonomic=True)
-    return Case(scene, known | {"scleronomic": not any(row[-1] for row in rows)})
+    return KnownScene(scene, known | {"scleronomic": not any(row[-1] for row in rows)})
 
 
 FAMILY = {"positions": positions, "speeds": speeds, "driven": driven}

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import random
 
+from dofkit.benchmark.trials.construction import IMPOSSIBLE, KnownScene, scene_of, truths
 from dofkit.exact.points.field import prime_for
-
-from .case import IMPOSSIBLE, Case, plain, truths
 
 
 def primes(many: int) -> list[int]:
@@ -21,16 +20,16 @@ def number(rng: random.Random, size: int) -> str:
     return f"({'*'.join([*powers, *rng.choice(([], [], ['2'], ['30']))])})"
 
 
-def growth(rng: random.Random, size: int) -> Case:
+def growth(rng: random.Random, size: int) -> KnownScene:
     """dz = y dx, dw = (N u + z) dx: with X = d/dx + y d/dz + (N u + z) d/dw, [d/dy, X] = d/dz and [d/du, X] = N
     d/dw are independent of X, d/dy, d/du: growth 3, 5."""
     n = number(rng, size)
-    scene = plain("x y u z w", ["zdot = y*xdot", f"wdot = ({n}*u + z)*xdot"])
+    scene = scene_of("x y u z w", "zdot = y*xdot", f"wdot = ({n}*u + z)*xdot")
     chart = {name: f"p{k}" for k, name in enumerate("xyuzw")}
-    return Case(scene, truths(5, 3, holonomic=False, growth_vector=[3, 5]), chart=chart)
+    return KnownScene(scene, truths(5, 3, holonomic=False, growth_vector=[3, 5]), chart=chart)
 
 
-def twisted(rng: random.Random, size: int) -> Case:
+def twisted(rng: random.Random, size: int) -> KnownScene:
     """dx + N y dz, and dz = (y/N) dx, and the like: non-holonomic for any N but 0."""
     n = number(rng, size)
     text = rng.choice(
@@ -42,18 +41,18 @@ def twisted(rng: random.Random, size: int) -> Case:
         )
     )
     chart = {name: f"p{k}" for k, name in enumerate("xyz")}
-    return Case(plain("x y z", [text]), truths(3, 2, holonomic=False, growth_vector=[2, 3]), chart=chart)
+    return KnownScene(scene_of("x y z", text), truths(3, 2, holonomic=False, growth_vector=[2, 3]), chart=chart)
 
 
-def closed(rng: random.Random, size: int) -> Case:
+def closed(rng: random.Random, size: int) -> KnownScene:
     """d(x^2 y + N x) and its like, and what differs from it by a multiple of N: exact, or not."""
     n, exact = number(rng, size), rng.random() < 0.5
     slope = "x^2" if exact else f"(x^2 + {n}*x)"
     text = f"(2*x*y + {n})*xdot + {slope}*ydot = 0"
-    return Case(plain("x y", [text]), truths(1, holonomic=True, **{"c1.exact": exact}))
+    return KnownScene(scene_of("x y", text), truths(1, holonomic=True, **{"c1.exact": exact}))
 
 
-def solved(rng: random.Random, size: int) -> Case:
+def solved(rng: random.Random, size: int) -> KnownScene:
     """Relations whose difference is a multiple of N: independent, or contradictory."""
     n = number(rng, size)
     circle = {"x": "10*p0/(1 + p0^2)", "y": "5*(1 - p0^2)/(1 + p0^2)", "z": "x"}
@@ -69,8 +68,8 @@ def solved(rng: random.Random, size: int) -> Case:
     )
     coordinates, relations, chart = rng.choice(rows)
     if chart is None:
-        return Case(plain(coordinates, relations), IMPOSSIBLE)
-    return Case(plain(coordinates, relations), truths(1, redundant=[], redundant_equations=0), chart=chart)
+        return KnownScene(scene_of(coordinates, *relations), IMPOSSIBLE)
+    return KnownScene(scene_of(coordinates, *relations), truths(1, redundant=[], redundant_equations=0), chart=chart)
 
 
 FAMILY = {"growth": growth, "twisted": twisted, "closed": closed, "solved": solved}

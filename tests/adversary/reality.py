@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import random
 
-from .case import Case, at, plain, truths
-from .draws import names, nonzero, polynomial, positive, smooth
+from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
+
+from .draws import at, names, nonzero, polynomial, positive, smooth
 from .texts import substituted
 
 #: Equations that say a = b over the reals, and no more.
@@ -34,7 +35,7 @@ def _said(rng: random.Random, first: str, second: str) -> str:
     return substituted(rng.choice(SAME), {"a": f"({first})", "b": f"({second})"})
 
 
-def disguised(rng: random.Random, size: int) -> Case:
+def disguised(rng: random.Random, size: int) -> KnownScene:
     """x = P(w) in a writing that says so over the reals only, and dz = (x - P) u dw, which is then dz = 0."""
     w = names("w", 1 + size // 2)
     p = smooth(rng, w) if size > 1 else polynomial(rng, w)
@@ -42,39 +43,39 @@ def disguised(rng: random.Random, size: int) -> Case:
     relations = [_said(rng, "x", p), *([f"zdot = (x - ({p}))*u*{w[0]}dot"] if formed else [])]
     free = [*w, *(["u"] if formed else [])]
     chart = {name: f"p{k}" for k, name in enumerate(free)} | {"x": p} | ({"z": "1"} if formed else {})
-    scene = plain([*w, "x", *(["u", "z"] if formed else [])], relations)
-    return Case(scene, truths(len(free), holonomic=True), chart=chart)
+    scene = scene_of([*w, "x", *(["u", "z"] if formed else [])], *relations)
+    return KnownScene(scene, truths(len(free), holonomic=True), chart=chart)
 
 
-def squares(rng: random.Random, size: int) -> Case:
+def squares(rng: random.Random, size: int) -> KnownScene:
     """A sum of even powers of x_i - P_i is 0: all x_i = P_i(w)."""
     m, w = rng.randint(2, 2 + size), names("w", 2)
     x, p = names("x", m), [polynomial(rng, w) for _ in range(m)]
     terms = [f"{rng.randint(1, 5)}*({a} - ({b}))^{rng.choice((2, 2, 4))}" for a, b in zip(x, p, strict=True)]
     chart = {"w1": "p0", "w2": "p1"} | dict(zip(x, p, strict=True))
     more = f"{positive(rng, w)}*" if rng.random() < 0.4 else ""
-    return Case(plain([*w, *x], [f"{more}({' + '.join(terms)}) = 0"]), truths(2, holonomic=True), chart=chart)
+    return KnownScene(scene_of([*w, *x], f"{more}({' + '.join(terms)}) = 0"), truths(2, holonomic=True), chart=chart)
 
 
-def squared_forms(rng: random.Random, size: int) -> Case:
+def squared_forms(rng: random.Random, size: int) -> KnownScene:
     """A sum of squares of forms is 0: all of them. dx - y dz and dw - c dz: the first is non-holonomic, the second not.
     On dw = c dz the freedom is 3 of 4 coordinates, with 2 velocities."""
     c = nonzero(rng)
     weight = positive(rng, ["x", "y"])
     text = f"{weight}*(xdot - y*zdot)^2 + {rng.randint(1, 5)}*(wdot - ({c})*zdot)^2 = 0"
-    return Case(plain("x y z w", [text]), truths(3, 2, scleronomic=True))
+    return KnownScene(scene_of("x y z w", text), truths(3, 2, scleronomic=True))
 
 
-def isolated_points(rng: random.Random, size: int) -> Case:
+def isolated_points(rng: random.Random, size: int) -> KnownScene:
     """y^2 = x^2 (x - a) with a > 0: a curve for x >= a, and the point (0, 0) by itself. With no reference the curve
     counts; with the reference at the origin nothing moves."""
     a, k = rng.randint(1, 5), rng.choice((2, 4))
     there = rng.random() < 0.5
-    scene = plain("x y", [f"y^2 = x^{k}*(x - {a})"], configuration=at({"x": 0, "y": 0}) if there else None)
-    return Case(scene, truths(0 if there else 1), {} if there else {"dof": [0], "velocity_dof": [0]})
+    scene = scene_of("x y", f"y^2 = x^{k}*(x - {a})", configuration=at({"x": 0, "y": 0}) if there else None)
+    return KnownScene(scene, truths(0 if there else 1), {} if there else {"dof": [0], "velocity_dof": [0]})
 
 
-def handles(rng: random.Random, size: int) -> Case:
+def handles(rng: random.Random, size: int) -> KnownScene:
     """Whitney's umbrella x^2 = y^2 z: a surface, and for z < 0 the line x = y = 0 alone. Where the reference is there,
     the freedom is 1; dw = x du is dw = 0 there."""
     k, formed = rng.choice((2, 4, 6)), rng.random() < 0.5
@@ -83,7 +84,7 @@ def handles(rng: random.Random, size: int) -> Case:
     values |= {"w": 0, "u": 0} if formed else {}
     chart = {"x": "0", "y": "0", "z": "-1 - p0", **({"w": "0", "u": "p1"} if formed else {})}
     known = truths(1 + formed, holonomic=True)
-    return Case(plain([*values], relations, configuration=at(values)), known, chart=chart)
+    return KnownScene(scene_of([*values], *relations, configuration=at(values)), known, chart=chart)
 
 
 FAMILY = {

@@ -6,8 +6,9 @@ import random
 from collections.abc import Callable
 from fractions import Fraction
 
-from .case import Case, at, plain, truths
-from .draws import names, nonzero, positive, simple_zero
+from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
+
+from .draws import at, names, nonzero, positive, simple_zero
 
 Point = tuple[Fraction, Fraction]
 
@@ -19,7 +20,7 @@ def _ladder(rng: random.Random, k: int, rational: bool) -> tuple[int, str, list[
     return a, s, [f"y = {s}*u", *(f"{s}*{v[i + 1]} = y*({c[i]})*{v[i]}" for i in range(k))], c
 
 
-def on_the_larger(rng: random.Random, size: int) -> Case:
+def on_the_larger(rng: random.Random, size: int) -> KnownScene:
     """The reference has s(x) = y = 0 and v_1 other than c_1 u^2, so it is not on the closure of the graph off s = 0:
     dy - s' u dx and s' v_1 dx - c_1 u dy are independent there, and all other rows lie in their span. x and y are
     fixed, u, v_1, ..., v_k free. A form dz = s(x) w dq says dz = 0 there: holonomic, with q and w free."""
@@ -34,10 +35,10 @@ def on_the_larger(rng: random.Random, size: int) -> Case:
     known = truths(dof, instantaneous_dof=dof, singular=False, holonomic=True)
     chart = {"x": str(a), "y": "0", **({"z": "2"} if formed else {})}
     chart |= {name: f"p{i}" for i, name in enumerate(["u", *v, *(["w", "q"] if formed else [])])}
-    return Case(plain([*values], [*relations, *forms], configuration=at(values)), known, chart=chart)
+    return KnownScene(scene_of([*values], *relations, *forms, configuration=at(values)), known, chart=chart)
 
 
-def on_the_smaller(rng: random.Random, size: int) -> Case:
+def on_the_smaller(rng: random.Random, size: int) -> KnownScene:
     """The reference has s(x) not 0: there v_i = c_1 ... c_i u^(i+1), the graph over (x, u), of dimension 2,
     whatever the part s = 0 is like. A form dz = s(x) dq is non-holonomic there: 4 coordinates, 3 velocities."""
     k, formed = rng.randint(2, 2 + 2 * size), rng.random() < 0.6
@@ -53,7 +54,7 @@ def on_the_smaller(rng: random.Random, size: int) -> Case:
     chart = {"x": "p0", "u": "p1", "y": f"{s}*u"}
     chart |= {f"v{i + 1}": f"({c[i]})*u*{f'v{i}' if i else 'u'}" for i in range(k)}
     chart |= {"z": "p2", "q": "p3"} if formed else {}
-    return Case(plain([*values], [*relations, *forms], configuration=at(values)), known, chart=chart)
+    return KnownScene(scene_of([*values], *relations, *forms, configuration=at(values)), known, chart=chart)
 
 
 def _value(s: str, x: int) -> Fraction:
@@ -83,7 +84,7 @@ CROSSED = (
 )
 
 
-def crossed(rng: random.Random, size: int) -> Case:
+def crossed(rng: random.Random, size: int) -> KnownScene:
     """On the branch y = x the form dz = (x - y)^m w dx says dz = 0: holonomic, dof 2. On the other, which y = x meets
     elsewhere, x - y is not constant: with w a coordinate it is non-holonomic, 3 coordinates and 2 velocities."""
     relation, other = rng.choice(CROSSED)
@@ -94,7 +95,7 @@ def crossed(rng: random.Random, size: int) -> Case:
     known = truths(2, holonomic=True) if first else truths(3, 2, holonomic=False)
     chart = {"x": "p0", "y": "x" if first else other, "w": "p1", "z": "5" if first else "p2"}
     more = {"instantaneous_dof": 2, "singular": False}
-    return Case(plain("x y z w", [relation, form], configuration=at(values)), {**known, **more}, chart=chart)
+    return KnownScene(scene_of("x y z w", relation, form, configuration=at(values)), {**known, **more}, chart=chart)
 
 
 def _branch(text: str, x: Fraction) -> Fraction:
@@ -108,7 +109,7 @@ def _reflected(p: Point, a: Point, b: Point) -> Point:
     return a[0] * 2 + s * ux - p[0], a[1] * 2 + s * uy - p[1]
 
 
-def parallelogram(rng: random.Random, size: int) -> Case:
+def parallelogram(rng: random.Random, size: int) -> KnownScene:
     """A four-bar with opposite sides equal, A = (0, 0), B = (g, 0), D on a circle of radius r about A, C on one
     about B, |CD| = g. On the parallelogram's branch C - D = B - A; on the antiparallelogram's C is that C reflected
     in BD, so AC and BD are parallel. The form dz = W du, W = (C - D - B + A)_x or the cross product of C and D - B,
@@ -131,10 +132,10 @@ def parallelogram(rng: random.Random, size: int) -> Case:
     values = {"px": d[0], "py": d[1], "cx": c[0], "cy": c[1], "z": Fraction(0), "u": Fraction(0)}
     known = truths(2, holonomic=True) if wanted else truths(3, 2, holonomic=False)
     more = {"instantaneous_dof": 2, "singular": False}
-    return Case(plain([*values], relations, configuration=at(values)), {**known, **more})
+    return KnownScene(scene_of([*values], *relations, configuration=at(values)), {**known, **more})
 
 
-def turned_cranks(rng: random.Random, size: int) -> Case:
+def turned_cranks(rng: random.Random, size: int) -> KnownScene:
     """The same with the cranks' angles: at a = b, away from a = b = 0 or pi, the set is a = b, and sin(a - b) and the
     like are 0 on it: dz = 0, dof 2, holonomic."""
     r, g = rng.choice(((1, 2), (2, 3), (3, 1), (5, 7)))
@@ -147,7 +148,7 @@ def turned_cranks(rng: random.Random, size: int) -> Case:
     values = {"a": angle, "b": angle, "z": Fraction(0), "u": Fraction(1)}
     known = truths(2, holonomic=True, instantaneous_dof=2, singular=False)
     chart = {"a": "p0", "b": "p0", "z": "1", "u": "p1"}
-    return Case(plain("a b z u", [relation, form], configuration=at(values)), known, chart=chart)
+    return KnownScene(scene_of("a b z u", relation, form, configuration=at(values)), known, chart=chart)
 
 
 FAMILY = {

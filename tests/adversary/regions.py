@@ -5,8 +5,9 @@ from __future__ import annotations
 import random
 from fractions import Fraction
 
-from .case import IMPOSSIBLE, Case, at, plain, truths
-from .draws import nonzero, positive
+from dofkit.benchmark.trials.construction import IMPOSSIBLE, KnownScene, scene_of, truths
+
+from .draws import at, nonzero, positive
 
 #: Relations in x (and y) that hold on a region, or everywhere, with a point within it: none takes a freedom away.
 WITHIN = (
@@ -37,16 +38,18 @@ WITHIN = (
 )
 
 
-def empty_words(rng: random.Random, size: int) -> Case:
+def empty_words(rng: random.Random, size: int) -> KnownScene:
     """The relation holds on a region: dof is the number of coordinates, and none of its equations is independent."""
     text, place = rng.choice(WITHIN)
     known = truths(len(place), redundant_equations=1, **{"c1.independent": 0})
     reference = at(place) if rng.random() < 0.4 else None
     chart = {c: f"({value}) + p{k}/100" for k, (c, value) in enumerate(place.items())}
-    return Case(plain([*place], [text], configuration=reference), known, {"dof": [0, 1], "velocity_dof": [0, 1]}, chart)
+    return KnownScene(
+        scene_of([*place], text, configuration=reference), known, {"dof": [0, 1], "velocity_dof": [0, 1]}, chart
+    )
 
 
-def kinks(rng: random.Random, size: int) -> Case:
+def kinks(rng: random.Random, size: int) -> KnownScene:
     """sum w_i abs(x - a_i) = c with all w_i > 0 is convex and piecewise linear in x: it holds on an interval where
     c is the least value and that is taken on one, at points where c is the least value or more, nowhere where it is
     less."""
@@ -58,10 +61,10 @@ def kinks(rng: random.Random, size: int) -> Case:
     c = least + rng.choice((0, 0, 0, -1, 1, Fraction(1, 10**6)))
     left = " + ".join(f"{w}*abs(x - ({a}))" for w, a in zip(weights, places, strict=True))
     known = IMPOSSIBLE if c < least else truths(1 + (c == least and flat))
-    return Case(plain("x y", [f"{left} = {c}"]), known, {"dof": [1], "velocity_dof": [1]})
+    return KnownScene(scene_of("x y", f"{left} = {c}"), known, {"dof": [1], "velocity_dof": [1]})
 
 
-def repeated(rng: random.Random, size: int) -> Case:
+def repeated(rng: random.Random, size: int) -> KnownScene:
     """y = abs(x), and what follows from it: the second relation is redundant."""
     first, follows = rng.choice(
         (
@@ -72,11 +75,11 @@ def repeated(rng: random.Random, size: int) -> Case:
         )
     )
     known = truths(1, redundant=["c2"], redundant_equations=1)
-    scene = plain("x y", [first, rng.choice(follows)])
-    return Case(scene, known)
+    scene = scene_of("x y", first, rng.choice(follows))
+    return KnownScene(scene, known)
 
 
-def sided(rng: random.Random, size: int) -> Case:
+def sided(rng: random.Random, size: int) -> KnownScene:
     """dz = (abs(x) - x) y dw with the reference at x > 0: dz = 0 near it, dof 3, holonomic. At x < 0 it is dz = -2
     x y dw: non-holonomic, 4 and 3."""
     kink = rng.choice(("(abs(x) - x)", "(sqrt(x^2) - x)", "(sqrt(x^6) - x^3)", "(abs(x)*x - x^2)"))
@@ -86,16 +89,16 @@ def sided(rng: random.Random, size: int) -> Case:
     text = f"zdot = {kink}*y*{positive(rng, ['w', 'z'])}*wdot"
     known = truths(3, holonomic=True) if right else truths(4, 3, holonomic=False)
     more = {"instantaneous_dof": 3, "singular": False}
-    return Case(plain("x y z w", [text], configuration=at(values)), {**known, **more})
+    return KnownScene(scene_of("x y z w", text, configuration=at(values)), {**known, **more})
 
 
-def forced(rng: random.Random, size: int) -> Case:
+def forced(rng: random.Random, size: int) -> KnownScene:
     """x = P > 0, so abs(x) - x and its like are 0: dz = 0, holonomic, wherever one looks."""
     value = rng.choice(("1 + u^2", "exp(u)", "2 + sin(u)", "u^4 + u^2 + 1/10", "cosh(u)"))
     kink = rng.choice(("(abs(x) - x)", "(sqrt(x^2) - x)", "(log(x^2) - 2*log(x))", "(abs(x)^3 - x^3)"))
     chart = {"u": "p0", "x": value, "w": "p1", "y": "p2", "z": "1"}
-    scene = plain("u x y z w", [f"x = {value}", f"zdot = {kink}*y*wdot"])
-    return Case(scene, truths(3, holonomic=True), chart=chart)
+    scene = scene_of("u x y z w", f"x = {value}", f"zdot = {kink}*y*wdot")
+    return KnownScene(scene, truths(3, holonomic=True), chart=chart)
 
 
 FAMILY = {"empty-words": empty_words, "kinks": kinks, "repeated": repeated, "sided": sided, "forced": forced}

@@ -15,7 +15,6 @@ from typing import Any, Literal, NamedTuple
 import dofkit
 from dofkit.base.deadline import by_processor
 
-from .case import Scene
 from .certificates import Recheck, rechecked
 
 #: Seconds of processor time for one scene; past them it has a quarter more, and then is ended. Bytes of memory.
@@ -32,7 +31,7 @@ class Answer(NamedTuple):
     checked: Recheck = Recheck()
 
 
-def answered(scene: Scene, seconds: float = SECONDS, *, certificates: bool = False) -> Answer:
+def answered(scene: Mapping[str, Any], seconds: float = SECONDS, *, certificates: bool = False) -> Answer:
     """The report, from this process; its time is counted by the processor. ``certificates``: the checker's word too."""
     try:
         with by_processor(seconds):
@@ -46,7 +45,7 @@ def answered(scene: Scene, seconds: float = SECONDS, *, certificates: bool = Fal
         return Answer("failed", None, f"{type(error).__name__}: {error} ({Path(where.filename).stem}.{where.name})")
 
 
-def answered_apart(scene: Scene, seconds: float = SECONDS, *, certificates: bool = False) -> Answer:
+def answered_apart(scene: Mapping[str, Any], seconds: float = SECONDS, *, certificates: bool = False) -> Answer:
     """The report, from a process of its own, a copy of this one."""
     _warm()
     context = get_context("fork")
@@ -65,7 +64,7 @@ def answered_apart(scene: Scene, seconds: float = SECONDS, *, certificates: bool
 
 
 #: Scenes that have all that is imported late imported.
-_WARM: tuple[Scene, ...] = (
+_WARM: tuple[Mapping[str, Any], ...] = (
     {"coordinates": ["x", "y", "z"], "constraints": ["dz = sin(y)*dx", "x^2 + y^2 = 1"]},
     {"coordinates": ["x", "y"], "constraints": ["y = exp(x) + sqrt(2)", "x^3 + 2*x*y = 7"]},
     {"dimension": 2, "bodies": ["a"], "constraints": [{"type": "revolute", "between": ["ground", "a"], "at": [0, 0]}]},
@@ -80,7 +79,7 @@ def _warm() -> None:
         answered(scene, certificates=True)
 
 
-def _answer(scene: Scene, seconds: float, sender: Connection, certificates: bool) -> None:
+def _answer(scene: Mapping[str, Any], seconds: float, sender: Connection, certificates: bool) -> None:
     most = int(1.25 * seconds) + 2
     resource.setrlimit(resource.RLIMIT_CPU, (most, most + 5))
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))

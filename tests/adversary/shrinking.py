@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
 
-from .case import Scene
 from .trial import Trial, made
 
 #: Cases that are tried at most.
@@ -14,7 +14,7 @@ TRIES = 60
 SEEDS = 12
 
 
-def length(scene: Scene) -> int:
+def length(scene: Mapping[str, Any]) -> int:
     return len(json.dumps(scene, default=str))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from fractions import Fraction
 
-from .case import Case, plain, truths
+from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
 
 #: A function of x and t, minus its least value, and whether that is attained.
 LOWEST: tuple[tuple[str, Fraction, bool], ...] = (
@@ -23,7 +23,7 @@ LOWEST: tuple[tuple[str, Fraction, bool], ...] = (
 )
 
 
-def kept_factor(rng: random.Random, size: int) -> Case:
+def kept_factor(rng: random.Random, size: int) -> KnownScene:
     """(f(x, t) + c) (dx + y dz) = 0. Where f + c is positive it says dx + y dz = 0: scleronomic, non-holonomic.
     Where f + c has zeros, at which it changes its sign, time enters with them: rheonomic."""
     f, bound, attained = rng.choice(LOWEST)
@@ -33,14 +33,14 @@ def kept_factor(rng: random.Random, size: int) -> Case:
     if never and not attained and rng.random() < 0.3:
         c = bound
     text = f"({f} + {c})*(xdot + y*zdot) = 0" if rng.random() < 0.5 else f"({f} + {c})*dx + y*({f} + {c})*dz = 0"
-    scene = plain("x y z", [text])
+    scene = scene_of("x y z", text)
     if never:
         known = truths(3, 2, holonomic=False, scleronomic=True)
-        return Case(scene, known, chart={"x": "p0", "y": "p1", "z": "p2"})
-    return Case(scene, {"scleronomic": False})
+        return KnownScene(scene, known, chart={"x": "p0", "y": "p1", "z": "p2"})
+    return KnownScene(scene, {"scleronomic": False})
 
 
-def homogeneous(rng: random.Random, size: int) -> Case:
+def homogeneous(rng: random.Random, size: int) -> KnownScene:
     """Homogeneous in the velocities, of any degree, and free of t: time does not enter. The cones a^k + b^k = c^k and
     sqrt(a^2 + b^2) = c, k odd or 2, have velocities of dimension 2 that span all three: non-holonomic."""
     k = rng.choice((3, 5, 7, 9, 11, 13))
@@ -54,10 +54,10 @@ def homogeneous(rng: random.Random, size: int) -> Case:
             f"(xdot^2 + ydot^2)^{k} = zdot^{2 * k}",
         )
     )
-    return Case(plain("x y z", [text]), truths(3, 2, holonomic=False, scleronomic=True))
+    return KnownScene(scene_of("x y z", text), truths(3, 2, holonomic=False, scleronomic=True))
 
 
-def inhomogeneous(rng: random.Random, size: int) -> Case:
+def inhomogeneous(rng: random.Random, size: int) -> KnownScene:
     """Terms of different degrees in the velocities, without t: scleronomic. The velocities form a surface that is not
     flat: non-holonomic."""
     k = rng.choice((2, 3, 4, 5, 7))
@@ -69,10 +69,10 @@ def inhomogeneous(rng: random.Random, size: int) -> Case:
             "xdot^2 + ydot^2 = zdot",
         )
     )
-    return Case(plain("x y z", [text]), truths(3, 2, holonomic=False, scleronomic=True))
+    return KnownScene(scene_of("x y z", text), truths(3, 2, holonomic=False, scleronomic=True))
 
 
-def cancelled(rng: random.Random, size: int) -> Case:
+def cancelled(rng: random.Random, size: int) -> KnownScene:
     """Time that is written and does not enter."""
     one = rng.choice(
         (
@@ -92,7 +92,7 @@ def cancelled(rng: random.Random, size: int) -> Case:
     else:
         text, known = f"{factor}*(x^2*{one} - y) = 0", truths(2, holonomic=True, scleronomic=True)
         chart = {"x": "p0", "z": "p1", "y": "x^2"}
-    return Case(plain("x y z", [text]), known, chart=chart)
+    return KnownScene(scene_of("x y z", text), known, chart=chart)
 
 
 FAMILY = {

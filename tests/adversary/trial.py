@@ -5,7 +5,8 @@ from __future__ import annotations
 import random
 from typing import NamedTuple
 
-from .case import Case
+from dofkit.benchmark.trials.construction import KnownScene
+
 from .disguises import DISGUISES
 from .registry import KINDS, drawn
 
@@ -25,7 +26,7 @@ class Trial(NamedTuple):
 LARGEST = 4
 
 
-def made(trial: Trial) -> Case:
+def made(trial: Trial) -> KnownScene:
     """The case of a trial; a disguise that does not fit it is left out."""
     case = drawn(trial.kind, trial.seed, trial.size)
     for name, seed in trial.disguises:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import random
 
-from .case import Case, plain, truths
+from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
+
 from .draws import names, positive
 
 
-def followed(rng: random.Random, size: int) -> Case:
+def followed(rng: random.Random, size: int) -> KnownScene:
     """x = 0, y_i = 0 and dx = sum y_i w_i dz_i, w_i never 0: the form says nothing new, and it takes all of the
     relations, since without one a dz_i is left, or dx. The z_i are free: nothing integrates."""
     k = 1 + rng.randint(0, size)
@@ -22,10 +23,10 @@ def followed(rng: random.Random, size: int) -> Case:
     known = truths(k, redundant=[last], redundant_equations=1, holonomic=True)
     more = {f"{last}.circuit": [f"c{i + 1}" for i in range(k + 1)], f"{last}.integral": None, f"{last}.holonomic": True}
     chart = {"x": "0"} | dict.fromkeys(y, "0") | {name: f"p{i}" for i, name in enumerate(z)}
-    return Case(plain(["x", *y, *z], [*relations, form]), {**known, **more}, chart=chart)
+    return KnownScene(scene_of(["x", *y, *z], *relations, form), {**known, **more}, chart=chart)
 
 
-def on_a_curve(rng: random.Random, size: int) -> Case:
+def on_a_curve(rng: random.Random, size: int) -> KnownScene:
     """The same where x = P(u) and s = Q(u): dx - P' du = (s - Q)^m w dz; the circuit is both relations."""
     m = rng.randint(1, 1 + size)
     p, slope = rng.choice((("u^2", "2*u"), ("sin(u)", "cos(u)"), ("exp(u)", "exp(u)"), ("u^3 + u", "(3*u^2 + 1)")))
@@ -34,20 +35,20 @@ def on_a_curve(rng: random.Random, size: int) -> Case:
     known = truths(2, redundant=["c3"], redundant_equations=1, holonomic=True)
     more = {"c3.circuit": ["c1", "c2"], "c3.integral": None}
     chart = {"u": "p0", "z": "p1", "x": p, "s": q}
-    return Case(plain("u x s z", [f"x = {p}", f"s = {q}", form]), {**known, **more}, chart=chart)
+    return KnownScene(scene_of("u x s z", f"x = {p}", f"s = {q}", form), {**known, **more}, chart=chart)
 
 
-def halved(rng: random.Random, size: int) -> Case:
+def halved(rng: random.Random, size: int) -> KnownScene:
     """y = 0 and dx = y w dz + dv: the form is d(x - v) on the set, new and holonomic."""
     w = positive(rng, ["z", "v"])
     y, m = (
         rng.choice((("y", "0"), ("(y - v^2)", "v^2"), ("(y - sin(v))", "sin(v)"), ("(y*(y^2 + 1))", "0"))),
         rng.randint(1, 1 + size),
     )
-    scene = plain("x y z v", [f"{y[0]} = 0", f"dx = {y[0]}^{m}*{w}*dz + dv"])
+    scene = scene_of("x y z v", f"{y[0]} = 0", f"dx = {y[0]}^{m}*{w}*dz + dv")
     known = truths(2, redundant=[], redundant_equations=0, holonomic=True, **{"c2.holonomic": True})
     chart = {"v": "p0", "z": "p1", "x": "v + 3", "y": y[1]}
-    return Case(scene, known, chart=chart)
+    return KnownScene(scene, known, chart=chart)
 
 
 FAMILY = {"followed": followed, "on-a-curve": on_a_curve, "halved": halved}

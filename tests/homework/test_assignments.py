@@ -28,7 +28,7 @@ BAD: list[tuple[str, list[str]]] = [
         "  questions: [{id: f, ask: dof, points: -1}, {id: g, ask: doff}, {ask: k}, 3, {id: h, ask: k, pionts: 3}]",
         [
             "5:41 points are not negative, as -1 is",
-            "5:59 'doff' cannot be asked",
+            "5:59 there is no question 'doff'",
             "5:66 a question that asks for 'k' needs 'id'",
             "5:76 a question is a mapping with `id` and `ask`",
             "5:95 unknown key 'pionts' in a question that asks for 'k'",
@@ -40,7 +40,7 @@ BAD: list[tuple[str, list[str]]] = [
         "  - {id: i, ask: label, constraint: c1}",
         [
             "6:40 the scene has no constraint 'c2'",
-            "7:40 'c1' is not differential",
+            "7:40 'c1' is not a differential constraint",
             "8:10 the question 'i' is given twice",
         ],
     ),

@@ -103,8 +103,8 @@ def test_gradescope(sheet: Path, tmp_path: Path) -> None:
     found = written(root, "gradescope")
     assert found["score"] == 6.0
     assert found["extra_data"]["student"] == "ada@uni.example"
-    assert "ada@uni.example's, and names 'somebody else'" in found["extra_data"]["doubt"]
-    assert found["output"].startswith("This is not final, for it was handed in as ada@uni.example's")
+    assert "ada@uni.example's, but names 'somebody else'" in found["extra_data"]["doubt"]
+    assert found["output"].startswith("This result is not final: it was submitted as ada@uni.example's")
     assert [(t["number"], t["score"], t["max_score"], t["status"]) for t in found["tests"]] == [
         ("1.1", 2.0, 2.0, "passed"),
         ("1.2", 4.0, 8.0, "failed"),
@@ -169,7 +169,7 @@ def test_when_points_are_shown(line: str, expected: str, sheet: Path, tmp_path: 
     outputs = {test["name"]: test["output"] for test in read}
     assert outputs["pendulum.f: how it was read"] == "Read as: 1"
     assert outputs["pendulum.rod: how it was read"].startswith("Could not be read (column ")
-    assert outputs["disc.f: how it was read"] == "There is no answer."
+    assert outputs["disc.f: how it was read"] == "No answer was given."
     assert "point" not in found["output"].lower()
 
 
@@ -260,8 +260,8 @@ def other(folder: Path) -> None:
     ("make", "why"),
     [
         (two, "there is more than one file: a.json, b.json"),
-        (several, "holds 2 submissions, not one"),
-        (rows, "holds 2 submissions, not one"),
+        (several, "contains 2 submissions, not one"),
+        (rows, "contains 2 submissions, not one"),
         (link, "there is no file with answers"),
         (broken, "line 1"),
         (empty, "there is no file with answers"),
@@ -367,10 +367,10 @@ def test_an_autograder_that_fails_leaves_a_result(more: dict[str, str], sheet: P
     done = run(root, **more)
     assert "needs a review" in done.stdout
     found = written(root, "gradescope")
-    assert found["output"].startswith("So far 0 of 10.5 points are given, which is not final: 3 answers worth 10.5")
+    assert found["output"].startswith("Points so far: 0 of 10.5. This is not final")
     assert [test["name"] for test in found["tests"]] == ["pendulum.f", "pendulum.rod", "disc.f"]
     assert all(not {"score", "status"} & set(test) for test in found["tests"])
-    assert all("cut short" in test["output"] for test in found["tests"])
+    assert all("grading was interrupted" in test["output"] for test in found["tests"])
 
 
 def test_the_zip(sheet: Path, tmp_path: Path) -> None:
@@ -468,9 +468,9 @@ def test_an_open_answer_in_a_notebook(sheet: Path, monkeypatch: pytest.MonkeyPat
     for _, question in prepared.questions():
         monkeypatch.setattr(type(question), "judge", undecided_judge)
     assert points(prepared, "pendulum", "rod", "x = 1") == 4.0
-    assert "until a person has looked" in capsys.readouterr().out
+    assert "until a person has reviewed it" in capsys.readouterr().out
     otter.check(prepared, {"pendulum": {"rod": "x = 1"}}, "pendulum", "rod", 1, 2)
-    with pytest.raises(AssertionError, match="will be looked at: the test says so"):
+    with pytest.raises(AssertionError, match="A person will review this answer: the test says so"):
         otter.check(prepared, {"pendulum": {"rod": "x = 1"}}, "pendulum", "rod", 2, 2)
 
 
@@ -559,12 +559,12 @@ def test_what_students_get_has_no_key(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("answer", "readable", "told"),
     [
-        ("f = 3 - 2 = 1", True, "pendulum.f is read as: 1"),
-        ("7", True, "pendulum.f is read as: 7"),
-        ("$$((", False, "pendulum.f: Could not be read (column "),
-        (..., False, "pendulum.f: there is no answer."),
-        (None, False, "pendulum.f: there is no answer."),
-        (1, True, "pendulum.f is read as: 1"),
+        ("f = 3 - 2 = 1", True, "pendulum.f: Read as: 1"),
+        ("7", True, "pendulum.f: Read as: 7"),
+        ("$$((", False, "pendulum.f: Not readable (column "),
+        (..., False, "pendulum.f: No answer was given."),
+        (None, False, "pendulum.f: No answer was given."),
+        (1, True, "pendulum.f: Read as: 1"),
     ],
 )
 def test_the_public_test_says_how_an_answer_is_read(
@@ -614,10 +614,10 @@ def test_what_counts_by_a_stand_in_is_listed(
     printed = capsys.readouterr().out
     assert "=1+$$\n" in printed
     assert "^" in printed
-    assert "hand in again" in printed
+    assert "submit again" in printed
     assert [row[:5] for row in listed(table)] == [["pendulum", "f", "unreadable", "0", "2"]]
     assert listed(table)[0][5] == "'=1+$$"
-    with pytest.raises(AssertionError, match="Could not be read"):
+    with pytest.raises(AssertionError, match="Not readable"):
         otter.check(sheet, {"pendulum": {"rod": "x_A = ("}}, "pendulum", "rod", 1, 2)
     assert [row[1] for row in listed(table)] == ["f", "rod"]
     assert points(sheet, "pendulum", "f", 1) == 2.0
@@ -672,7 +672,7 @@ def test_parts_of_questions() -> None:
     scene = {"dimension": 2, "particles": ["A"], "constraints": [rod]}
     prepared = load_assignment({"title": "x", "problems": [{"id": "p", "scene": scene, "questions": asked}]})
     assert [otter.parts_of(question) for _, question in prepared.questions()] == [6, 2, 2]
-    assert standing(undecided(prepared, "a", "b")).startswith("So far 0 of 3")
+    assert standing(undecided(prepared, "a", "b")).startswith("Points so far: 0 of 3")
 
 
 PYTHONS = {version: shutil.which(f"python{version}") for version in export.PYTHONS}

@@ -96,12 +96,12 @@ def test_gradescope(prepared: Prepared) -> None:
         "tests": [
             {
                 "name": "p.f", "number": "1.1", "score": 2.0, "max_score": 2.0, "status": "passed",
-                "output": "Right.\nRead as: 1", "output_format": "text", "tags": [], "visibility": "visible",
+                "output": "Correct.\nRead as: 1", "output_format": "text", "tags": [], "visibility": "visible",
                 "extra_data": {"status": "right", "max_score": 2.0},
             },
             {
                 "name": "p.rod", "number": "1.2", "score": 4.0, "max_score": 8.0, "status": "failed",
-                "output": "Partly right.\nRead as: x = 0\nIt is a square.", "output_format": "text",
+                "output": "Partly correct.\nRead as: x = 0\nIt is a square.", "output_format": "text",
                 "tags": ["IRREGULAR"], "visibility": "visible",
                 "extra_data": {"status": "partly", "max_score": 8.0},
             },
@@ -112,7 +112,7 @@ def test_gradescope(prepared: Prepared) -> None:
 def test_gradescope_leaves_open_answers_without_points(prepared: Prepared) -> None:
     found = document("gradescope", prepared, result("ada", RIGHT, OPEN))
     assert found["score"] == 2.0
-    assert found["output"].startswith("So far 2 of 10 points are given, which is not final: 1 answer worth 8 points")
+    assert found["output"].startswith("Points so far: 2 of 10. This is not final")
     assert found["extra_data"]["open_points"] == 8.0
     assert not {"score", "max_score", "status"} & set(found["tests"][1])
     assert "The time was not enough." in found["tests"][1]["output"]
@@ -133,9 +133,9 @@ def test_prairielearn(prepared: Prepared) -> None:
         "message": "Points: 6 of 10.",
         "tests": [
             {"name": "p.f", "description": "Read as: 1", "points": 2.0, "max_points": 2.0,
-             "message": "Right.\nRead as: 1", "output": ""},
+             "message": "Correct.\nRead as: 1", "output": ""},
             {"name": "p.rod", "description": "Read as: x = 0", "points": 4.0, "max_points": 8.0,
-             "message": "Partly right.\nRead as: x = 0\nIt is a square.", "output": ""},
+             "message": "Partly correct.\nRead as: x = 0\nIt is a square.", "output": ""},
         ],
     }  # fmt: skip
 
@@ -151,7 +151,7 @@ def test_prairielearn_takes_no_attempt(second: Item, error: str, prepared: Prepa
     assert found["format_errors"] == [error]
     assert found["tests"] == []
     assert "2" not in found["message"]
-    assert found["message"].startswith("This was not graded and cost no attempt.")
+    assert found["message"].startswith("This submission was not graded and did not use an attempt.")
 
 
 def test_prairielearn_takes_no_attempt_for_a_refused_submission(prepared: Prepared) -> None:
@@ -173,12 +173,12 @@ def test_prairielearn_stays_below_a_megabyte(status: Status, prepared: Prepared)
     ("items", "share", "start"),
     [
         ((RIGHT, PARTLY), 0.6, "Points: 6 of 10."),
-        ((RIGHT, OPEN), 0.6, "Provisional: 4 points stand in for answers worth 8 that could not be decided."),
-        ((OPEN,), 0.4, "Provisional: "),
+        ((RIGHT, OPEN), 0.6, "This score is provisional: it includes half of the points (4 of 8)"),
+        ((OPEN,), 0.4, "This score is provisional: "),
         (
             (RIGHT, UNREADABLE),
             0.2,
-            "Answers worth 8 points could not be read. Write them in another way, and hand in again.",
+            "Some answers could not be read (points: 8). Write them differently and submit again.",
         ),
         ((), 0.0, "Points: 0 of 10."),
     ],
@@ -360,12 +360,14 @@ def test_a_students_page(prepared: Prepared, tmp_path: Path) -> None:
     found = pages(prepared, tmp_path, [result("ada", RIGHT, OPEN, unasked), result("bob", RIGHT, PARTLY)])
     ada, bob = (" ".join(found[f"students/{name}.html"].shown.split()) for name in ("ada", "bob"))
     assert "Points so far 2 / 10" in ada
-    assert "Not final. 1 answer worth 8 points could not be decided automatically." in ada
-    assert "rod the equation of one constraint, or the equations of several (rod) – / 8 … in review" in ada
+    assert (
+        "This is not final. A person will review the answers that could not be graded automatically (points: 8)." in ada
+    )
+    assert "rod Which equation or equations express the constraint rod? – / 8 … awaiting review" in ada
     assert "questions that were not asked g" in ada
     assert "Points 6 / 10" in bob
-    assert "f the degrees of freedom 2 / 2 ✓ right Read as 1" in bob
-    assert "4 / 8 ◐ partly right Read as x = 0 It is a square." in bob
+    assert "f How many degrees of freedom does the system have? 2 / 2 ✓ correct Read as 1" in bob
+    assert "4 / 8 ◐ partly correct Read as x = 0 It is a square." in bob
     assert "IRREGULAR" not in bob
     assert "Not final" not in bob
 
@@ -376,12 +378,10 @@ def test_the_overview(prepared: Prepared, tmp_path: Path) -> None:
              result("d", RIGHT, OPEN), REFUSED]  # fmt: skip
     shown = " ".join(pages(prepared, tmp_path, given)["index.html"].shown.split())
     assert "5 submissions 3.33 mean of 10 points 4 median 1 answer to review 1 not gradable" in shown
-    assert "3 submissions by points; 1 with answers in review is not counted" in shown
-    assert "p.f the degrees of freedom 1 / 2 ✓ 2 right ✗ 2 wrong" in shown
-    assert "(rod) 2.67 / 8 ◐ 2 partly right ? 1 not readable … 1 in review" in shown
-    assert (
-        "2 The same set of configurations, but written so that its differential vanishes there (squared). IRR" in shown
-    )
+    assert "3 submissions by points. 1 with answers awaiting review is not included" in shown
+    assert "p.f the number of degrees of freedom 1 / 2 ✓ 2 correct ✗ 2 incorrect" in shown
+    assert "(rod) 2.67 / 8 ◐ 2 partly correct ? 1 not readable … 1 awaiting review" in shown
+    assert "2 The same set of configurations, but the gradient vanishes on it, as for a squared equation. IRR" in shown
     assert "p.rod 8 points The time was not enough. d Points" in shown
 
 
@@ -389,9 +389,11 @@ def test_whose_it_is_stands_on_the_pages(prepared: Prepared, tmp_path: Path) -> 
     given = [result("ada", RIGHT), result("bob", RIGHT).model_copy(update={"doubt": f"it names {MARKUP}"})]
     found = pages(prepared, tmp_path, given)
     shown = " ".join(found["index.html"].shown.split())
-    assert f"Submissions of which a person has to say whose they are Student Why bob it names {MARKUP}" in shown
+    assert f"Submissions whose student is uncertain Student Why bob it names {MARKUP}" in shown
     assert "1 submission by points" in shown
-    assert f"It is not certain whose this is. it names {MARKUP}" in " ".join(found["students/bob.html"].shown.split())
+    assert f"It is not certain whose submission this is. it names {MARKUP}" in " ".join(
+        found["students/bob.html"].shown.split()
+    )
     assert "whose" not in found["students/ada.html"].shown
 
 

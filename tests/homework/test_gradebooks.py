@@ -74,7 +74,7 @@ def test_canvas_without_a_roster(prepared: Prepared, tmp_path: Path) -> None:
     assert found == [HEADER, ["Points Possible", "", "", "", "", "10"], ["ada", "", "", "ada", "", "2"]]
     assert apart == [
         ["student", "points so far", "of", "open points", "why"],
-        ["bob", "2", "10", "8", "it is not final: 8 points are open"],
+        ["bob", "2", "10", "8", "it is not final: 8 points are undecided"],
         ["ada", "", "10", "0", "it could not be graded: line 3: <b>no</b> JSON"],
     ]
 
@@ -92,8 +92,8 @@ def test_canvas_by_its_own_gradebook(prepared: Prepared, tmp_path: Path) -> None
         ["103", "103", "S3", "eve", "M2", "0"],
     ]
     assert [(row[0], row[-1]) for row in apart[1:]] == [
-        ("mallory", "they are not in the roster"),
-        ("S1", "they have a row already"),
+        ("mallory", "the student is not in the roster"),
+        ("S1", "the student already has a row"),
     ]
 
 
@@ -116,7 +116,7 @@ def test_moodle_without_a_roster(prepared: Prepared, tmp_path: Path) -> None:
     found, apart = tables("moodle", prepared, tmp_path, *given)
     assert found == [
         ["useremail", "Sheet 1", "Sheet 1 (feedback)"],
-        ["ada@uni.example", "2", "Points: 2 of 10.\n\np.f: 2 of 2. Right.\nRead as: 1"],
+        ["ada@uni.example", "2", "Points: 2 of 10.\n\np.f: 2 of 2. Correct.\nRead as: 1"],
     ]
     assert [row[0] for row in apart[1:]] == ["S2", "0", "b@uni.example"]
     found, apart = tables("moodle", prepared, tmp_path, result("S2"), result("0"), REFUSED)
@@ -150,7 +150,7 @@ def test_what_is_doubtful_is_listed_apart(name: str, prepared: Prepared, tmp_pat
     found, apart = tables(name, prepared, tmp_path, *given, known=roster(CANVAS, tmp_path))
     assert [row[-1] for row in found[2:]] == (["1"] if name == "canvas" else [])
     assert [row[-1] for row in apart[1:]] == ["it names 'bob'"]
-    assert standing(given[0]).startswith("This is not final, for it names 'bob'.\nPoints: 2 of 10.")
+    assert standing(given[0]).startswith("This result is not final: it names 'bob'.\nPoints: 2 of 10.")
 
 
 HOSTILE = [
@@ -177,7 +177,7 @@ def test_without_a_path_they_are_told_on_standard_error(prepared: Prepared, caps
     stream = io.StringIO()
     FORMATS["canvas"].write(iter([result("bob", open_points=8)]), prepared, stream)
     assert "bob" not in stream.getvalue()
-    assert capsys.readouterr().err == "not in the table: bob: it is not final: 8 points are open\n"
+    assert capsys.readouterr().err == "not in the table: bob: it is not final: 8 points are undecided\n"
 
 
 # rosters
@@ -204,10 +204,10 @@ def test_headers_of_rosters(text: str, student: str, tmp_path: Path) -> None:
     ("text", "why"),
     [
         ("", "is empty"),
-        ("points,grade\n1,2\n", "tells nobody apart: its header is points, grade"),
-        ("name,email\nAda,a@x\nBob,A@X\n", "line 3: 'A@X' stands in line 2 too"),
-        ("name\nAda\nada\n", "line 3: 'ada' stands in line 2 too"),
-        ("name,email\nAda,\nAda,\n", "line 3: 'Ada' stands in line 2 too"),
+        ("points,grade\n1,2\n", "does not identify anyone: its header is points, grade"),
+        ("name,email\nAda,a@x\nBob,A@X\n", "line 3: 'A@X' also occurs in line 2"),
+        ("name\nAda\nada\n", "line 3: 'ada' also occurs in line 2"),
+        ("name,email\nAda,\nAda,\n", "line 3: 'Ada' also occurs in line 2"),
     ],
 )
 def test_rosters_that_cannot_be_used(text: str, why: str, tmp_path: Path) -> None:
@@ -256,7 +256,7 @@ def test_whose_it_is_at_a_platform() -> None:
     ada = Participant("ada@x", name="Ada Lovelace", email="ada@x", other="7")
     assert [by_platform([ada], name) for name in ("", "Ada", "ADA@x", "7", "Lovelace, Ada")] == [None] * 5
     assert by_platform([], "bob") is None
-    assert "ada@x's, and names 'bob'" in str(by_platform([ada], "bob"))
+    assert "ada@x's, but names 'bob'" in str(by_platform([ada], "bob"))
 
 
 def test_canvas_numbers_its_files_by_its_own_ids(tmp_path: Path) -> None:

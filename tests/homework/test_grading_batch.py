@@ -83,13 +83,13 @@ TABLES: dict[str, tuple[str | bytes, Any]] = {
     ),
     "an open quote loses nobody": (
         'student,p.f\nana,"1\nbo,2\ncy,3\n',
-        [("ana", ", line 2: a quote is never closed"), ("bo", {"p": {"f": "2"}}), ("cy", {"p": {"f": "3"}})],
+        [("ana", ", line 2: a quotation mark is never closed"), ("bo", {"p": {"f": "2"}}), ("cy", {"p": {"f": "3"}})],
     ),
     "two open quotes": (
         'student,p.f\nana,"1\nbo,"2\ncy,3\n',
         [
             ("ana", ", line 2: a quote stands inside a cell"),
-            ("bo", ", line 3: a quote is never closed"),
+            ("bo", ", line 3: a quotation mark is never closed"),
             ("cy", {"p": {"f": "3"}}),
         ],
     ),
@@ -101,7 +101,7 @@ TABLES: dict[str, tuple[str | bytes, Any]] = {
         "student,p.f,p.f\nana,1,2\nbo,1,2\n",
         [(name, f", line {n}: the header (line 1) has the column 'p.f' twice") for n, name in ((2, "ana"), (3, "bo"))],
     ),
-    "no name": ("student,p.f\n,1\n", [("", ", line 2: the row names no student")]),
+    "no name": ("student,p.f\n,1\n", [("", ", line 2: the row has no student")]),
     "unknown columns": ("student,p.f,email\nana,1,a@b\n", [("ana", {"p": {"f": "1"}, "email": {"": "a@b"}})]),
     "no question": (
         "student,p1\nana,1\nbo,2\n",
@@ -161,7 +161,7 @@ DOCUMENTS = {
     "answers: {p.f: 1, p: {g: 2}}": [("s", {"p": {"f": 1, "g": 2}})],
     "p: {f: 1}\nname: ana": [("s", ", line 1, column 1: unknown key 'p': there are 'student' and 'answers'")],
     "": [("s", f", line 1, column 1: the file is empty {SHAPE}")],
-    "[]": [("s", f": there is no submission in it {SHAPE}")],
+    "[]": [("s", f": it contains no submission {SHAPE}")],
     "3": [("s", f": a submission is a mapping with 'student' and 'answers' {SHAPE}")],
 }
 
@@ -244,7 +244,7 @@ def test_a_result_for_everyone_in_order(assignment: str, tmp_path: Path, capsys:
     assert [item["status"] for item in told[0]["items"]] == ["right", "missing", "right"]
     assert [item["status"] for item in told[1]["items"]] == ["wrong", "unreadable", "missing", "unreadable"]
     assert "There is no question 'zz'" in told[1]["items"][3]["feedback"]
-    second = f"{table}, line 4: 'ana' has handed in before, at {table}, line 2: only the first is graded"
+    second = f"{table}, line 4: 'ana' already submitted in {table}, line 2: only the first is graded"
     assert told[2]["error"] == second
     assert told[3]["error"] == f"{table}, line 5: the row has 2 cells, the header 5"
 
@@ -274,7 +274,7 @@ def test_a_roster_says_whose_a_submission_is(
         ("ada@x", True, 2.0), ("bob@x", False, 2.0), ("eve@x", True, 2.0), ("zoe", True, 2.0),
     ]  # fmt: skip
     assert status == 0
-    assert "bob.yaml: it was handed in as bob@x's, and names 'Ada Lovelace'" in told[1]["doubt"]
+    assert "bob.yaml: it was submitted as bob@x's, but names 'Ada Lovelace'" in told[1]["doubt"]
     out = tmp_path / "grades.csv"
     assert lines_of(capsys, *command, "--format", "moodle", "--out", str(out))[0] == 0
     table = [line.split(",")[:2] for line in out.read_text().splitlines()]
@@ -651,11 +651,11 @@ def test_what_is_doubtful_is_told_on_standard_error(
     )
     status, (told,), err = lines_of(capsys, *given)
     assert (status, told["student"]) == (0, "Ada")
-    assert err == "a person has to say whose they are: 1 of the submissions have a 'doubt'\n"
+    assert err == "1 of the submissions have a 'doubt': a person has to decide whose they are\n"
     (tmp_path / "roster.csv").write_text("grade\n1\n")
     status, told, err = lines_of(capsys, *given)
     assert (status, told) == (2, [])
-    assert "tells nobody apart" in err
+    assert "does not identify anyone" in err
 
 
 def _breaks(*_: object, **__: object) -> Any:
@@ -691,4 +691,4 @@ def test_what_fails_outside_an_answer_is_the_error_of_that_submission(monkeypatc
     monkeypatch.setattr(Grader, "_decision", lambda self, *a: _breaks() if a[2] == "7" else whole(self, *a))
     results = [grader.grade(of_value({"student": n, "answers": {"p": {"f": n}}}, n)) for n in ("1", "7", "1")]
     assert [r.error is None for r in results] == [True, False, True]
-    assert (results[1].student, results[1].error) == ("7", "dofkit failed on this submission (KeyError)")
+    assert (results[1].student, results[1].error) == ("7", "an internal error occurred (KeyError)")

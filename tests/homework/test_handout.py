@@ -67,11 +67,11 @@ def test_other_names_are_read_in_every_kind_of_question() -> None:
 @pytest.mark.parametrize(
     ("more", "told"),
     [
-        ({"names": {"x_A": "y_A"}}, "'y_A' means something already"),
+        ({"names": {"x_A": "y_A"}}, "'y_A' already has a meaning"),
         ({"names": {"x_B": "u"}}, "the scene declares no 'x_B'"),
         ({"names": {"x_A": "2u"}}, "begins with"),
-        ({"text": "The rod is [[rodd]]."}, "[[rodd]] is nothing of the scene"),
-        ({"text": "Its length is [[rod.radius]]."}, "[[rod.radius]] is nothing of the scene"),
+        ({"text": "The rod is [[rodd]]."}, "[[rodd]] is not a name in the scene"),
+        ({"text": "Its length is [[rod.radius]]."}, "[[rod.radius]] is not a name in the scene"),
         ({"vary": {"drop": ["bar"]}}, "the scene has no constraint 'bar'"),
         ({"vary": ["colours"]}, "'colours' is not one of"),
     ],
@@ -87,11 +87,11 @@ def test_a_sheet_says_what_is_asked_and_what_things_are_called() -> None:
     text = "Rod: [[rod]], length [[rod.length]], of $\\frac{1}{2}$."
     told = written_sheet(sheet(pendulum(text=text, points=4, names={"l": "L"})), drawing()).markdown
     assert "Rod: link (0, 0)-A, length l, length $l$, of $\\frac{1}{2}$." in told
-    assert "- $x_A$, $y_A$: the place of A." in told
-    assert "- $l$: a positive constant." in told
-    assert "`l` may also be called `L`." in told
-    assert "1. `pendulum.f` How many degrees of freedom does the system have? (points: 1)" in told
-    assert "2. `pendulum.rod` Which equation or equations say what the constraint `rod` demands? (points: 3)" in told
+    assert "- $x_A$, $y_A$: position of A." in told
+    assert "- $l$: positive constant." in told
+    assert "`l` may also be written as `L`." in told
+    assert "1. `pendulum.f` How many degrees of freedom does the system have? (1 point)" in told
+    assert "2. `pendulum.rod` Which equation or equations express the constraint `rod`? (3 points)" in told
     assert told.count("![Figure 1](figures/pendulum.svg)") == 1
 
 
@@ -105,7 +105,7 @@ def test_an_equation_that_is_asked_for_is_not_told() -> None:
     prepared = sheet({"id": "wire", "scene": CURVE, "questions": asked})
     told = written_sheet(prepared, drawing()).markdown
     assert "x^4" not in told
-    assert [r for r in remarks(prepared) if "say in `text` what holds" in r]
+    assert [r for r in remarks(prepared) if "describe the system in `text`" in r]
     labelled = sheet({"id": "wire", "scene": CURVE, "questions": [{"id": "l", "ask": "label", "constraint": "wire"}]})
     assert "$y = x^4$" in written_sheet(labelled, drawing()).markdown
 
@@ -145,14 +145,14 @@ _FOUR_LABELS = ("dy = x t dz", "u = t", "dw = v dx", "r = 3")
 def test_a_lecturer_is_told_what_a_sheet_does_not_say() -> None:
     scene = {"coordinates": ["x"], "parameters": ["m"], "energies": {"kinetic": "1/2 m xdot^2"}}
     asked = {"id": "p", "scene": scene, "questions": [{"id": "l", "ask": "lagrangian"}]}
-    assert [r for r in remarks(sheet(asked)) if "say it in `text`" in r]
+    assert [r for r in remarks(sheet(asked)) if "state them in `text`" in r]
     assert not list(remarks(sheet({**asked, "text": "A free particle of mass $m$."})))
     assert "xdot^2" not in "".join(written_sheet(sheet(asked), drawing()).markdown.split("##")[1:2])
 
 
 def test_every_kind_of_question_can_be_explained() -> None:
     for cls in KINDS.values():
-        assert cls.wanted.endswith("?")
+        assert cls.wanted.endswith(("?", "."))
         assert cls.how.endswith(".")
         assert cls.examples
 
@@ -177,7 +177,7 @@ def test_formulas_in_every_notation(text: str, latex: str, typst: str) -> None:
 
 def test_a_formula_that_cannot_be_set_is_shown_as_typed_and_told() -> None:
     prepared = sheet(pendulum(text=r"See $\frac{1$ and <script>alert(1)</script>."))
-    assert [r for r in remarks(prepared) if r"$\frac{1$ cannot be set" in r]
+    assert [r for r in remarks(prepared) if r"$\frac{1$ cannot be typeset" in r]
 
 
 def test_the_page_needs_no_network_and_runs_nothing(tmp_path: Path) -> None:

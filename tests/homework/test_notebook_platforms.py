@@ -43,7 +43,7 @@ problems:
   questions:
   - {id: f, ask: dof, points: 0.5}
 """
-#: Right, half right, in doubt (half until a person has looked), wrong: 2 + 4 + 1 + 0. And: what cannot be read, 0.
+#: Right, half right, in doubt (half until a person has reviewed it), wrong: 2 + 4 + 1 + 0. And: what cannot be read, 0.
 ANSWERS = {"f": "f = 1", "rod": "(x_A^2 + y_A^2 - l^2)^2", "label": "holonomic? scleronomic?", "disc": "2"}
 UNREADABLE = {"f": "$$((", "rod": "x_A^2 + ( = ", "label": "holonomic, scleronomic", "disc": "4"}
 
@@ -128,7 +128,7 @@ def test_otter(sheet: Path) -> None:
         listed[name] = rows(table) if table.exists() else []
         public = next(test["output"] for test in found if test["name"] == "Public Tests")
         if name == "unread":
-            assert "pendulum.f: Could not be read (column " in public
+            assert "pendulum.f: Not readable (column " in public
             assert "pendulum_label results: All test cases passed!" in public
     assert listed == {
         "right": [("pendulum", "label", "needs_review", "1")],
@@ -199,4 +199,4 @@ def test_nbgrader(sheet: Path) -> None:
     assert [row[1] for row in rows(graded / "bob" / "ps1" / stand_ins.NAME)] == ["f", "rod"]
     printed = (graded / "bob" / "ps1" / "sheet.ipynb").read_text()
     assert "$$((\\n" in printed
-    assert "hand in again" in printed
+    assert "submit again" in printed

@@ -56,7 +56,7 @@ def test_own_coordinates(also: dict[str, str], ask: str, answer: str, status: st
 def test_a_constant_under_another_name_is_told() -> None:
     found = item(sheet({}, ask="equation", constraint="rod"), "x^2 + y^2 = R^2")
     assert (found.status, found.read_as) == ("right", "x^2 + y^2 = l^2")
-    assert found.feedback == "Read R = l: so the problem calls it."
+    assert found.feedback == "The names were matched to those of the problem: R = l."
 
 
 def test_both_readings_of_a_fraction_are_tried() -> None:

@@ -133,14 +133,14 @@ def test_a_file_that_names_another_student_takes_nobodys_place(sheet: Path) -> N
                    ("bob@x", "2", given(), 0))  # fmt: skip
     ada, bob = results(sheet, table)
     assert (ada["student"], bob["student"], bob["score"], bob["doubt"]) == ("ada@x", "bob@x", 4.0, None)
-    assert "handed in as ada@x's, and names 'bob@x'" in ada["doubt"]
+    assert "handed in as ada@x's, but names 'bob@x'" in ada["doubt"]
 
 
 @pytest.mark.sweep
 @pytest.mark.parametrize(
     ("rows", "why"),
     [
-        ((("ada@x", "1", {"ans": 1}, 0),), "no row of it answers a question of this assignment: inputs are called p.f"),
+        ((("ada@x", "1", {"ans": 1}, 0),), "no row answers a question of this assignment: inputs are named p.f"),
         ((("ada@x", "1", given(), 0), ("bob@x", "2", "{", 0)), "is no JSON object"),
         ((("", "1", given(), 0),), "names neither a uid nor a group"),
     ],
@@ -184,7 +184,7 @@ def test_points_of_a_person_come_back(sheet: Path) -> None:
         apart = {row["student"]: row["why"] for row in csv.DictReader(stream)}
     assert apart == {
         "cy@x": "PrairieLearn has 25 % already", "zoe@x": "PrairieLearn has 75 % already",
-        "eve@x": "it is not final: 3 points are open",
+        "eve@x": "it is not final: 3 points are undecided",
     }  # fmt: skip
 
 

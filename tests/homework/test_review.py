@@ -183,7 +183,7 @@ def test_answers_are_told_as_typed_and_bounded() -> None:
 @pytest.mark.parametrize(
     ("scene", "constraint", "said"),
     [
-        (ROD, "rod", "For example: x_A^2 + y_A^2 - l^2 = 0."),
+        (ROD, "rod", "A correct answer is x_A^2 + y_A^2 - l^2 = 0."),
         ({"coordinates": ["x"], "constraints": [{"name": "c", "type": "equation", "text": "x = 2"}]}, "c", "x = 2."),
     ],
 )
@@ -201,7 +201,7 @@ def test_full_feedback_shows_an_equation(scene: dict[str, Any], constraint: str,
 def test_a_row_for_each_different_answer(course: Course) -> None:
     status, out, err = course.grade()
     assert (status, out) == (0, "")
-    assert "4 different answers wait for a person in" in err
+    assert "4 different answers await review in" in err
     assert sorted(path.name for path in course.out.iterdir()) == ["results.jsonl", "review.csv", "review.html"]
     rows = course.table()
     assert [(r["problem"], r["question"], r["text"], r["students"], r["given_by"]) for r in rows] == [
@@ -297,7 +297,7 @@ def test_without_a_name_it_was_the_review(course: Course) -> None:
     course.grade("--reviewed", str(course.fill({UNREAD: "4"})))
     (item,) = (i for i in course.results()["bo"]["items"] if i["question"] == "rod")
     assert (item["decided_by"], item["status"], item["feedback"]) == (
-        "review", "right", "A person has looked at this answer.",
+        "review", "right", "A person has reviewed this answer.",
     )  # fmt: skip
 
 
@@ -372,10 +372,10 @@ def test_all_faults_of_a_table_are_told_at_once(course: Course) -> None:
     told = [line for line in err.splitlines() if ": error: " in line]
     places = [line.partition(": error: ")[0].removeprefix(f"{course.out / 'review.csv'}:") for line in told]
     assert places == ["2:12", "3:12", "4:12", "7:12", "8:1", "9:1"]
-    assert "'two' is no number of points" in told[0]
+    assert "'two' is not a number of points" in told[0]
     assert "2.5 points are out of range" in told[1]
     assert "write 0 to 2, or nothing" in err
-    assert "decided otherwise in line 6" in told[3]
+    assert "decided differently in line 6" in told[3]
     assert (course.out / "review.csv").read_bytes() == before
 
 
@@ -509,7 +509,7 @@ def test_the_pages_show_answers_as_typed_and_no_codes(course: Course) -> None:
     course.hand_in([(f"s{i}", {"rod": UNREAD if i < 8 else "x_A = 1", "f": "7"}) for i in range(15)])
     course.grade("--format", "html")
     index, student = (course.out / "index.html").read_text(), (course.out / "students" / "s1.html").read_text()
-    assert "8 of 15 could not be read here: is the question clear?" in index
+    assert "8 of 15 answers could not be read: is the question clear?" in index
     assert index.index("To review") < index.index("<h2>Points</h2>")
     assert index.count("8 of 15 could not be read here") == 2
     assert '<span class="stop">x<sub>^</sub></span><span class="rest">_B^2 + y_A^2 = l^2</span>' in student

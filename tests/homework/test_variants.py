@@ -149,7 +149,7 @@ def test_a_link_may_hang_on_what_moves() -> None:
     prepared = varied(problem("p", scene, {"ask": "dof"}, LABEL, vary=["supports"]))
     told = {s.changed: s.key.scene.constraints[0].in_words for s in prepared.structures["p"]}
     text = "(x_A - (2 + a*cos(omega*t)))^2 + (y_A - (0.5))^2 = l^2"
-    assert told["rod: it hangs on a support that moves by a cos(omega t)"] == text
+    assert told["rod: its support moves by a cos(omega t)"] == text
     asked = problem("p", scene, LABEL, {"ask": "equation", "constraint": "rod"}, vary=["supports"])
     assert {s.changed for s in varied(asked).structures["p"]} == {"", "rod: its length grows at the speed v"}
 
@@ -311,8 +311,8 @@ def test_a_platform_says_whose_sheet_it_is(tmp_path: Path) -> None:
 
     found = graded({"email": "one@x.org", "name": "Student 1", "id": "7"})
     assert found["score"] == 1.0
-    assert "several of its students" in graded({"email": "s0"}, {"email": "s1"})["output"]
-    assert "none of its students" in graded({"email": "zoe@x.org"})["output"]
+    assert "several students of the assignment" in graded({"email": "s0"}, {"email": "s1"})["output"]
+    assert "none of the students of the assignment" in graded({"email": "zoe@x.org"})["output"]
     with pytest.raises(OtterError):
         export_otter(sheet, tmp_path / "otter")
 

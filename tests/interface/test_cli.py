@@ -78,6 +78,15 @@ def test_readable_errors_show_the_line_with_a_mark(files: Path, capsys: pytest.C
         "      |   ^",
         "    hint: did you mean `theta`?",
     ]
+    assert err.splitlines()[-1] == "2 errors in 1 file"
+
+
+def test_a_fault_leads_to_an_explanation_once(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (files / "link.yaml").write_text("particles: [A]\nconstraints:\n" + "- {type: link, between: [A, B]}\n" * 2)
+    _, _, err = called(capsys, "classify", str(files / "link.yaml"), str(files / "bad.yaml"))
+    assert err.count("    see: dofkit explain link\n") == 1
+    assert err.splitlines()[-1] == "4 errors in 2 files"
+    assert called(capsys, "explain", "link")[0] == 0
 
 
 def test_long_lines_are_cut_around_the_mark(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

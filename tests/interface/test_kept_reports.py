@@ -130,7 +130,7 @@ class Counting:
 
     def answered(self, scenes: tuple[SceneGiven, ...]) -> list[Printed]:
         self.files += [Path(one.file).stem for one in scenes]
-        return [Printed(f"{len(one.data or b'')}\n", "", False, {"verdict": "proved", "is": []}) for one in scenes]
+        return [Printed(f"{len(one.data or b'')}\n", "", 0, {"verdict": "proved", "is": []}) for one in scenes]
 
     def run(self, out: Path, files: list[Path], stop: int | None = None, budget: float = 60.0) -> list[str]:
         """Which files are asked about by a run that is stopped after so many."""
@@ -251,7 +251,7 @@ def test_a_scene_that_ends_its_worker_ends_no_other(monkeypatch: pytest.MonkeyPa
     keeper, pool = SceneKeeper(asked(), 1), Breaking()
     monkeypatch.setattr(keeper, "_pool", pool)
     found = keeper.answer([SceneGiven(f"s{k}", b"") for k in range(6)]).told
-    assert [one.out for one in found if not one.failed] == ["s0\n", "s1\n", "s2\n", "s4\n", "s5\n"]
+    assert [one.out for one in found if not one.errors] == ["s0\n", "s1\n", "s2\n", "s4\n", "s5\n"]
     assert "it could not be looked at: it ended" in found[3].out
     assert pool.asked == ["s0 s1 s2 s3 s4 s5", "s0 s1 s2", "one", "one", "s4 s5"]
 
@@ -262,7 +262,7 @@ def test_a_batch_in_a_worker_tells_which_scene_comes_next(monkeypatch: pytest.Mo
     given = (SceneGiven("a.yaml", b"coordinates: [x, y]"), SceneGiven("b.yaml", BAD.encode()))
     *before, last = batch_reports(SceneBatch(asked(), given))
     assert before == [{"next": 0}, {"next": 1}]
-    assert [one["failed"] for one in last["printed"]] == [False, True]
+    assert [one["errors"] for one in last["printed"]] == [0, 1]
     assert json.loads(last["printed"][0]["out"])["dof"] == 2
 
 

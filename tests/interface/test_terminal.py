@@ -72,7 +72,17 @@ def test_arguments_are_shown_where_they_are_asked_for() -> None:
     ("verdict", "bound", "line"),
     [
         ("probable", "2^-30", "chance of error below 1e-9 (details: --how)"),  # 2^-30 = 9.3e-10
-        ("numeric", "4.7e+15", "smallest kept / largest dropped singular value 5e15 (details: --how)"),
+        (
+            "numeric",
+            "4.7e+15",
+            "the rank is unambiguous: no value that is kept is below 10^12 times one that is taken as zero",
+        ),
+        (
+            "numeric",
+            "2.3e+04",
+            "the smallest value that is kept is about 23000 times the largest that is taken as zero",
+        ),
+        ("numeric", "inf", "no value is taken as zero (details: --how)"),
         ("undecided", None, "undecided  degrees of freedom (details: --how)"),
     ],
 )
@@ -159,7 +169,7 @@ def test_redundancy_forces_and_warnings() -> None:
     for piece in (
         "maximal redundant set: c2", "Overconstrained by 1: the equations of c1, c2 are dependent.",
         "c2: implied by c1", "0 of 1",
-        "spring: It only pulls.", "! look out", "c1, c2: It is closed.",
+        "spring: It only pulls.", "! Look out.", "c1, c2: It is closed.",
     ):  # fmt: skip
         assert piece in text
 

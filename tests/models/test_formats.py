@@ -42,7 +42,7 @@ def test_every_format_has_a_title_and_a_module() -> None:
 FAULTS = {
     "<html><body/></html>": "begins with <html>",
     "<mujocoinclude/>": "a part of a model",
-    "<robot><link name='a'></robot>": "line 1, column 25: this is no XML",
+    "<robot><link name='a'></robot>": "line 1, column 25: this is not well-formed XML",
     "<robot>" + "<link>" * 300: "nested deeper",
 }
 

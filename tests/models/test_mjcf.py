@@ -183,7 +183,7 @@ def test_an_equality_that_is_not_read_is_a_warning() -> None:
     scene = load(model(body, f"<tendon>{spatial}</tendon><equality><tendon name='k' tendon1='t'/></equality>"))
     report = dofkit.classify(scene)
     assert any("the true freedom may be smaller: constraint k" in told for told in report.warnings)
-    assert any("the tendons t, which run around shapes" in told for told in scene.left_out)
+    assert any("the tendons t, which wrap around shapes" in told for told in scene.left_out)
 
 
 def test_what_is_no_number_is_told_in_its_line() -> None:
@@ -202,7 +202,7 @@ def test_missing_files_never_stop_a_model(tmp_path: Path) -> None:
     place.write_text(text)
     scene = dofkit.load(place)
     assert dofkit.classify(scene).dof == 1
-    assert any("cup.stl" in told and "not there" in told for told in scene.left_out)
+    assert any("cup.stl" in told and "missing" in told for told in scene.left_out)
 
 
 def test_included_files_are_read_from_beside(tmp_path: Path) -> None:
@@ -226,7 +226,7 @@ def test_faults_of_the_compiler_name_their_line() -> None:
 def test_a_fault_of_the_scene_is_told_in_the_line_of_the_model() -> None:
     """Two couplings of one joint contradict each other: the drawing satisfies one of them only."""
     clash = "<equality>\n<joint name='one' joint1='p' polycoef='0.5'/>\n<joint name='two' joint1='p'/></equality>"
-    with pytest.raises(SceneError, match="hold neither in the pose that is written"):
+    with pytest.raises(SceneError, match="satisfied neither in the given pose"):
         load(model(TWO, clash))
 
 

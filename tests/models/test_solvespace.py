@@ -129,7 +129,9 @@ def test_a_circle_has_no_end_to_be_tangent_at() -> None:
     sketch.circle((0.0, 0.0), 1.0)
     sketch.add(123, lambda q: [0j], entityA=sketch.circles[0][0], entityB=sketch.lines[0][0])
     told = dofkit.classify(load(sketch.text())).warnings
-    assert any("constraint c005-arc-line-tangent: what it mentions has no such ends" in one for one in told)
+    assert any(
+        "constraint c005-arc-line-tangent: the entities that it refers to have no such ends" in one for one in told
+    )
 
 
 def test_an_arc_that_is_a_whole_circle_is_told_once() -> None:
@@ -160,7 +162,7 @@ START = "\xb1\xb2\xb3SolveSpaceREVa\n"
 POINT = "Entity.h.v=00010001\nEntity.type={}\nAddEntity\n"
 FAULTS = {
     "no entity": START,
-    "no point that is read": START + POINT.format(2001),
+    "no point that dofkit reads": START + POINT.format(2001),
     "line 2, column 1: Entity.type is 'no'": START + POINT.format("no"),
 }
 

@@ -132,7 +132,7 @@ def test_an_equation_that_is_too_long_is_told_and_no_fault(monkeypatch: pytest.M
     s.drawn_line((1.0, 0.0, 0.0), (3.0, 2.0, 1.0))
     s.add(50, lambda q: [0j], entityA=s.segments[0].handle, entityB=s.segments[1].handle)
     told = dofkit.classify(load(s)).warnings
-    assert any("constraint c001-eq-length: its equation is longer than a scene's texts" in one for one in told)
+    assert any("constraint c001-eq-length: its equation is longer than a text of a scene" in one for one in told)
 
 
 def compared(sketch: RandomSketch, scene: dofkit.Scene) -> str:

@@ -165,7 +165,7 @@ RODS = (
     joint("A", "revolute", "base", "a", Z),
     joint("B", "revolute", "a", "b", "<origin xyz='0 1 0'/>" + Z),
 )  # fmt: skip
-OPEN = "is open where every joint stands at 0"
+OPEN = "is open where every joint is at 0"
 OPEN_ROBOTS: dict[str, tuple[str, tuple[str, ...]]] = {
     "place": (f"the loop that 'D' closes {OPEN}", (
         *RODS, joint("C", "revolute", "base", "c", "<origin xyz='2 0 0'/>" + Z),
@@ -180,10 +180,10 @@ OPEN_ROBOTS: dict[str, tuple[str, tuple[str, ...]]] = {
         *RODS, joint("C", "revolute", "base", "c", "<origin xyz='2 0 0'/>" + Z),
         f"<loop_joint name='D' type='revolute'><link1 link='b' xyz='2 0 0'/><link2 link='c' xyz='0 7 0'/>{Z}"
         "</loop_joint>")),
-    "mimic": ("'D' stands at 0.5 in the drawing, where what it mimics puts it at 0", (
+    "mimic": ("'D' is at 0.5 in the reference configuration, but what it mimics puts it at 0", (
         *RODS, joint("C", "revolute", "base", "c", "<origin xyz='3 1 0' rpy='0 0 0.5'/>" + Z),
         joint("D", "revolute", "b", "c", "<origin xyz='3 0 0'/><mimic joint='A'/>" + Z))),
-    "adrift": ("the link 'd' hangs on no link that no joint carries", (
+    "adrift": ("the link 'd' is not connected to a root link", (
         *RODS[:3], link("d"), link("e"), joint("A", "revolute", "base", "a", Z),
         joint("B", "fixed", "base", "b"), joint("D", "ball", "e", "d"), joint("E", "ball", "d", "e"))),
 }  # fmt: skip
@@ -220,7 +220,23 @@ def test_ranges_beyond_half_a_turn_are_counted_less_whole_turns(limits: str, tex
     )
     ranged = [c.written()["text"] for c in scene.constraints if c.kind() == "coupling"]
     assert ranged == ([text] if text else [])
-    assert any("over half a turn" in told for told in scene.left_out) is not bool(text)
+    assert any("beyond half a turn" in told for told in scene.left_out) is not bool(text)
+
+
+def test_a_rounded_right_angle_is_a_warning_and_used_as_written() -> None:
+    parts = [link("a"), link("b"), link("c"), link("d")]
+    parts += [
+        joint("j", "prismatic", "a", "b", f"<origin rpy='3.14159 0 -1.5708'/>{Z}"),
+        joint("k", "prismatic", "b", "c", f"<origin rpy='{math.pi / 2} 0.5 0'/>{Z}"),
+        joint("l", "prismatic", "c", "d", f"<origin rpy='0 0 0.000001'/>{Z}"),
+    ]
+    scene = load(robot(*parts))
+    told = [line for line in scene.left_out if "rounded" in line]
+    assert len(told) == 3
+    assert "the angle 3.14159 is not equal to pi but within 1e-5 of it" in told[0]
+    assert "the angle -1.5708 is not equal to -pi/2 but" in told[1]
+    assert "the angle 0.000001 is not equal to 0 but" in told[2]
+    assert "0.99999999" not in scene.constraints[0].in_words
 
 
 FAULTS: dict[str, tuple[str, ...]] = {
@@ -235,13 +251,13 @@ FAULTS: dict[str, tuple[str, ...]] = {
     "line 2, column 1: the mass of 'a' is negative": (link("a", "<inertial><mass value='-1'/></inertial>"),),
     "line 3, column 1: 'j' mimics 'k', which it cannot": (
         link("a") + link("b"), joint("j", "revolute", "a", "b", "<mimic joint='k'/>")),
-    "every link is the child of a joint": (
+    "no link is the root": (
         link("a") + link("b"), joint("j", "fixed", "a", "b"), joint("k", "fixed", "b", "a")),
-    "the joint 'j' is there twice": (
+    "the joint 'j' is defined twice": (
         link("a") + link("b"), joint("j", "fixed", "a", "b"), joint("j", "fixed", "a", "b")),
     "this robot has no link": ("<group name='arm'/>",),
-    "line 2, column 1: this file has macros": ("<xacro:macro xmlns:xacro='x' name='m'/>",),
-    "mimics itself by way of others": (
+    "line 2, column 1: this file has xacro macros": ("<xacro:macro xmlns:xacro='x' name='m'/>",),
+    "mimics itself through other joints": (
         link("a") + link("b") + link("c"),
         joint("j", "revolute", "a", "b", "<mimic joint='k'/>"), joint("k", "revolute", "b", "c", "<mimic joint='j'/>")),
 }  # fmt: skip

@@ -257,11 +257,11 @@ def test_what_was_done_is_said() -> None:
     assert "a sum of squares" in said("x^2 + y^2 = 0")
     assert "several branches" in said("x y = 0")
     assert "whole region" in said("x + abs(x) = 0")
-    assert "squared away" in said("sqrt(x^2 + y^2) = x")
+    assert "removed by squaring" in said("sqrt(x^2 + y^2) = x")
     assert "no real configuration" in said("x^2 + y^2 = 1", "(x - 5)^2 + y^2 = 1")
     assert "-x >= 0" in said("x + abs(x) = 0", "x = 1")
     assert "it has no real value anywhere" in said("sqrt(-1 - x^2) y = 0")
-    assert "solved for that" in said("exp(xdot) = 2")
+    assert "solved for it" in said("exp(xdot) = 2")
     assert "infinitely many" in said("sin(xdot) = 0")
 
 

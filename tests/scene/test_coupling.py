@@ -93,11 +93,11 @@ def test_a_sleeve_tells_which_of_its_two_is_meant() -> None:
 
 FAULTS = {
     "there is no joint 'elbo'": {"joints": ["elbo"], "text": "elbo = 0"},
-    "tells no angle or displacement": {"joints": {"q": "ball"}, "text": "q = 0"},
+    "is not an angle or a displacement": {"joints": {"q": "ball"}, "text": "q = 0"},
     "contradicts the relation by 0.5": {"joints": ["elbow"], "text": "elbow = 1/2"},
     "`shoulder` is not declared": {"joints": ["elbow"], "text": "elbow = shoulder"},
-    "one equation, or bounds": {"joints": ["elbow"], "text": "0 = elbow <= 1"},
-    "has no value at the drawing": {"joints": ["elbow"], "text": "1/elbow = 1"},
+    "one equation or bounds": {"joints": ["elbow"], "text": "0 = elbow <= 1"},
+    "has no value in the reference configuration": {"joints": ["elbow"], "text": "1/elbow = 1"},
 }
 
 

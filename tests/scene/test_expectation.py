@@ -40,17 +40,23 @@ def test_what_is_right_is_met() -> None:
 @pytest.mark.parametrize(
     ("expect", "line"),
     [
-        ({"dof": 2}, "dof: 2 expected, 1 told"),
-        ({"dof": None}, "dof: None expected, 1 told"),
-        ({"redundant": []}, "redundant: [] expected, ['c3'] told"),
+        ({"dof": 2}, "dof: 2 expected, but the report has 1"),
+        ({"dof": None}, "dof: None expected, but the report has 1"),
+        ({"redundant": []}, "redundant: [] expected, but the report has ['c3']"),
         ({"redundancies": [{"nullity": 2}]}, "redundancies: [{'nullity': 2}] expected, "),
         ({"count": {"naive_dof": 2}}, "count: {'naive_dof': 2} expected, "),
         ({"count": 7}, "count: 7 expected, "),
-        ({"forces": ["f1"]}, "forces: ['f1'] expected, [] told"),
-        ({"constraints": {"form": {"integral": "x + y = C"}}}, "form.integral: x + y = C expected, x*y = C told"),
-        ({"constraints": {"form": {"integral": "x*y*z = C"}}}, "form.integral: x*y*z = C expected, x*y = C told"),
-        ({"constraints": {"form": {"integral": "q ="}}}, "form.integral: q = expected, x*y = C told"),
-        ({"constraints": {"other": {"holonomic": True}}}, "other.name: other expected, None told"),
+        ({"forces": ["f1"]}, "forces: ['f1'] expected, but the report has []"),
+        (
+            {"constraints": {"form": {"integral": "x + y = C"}}},
+            "form.integral: x + y = C expected, but the report has x*y = C",
+        ),
+        (
+            {"constraints": {"form": {"integral": "x*y*z = C"}}},
+            "form.integral: x*y*z = C expected, but the report has x*y = C",
+        ),
+        ({"constraints": {"form": {"integral": "q ="}}}, "form.integral: q = expected, but the report has x*y = C"),
+        ({"constraints": {"other": {"holonomic": True}}}, "other.name: other expected, but the report has None"),
         ({"constraints": 3}, "constraints: 3 expected, "),
     ],
 )

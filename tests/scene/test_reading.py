@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -15,6 +16,7 @@ import dofkit
 from dofkit.base.documents import read_document
 from dofkit.base.documents.composer import Composer, compose
 from dofkit.base.errors import Fault, SceneError
+from dofkit.interface.explanations import explanations_of
 from dofkit.scene.found_files import find
 from dofkit.scene.reading import MOST_FAULTS, SceneFile, load, loads
 from dofkit.scene.scene import Scene
@@ -107,7 +109,7 @@ BAD = {
     "extra comma": (b"coordinates: [x,, y]\n", 1, 17, "','"),
     "colon in text": (b"title: a: b\n", 1, 9, "':'"),
     "bad indent": (b"coordinates:\n- x\n y: 1\n", 3, 3, "':'"),
-    "list after a value": (b"coordinates: [x]\n- y\n", 2, 1, "fit"),
+    "list after a value": (b"coordinates: [x]\n- y\n", 2, 1, "align"),
     "at sign": (b"title: @me\n", 1, 8, "@"),
     "percent": (b"title: %me\n", 1, 8, "%"),
     "star": (b"title: *\n", 1, 9, "*"),
@@ -163,6 +165,7 @@ def test_every_fault_has_its_place_and_says_what_to_do(case: str) -> None:
         assert fault.hint
         assert "Input should" not in fault.message
         assert len(fault.message) < 300
+        assert fault.see is None or explanations_of(fault.see)
 
 
 def test_all_faults_come_at_once_in_the_order_of_the_file() -> None:
@@ -179,7 +182,7 @@ def test_all_faults_come_at_once_in_the_order_of_the_file() -> None:
         "notes: !!python/name:os.system ''\n"
     )
     assert [fault.line for fault in found] == [1, 2, 4, 5, 6, 7, 8, 9, 10]
-    told = [fault.hint.partition("; for")[0].partition(" for")[0] for fault in found if fault.hint]
+    told = [re.split(r";? (?:for|write) ", fault.hint)[0] for fault in found if fault.hint]
     assert [hint for hint in told if "did you mean" in hint] == [
         "did you mean 'between'?",
         "did you mean 'revolute'?",
@@ -187,6 +190,45 @@ def test_all_faults_come_at_once_in_the_order_of_the_file() -> None:
         "did you mean 'text'?",
         "did you mean 'configuration'?",
     ]
+
+
+#: Scenes with one mistake, in which other things seem wrong because of it -> the line of the fault, and its hint.
+WITH_ECHOES = {
+    "a misspelt section": ("coordinates: [r, x]\nparams: {R: 2}\nconstraints: [x = R r]\n", 2, "'parameters'"),
+    "a synonym of a section": (
+        "points: [A, B]\nconstraints: [{type: link, between: [A, B]}, x_A = 0]\n", 1, "'particles'",
+    ),
+    "a section of joints": (
+        "dimension: 2\nbodies: [a]\njoint: [{type: hinge, between: [ground, a], at: [0, 0]}]\n", 3, "'constraints'",
+    ),
+    "no bodies": (
+        "dimension: 2\njoints:\n- {type: pin, between: [ground, a], at: [0, 0]}\n"
+        "- {type: pin, between: [a, b], at: [1, 0]}\n", 3, "`bodies: [a, b]`",
+    ),
+    "no particles": (
+        "constraints: [{type: link, between: [A, B]}, {type: link, between: [B, C]}]\n", 1, "`particles: [A, B, C]`",
+    ),
+    "a misspelt joint of a coupling": (
+        "dimension: 2\nbodies: [a, b]\njoints:\n- {name: p, type: pinn, between: [ground, a], at: [0, 0]}\n"
+        "- {name: q, type: pin, between: [ground, b], at: [1, 0]}\n- {type: coupling, joints: [p, q], text: q = 2 p}\n",
+        4, "'revolute'",
+    ),
+    "names that cannot be read": (
+        "coordinates: ['{x}']\nconstraints: ['{x} = 1', 'x = 2']\n", 1, "write `x`",
+    ),
+    "two keys of one constraint": (
+        "particles: [A, B]\nconstraints: [{type: link, betwen: [A, B], lenght: 2}]\n", 2,
+        "between: [A, B], length: 2}`",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", WITH_ECHOES)
+def test_a_mistake_is_one_fault(case: str) -> None:
+    text, line, hint = WITH_ECHOES[case]
+    (fault,) = faults(text)
+    assert fault.line == line
+    assert hint in (fault.hint or ""), fault
 
 
 def test_faults_without_end_are_counted() -> None:
@@ -281,7 +323,7 @@ def test_a_misspelt_body_where_a_point_is_needed_is_named() -> None:
     assert "did you mean the body 'crank'? name one of its points: `{on: crank, at: [0, 0]}`" in str(found.value)
     with pytest.raises(dofkit.SceneError) as found:
         dofkit.load({**scene, "constraints": [{"type": "weld", "between": ["crnk", "rod"]}]})
-    assert "did you mean 'crank'? for example `between: [crank, rod]`" in str(found.value)
+    assert "did you mean 'crank'?" in str(found.value)
 
 
 def test_a_length_that_cannot_be_read_is_a_fault_of_every_link() -> None:

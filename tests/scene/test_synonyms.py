@@ -11,8 +11,9 @@ import pytest
 
 import dofkit
 from dofkit.base.errors import Fault, SceneError
+from dofkit.interface.explanations import explanations_of
 from dofkit.scene.constraints import TYPES
-from dofkit.scene.hints import LINES
+from dofkit.scene.hints import LINES, SECTIONS
 from dofkit.scene.synonyms import standard_words, synonyms
 
 PLANE = {"name": "s", "dimension": 2}
@@ -136,11 +137,29 @@ def test_faults_stand_where_the_words_were_written() -> None:
 #: What is written wrongly ({A}: of a body a, {B}: and a particle A) -> what its hint shows.
 SHOWN: dict[str, tuple[str, str]] = {
     "a word that is understood": ("{A}[{type: pivot, between: [ground, a]}]", "{type: revolute,"),
-    "a misspelt other word": ("{A}[{type: hing, between: [ground, a]}]", "did you mean 'revolute'? for example"),
+    "a misspelt other word": ("{A}[{type: hing, between: [ground, a]}]", "did you mean 'revolute'? write `{type: "),
     "a pinned point": ("particles: [A]\nconstraints: [{type: pin, point: A}]", "{type: fixed, point: A}"),
     "a slider that is a point": ("particles: [A]\nconstraints: [{type: slider, point: A, body: a}]", "{type: slot,"),
     "a spring": ("particles: [A, B]\nconstraints: [{type: spring, between: [A, B]}]", "forces: [{type: spring,"),
-    "no type": ("{A}[{name: c, between: [a, b]}]", "{type: link, between: [A, B], length: 2}"),
+    "no type": ("{A}[{name: c, between: [a, b]}]", "{type: link, name: c, between: [a, b]}"),
+    "a misspelt text and no type": ('coordinates: [x, y]\nconstraints: [{txt: "x dy = 0"}]', 'equation, text: "x '),
+    "an unknown type and a misspelt key": ("{B}[{type: foo, betwen: [A, A]}]", "`{type: link, between: [A, A]}`"),
+    "pulleys": (
+        "particles: [A, P, B]\nconstraints: [{type: string, between: [A, B], over: P}]",
+        "`{type: string, along: [A, P, B]}`",
+    ),
+    "one member": (
+        "particles: [A]\nconstraints: [{type: on, point: A, text: 'y = x^2'}]",
+        '`{type: on, members: [A], surface: "y = x^2"}`',
+    ),
+    "a slot between": ("{B}[{type: slot, between: [A, a], axis: x}]", "axis: [1, 0, 0], point: A, body: a}`"),
+    "members of a link": ("particles: [A, B]\nconstraints: [{type: link, members: [A, B]}]", "between: [A, B]}`"),
+    "bodies of a joint": ("bodies: [a, b]\nconstraints: [{type: weld, bodies: [a, b]}]", "between: [a, b]}`"),
+    "members held": ("particles: [A]\nconstraints: [{type: fixed, members: [A]}]", "`{type: fixed, point: A}`"),
+    "a key in capitals": ("particles: [A, B]\nconstraints: [{Type: link, between: [A, B]}]", "`{type: link, between"),
+    "a type that is a list": ("particles: [A, B]\nconstraints: [{type: [link], length: 2, between: [A, B]}]", "length: 2,"),
+    "a mass that is no unit": ("coordinates: [x]\nenergies: {kinetic: 1/2 m xdot^2}", "declare `parameters: [m]`"),
+    "an undeclared name": ("coordinates: [x]\nconstraints: [Q = x]", "`coordinates: [Q]`, or `parameters: [Q]`"),
     "a unit": ("parameters: {l: 50 cm}", "`50`"),
     "a bar": ("particles: [A, B]\nconstraints:\n- |A - B| = 3\n", '- "|x - y| = 3"'),
     "a distance": (
@@ -172,7 +191,7 @@ SHOWN: dict[str, tuple[str, str]] = {
     "no radius": ("{A}[{type: roll, body: a}]", "`{type: roll, body: wheel, radius: 1}`"),
     "two words for one thing": (
         "{A}[{type: hinge, between: [ground, a], at: [0, 0, 0], axis: x, direction: y}]",
-        "`direction` is another word for `axis`",
+        "`direction` is a synonym of `axis`",
     ),
     "a joint of space in the plane": (
         "dimension: 2\n{A}[{type: ball, between: [ground, a], at: [0, 0]}]", "`{type: revolute, between",
@@ -192,6 +211,12 @@ def test_a_hint_shows_one_line_that_would_work(name: str) -> None:
     )
     hints = [fault.hint or "" for fault in faults(text)]
     assert any(line in hint for hint in hints), hints
+
+
+def test_every_section_is_explained() -> None:
+    assert set(SECTIONS) < set(dofkit.Scene.model_fields)
+    for word in (*SECTIONS, *TYPES):
+        assert explanations_of(word)
 
 
 def test_no_other_word_for_a_type_is_a_type() -> None:

@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import yaml
+from dofkit.base.documents import read_document
 
 CASES = Path(__file__).parents[1] / "homework" / "cases"
 FILES = sorted(path.stem for path in CASES.glob("*.yaml"))
@@ -15,4 +15,4 @@ FILES = sorted(path.stem for path in CASES.glob("*.yaml"))
 @cache
 def document(name: str) -> Any:
     """The file as it is written; nobody may change it."""
-    return yaml.safe_load((CASES / f"{name}.yaml").read_text(encoding="utf-8"))
+    return read_document((CASES / f"{name}.yaml").read_bytes(), name).value

@@ -52,7 +52,7 @@ def test_what_is_constrained_and_not_drawn_is_named() -> None:
     scene = {"dimension": 2, "bodies": LINKS, "particles": ["P"], "constraints": [*FOUR_BAR, table]}
     report = dofkit.classify(dofkit.load(scene))
     assert (report.dof, report.instantaneous_dof) == (2, None)
-    assert "There is no reference configuration: P is not drawn." in report.warnings
+    assert "There is no reference configuration: the position of P is not given." in report.warnings
 
 
 def test_nothing_drawn_is_no_reference() -> None:

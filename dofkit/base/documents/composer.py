@@ -124,7 +124,7 @@ class Composer:
         elif isinstance(event, DocumentStartEvent):
             self.documents += 1
             if self.documents > 1:
-                self._fault(event, "a second document begins here", "one file holds one: take the '---' away")
+                self._fault(event, "a second document begins here", "a file contains one document: delete the '---'")
                 raise UnreadableError
 
     def _begin(self, event: CollectionStartEvent) -> None:
@@ -160,13 +160,13 @@ class Composer:
         name = event.anchor
         if name not in self._anchors:
             opened = any(part.anchor == name for part in self._open)
-            message = f"'*{name}' stands inside the value that it names" if opened else f"nothing is named '&{name}'"
-            self._fault(event, message, "a text that begins with '*' goes in double quotes")
+            message = f"'*{name}' occurs inside the value that it names" if opened else f"nothing is named '&{name}'"
+            self._fault(event, message, "put a text that begins with '*' in double quotes")
             raise UnreadableError
         value, size = self._anchors[name]
         self._aliased += size
         if self._aliased > MOST_ALIASED:
-            self._fault(event, f"the aliases stand for more than {MOST_ALIASED} values", "write the values out")
+            self._fault(event, f"the aliases expand to more than {MOST_ALIASED} values", "write the values out")
             raise UnreadableError
         if self._path(event) is None:
             self._take_key(event, value if isinstance(value, str) else None)
@@ -177,7 +177,7 @@ class Composer:
         self._tag(event)
         text = joined(event.value)
         if text is None:
-            self._fault(event, "an escape stands for half a character", "write the character itself")
+            self._fault(event, "an escape denotes half a character", "write the character itself")
             text = ""
         if self._path(event) is None:
             self._take_key(event, text)
@@ -241,7 +241,7 @@ class Composer:
         if event.tag is None or event.tag in _TAGS:
             return
         shown = event.tag.removeprefix(_CORE)[:60]
-        hint = "take the tag away; a text that begins with '!' goes in double quotes"
+        hint = "delete the tag; put a text that begins with '!' in double quotes"
         self._fault(event, f"the tag '{shown}' is not read", hint)
 
 

@@ -76,7 +76,7 @@ def read_document(data: bytes | str, name: str) -> Document:
         found = _FORBIDDEN.search(text)
         if found:
             message = f"the character U+{ord(found[0]):04X} is not allowed in a text file"
-            fault = found.start(), Fault(message, hint="take it away; is this a text file?")
+            fault = found.start(), Fault(message, hint="delete it, and check that this is a text file")
     if fault is None and not text.strip():
         fault = 0, Fault("the file is empty", hint="write a mapping, such as 'coordinates: [x, y]'")
     if fault is not None:

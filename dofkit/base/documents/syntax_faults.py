@@ -21,36 +21,36 @@ class _Told(NamedTuple):
 
 
 _TOLD = (
-    _Told(r"found character '\\t'", "a tab stands where YAML allows none", "indent and separate with spaces"),
+    _Told(r"found character '\\t'", "there is a tab where YAML allows none", "use spaces to indent and to separate"),
     _Told(r"expected (?:chomping or )?indentation indicator", "in YAML '|' and '>' begin a block of lines",
-          "quote a text that begins so: `- \"|x - y| = 3\"`", True),
+          "put a text that begins with one in quotes: `- \"|x - y| = 3\"`", True),
     _Told(r"found character '(?P<char>.)'", "a plain text cannot begin with {char}", _QUOTE),
-    _Told(r"mapping values are not allowed", "a ':' stands where no key can be",
-          "check the indentation; a text that holds ': ' goes in double quotes"),
-    _Told(r"sequence entries are not allowed", "a list entry '- ' stands where none can be",
+    _Told(r"mapping values are not allowed", "there is a ':' where no key can be",
+          "check the indentation; put a text that contains ': ' in double quotes"),
+    _Told(r"sequence entries are not allowed", "there is a list entry '- ' where none can be",
           "put the list on the lines below its key"),
     _Told(r"found unexpected end of stream", "a quoted text is never closed", "close the quotes", True),
     _Told(r"expected ',' or '(?P<char>.)', but got '(?P<got>.*)'",
           "line {line}'s bracket needs a ',' or '{char}' before {got}",
-          "close the bracket, or quote a text that holds one of , : [ ] {{ }}"),
+          "close the bracket, or put in quotes a text that contains one of , : [ ] {{ }}"),
     _Told(r"expected the node content, but found '(?P<got>.*)'", "a value is needed before {got}",
-          "write the value, or take away the extra comma"),
+          "write the value, or delete the extra comma"),
     _Told(r"expected <block end>, but found '(?:\?|<block mapping start>|<scalar>)'",
-          "this line does not fit in with the lines before it", "align it with the entries that it belongs to"),
-    _Told(r"expected <block end>, but found '-'", "this list entry does not fit in with the lines before it",
+          "this line does not align with the lines before it", "align it with the entries that it belongs to"),
+    _Told(r"expected <block end>, but found '-'", "this list entry does not align with the lines before it",
           "align the '-' with those of its list"),
-    _Told(r"expected <block end>, but found '(?P<got>[\]},])'", "a {got} too many", "take it away"),
-    _Told(r"expected <block end>", "something stands after a value that is complete", _QUOTE),
+    _Told(r"expected <block end>, but found '(?P<got>[\]},])'", "one {got} too many", "delete it"),
+    _Told(r"expected <block end>", "there is text after a complete value", _QUOTE),
     _Told(r"could not find expected ':'", "a ':' is missing after a key", "write 'key: value'"),
     _Told(r"found unknown escape character '(?P<char>.*)'", "'\\{char}' means nothing in a double-quoted text",
           "write two backslashes, or use single quotes"),
     _Told(r"expected escape sequence", "an escape in a double-quoted text is not complete",
           "write two backslashes, or use single quotes"),
     _Told(r"while scanning (?:an alias|an anchor)", "in YAML a text cannot begin with '*' or '&'", _QUOTE),
-    _Told(r"YAML document \(version", "this version of YAML is not read", "take the %YAML line away"),
+    _Told(r"YAML document \(version", "this version of YAML is not read", "delete the %YAML line"),
     _Told(r"undefined tag handle|scanning a tag|parsing a tag", "custom tags are not read",
-          "take the tag away; a text that begins with '!' goes in double quotes"),
-    _Told(r"expected '<document start>'", "something stands after the end of the scene", "one file holds one scene"),
+          "delete the tag; put a text that begins with '!' in double quotes"),
+    _Told(r"expected '<document start>'", "there is text after the end of the scene", "a file contains one scene"),
 )  # fmt: skip
 
 _NAMES = {"<stream end>": "the end of the file", "?": "the next key", ":": "':'", "<scalar>": "a text"}
@@ -59,7 +59,7 @@ _NAMES = {"<stream end>": "the end of the file", "?": "the next key", ":": "':'"
 def fault_of(error: YAMLError) -> tuple[int, Fault]:
     """The offset and the fault of a syntax error."""
     if isinstance(error, ReaderError):
-        return error.position, Fault("a character that YAML does not allow", hint="take it away")
+        return error.position, Fault("a character that YAML does not allow", hint="delete it")
     if not isinstance(error, MarkedYAMLError):
         return 0, Fault("this cannot be read as YAML", hint="check quotes, brackets and indentation")
     said = f"{error.problem} {error.context or ''}"

@@ -96,4 +96,4 @@ def _settle(future: Future[Any], ended: Future[Any]) -> None:
         future.set_result(ended.result())
         return
     reason = " ".join(str(error).split())[:200]
-    future.set_exception(StoppedError(f"the cluster gave a batch up: {type(error).__name__}: {reason}"))
+    future.set_exception(StoppedError(f"the cluster abandoned a batch: {type(error).__name__}: {reason}"))

@@ -20,7 +20,7 @@ from dofkit.benchmark.trials import (
     relations,
     times,
 )
-from dofkit.benchmark.trials.construction import Construction, few
+from dofkit.benchmark.trials.construction import KnownScene, few
 from dofkit.benchmark.trials.trial import Trial
 
 Family = Callable[[bool], Iterator[Trial]]
@@ -33,7 +33,8 @@ _HEADINGS: Mapping[str, tuple[ModuleType, ...]] = {
     "Differential constraints, time, long chains": (forms, times, chains, blocks),
     "Equations between coordinates": (relations, powers, identities),
 }
-_ALL: Mapping[str, Callable[[bool], Iterator[Construction]]] = {
+#: The scenes of each family by name.
+KNOWN_SCENES: Mapping[str, Callable[[bool], Iterator[KnownScene]]] = {
     **catalog.FAMILIES,
     **graphs.FAMILIES,
     **joints.FAMILIES,
@@ -54,16 +55,20 @@ HEADINGS: Mapping[str, str] = {
 }
 
 
-def _trials(name: str, constructions: Iterator[Construction]) -> Iterator[Trial]:
+def _trials(name: str, constructions: Iterator[KnownScene]) -> Iterator[Trial]:
     return (trial for construction in constructions for trial in construction.trials(name))
 
 
 def _family(name: str) -> Family:
     """Of the small members, a few that stand for the others."""
-    return lambda quick: few(_trials(name, _ALL[name](True))) if quick else _trials(name, _ALL[name](False))
+    return lambda quick: (
+        few(_trials(name, KNOWN_SCENES[name](True))) if quick else _trials(name, KNOWN_SCENES[name](False))
+    )
 
 
 #: What each family is, in a line.
-GLOSSES: Mapping[str, str] = {name: (made.__doc__ or "").partition("\n")[0].rstrip(".") for name, made in _ALL.items()}
+GLOSSES: Mapping[str, str] = {
+    name: (made.__doc__ or "").partition("\n")[0].rstrip(".") for name, made in KNOWN_SCENES.items()
+}
 #: Every family by name. ``quick``: a few small members that stand for the others.
-FAMILIES: Mapping[str, Family] = {name: _family(name) for name in _ALL}
+FAMILIES: Mapping[str, Family] = {name: _family(name) for name in KNOWN_SCENES}

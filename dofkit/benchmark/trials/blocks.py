@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from dofkit.benchmark.trials.construction import Construction, scene
+from dofkit.benchmark.trials.construction import KnownScene, known_scene, scene_of
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ PARTS = (
 )  # fmt: skip
 
 
-def many_blocks(quick: bool) -> Iterator[Construction]:
+def many_blocks(quick: bool) -> Iterator[KnownScene]:
     """Copies of one part, each in its own coordinates: what is true of one holds of each."""
     for part in PARTS:
         for n in (1, 2) if quick else (1, 4, 8, 16, 64):
@@ -58,7 +58,7 @@ def many_blocks(quick: bool) -> Iterator[Construction]:
         yield from _trial(f"{n} of each", list(PARTS) * n, "freedoms of separate parts add up", ("many-blocks",))
 
 
-def _trial(name: str, parts: list[TrialPart], because: str, traits: tuple[str, ...]) -> Iterator[Construction]:
+def _trial(name: str, parts: list[TrialPart], because: str, traits: tuple[str, ...]) -> Iterator[KnownScene]:
     names, rows = [], []
     labels: dict[str, bool] = {}
     over = []
@@ -68,9 +68,9 @@ def _trial(name: str, parts: list[TrialPart], because: str, traits: tuple[str, .
             rows.append({"name": f"part{k}_{i}", "type": "equation", "text": row.replace("{k}", str(k))})
             labels[f"part{k}_{i}"] = part.holonomic[i]
         over += [f"part{k}_{i}" for i in part.redundant]
-    yield Construction(
+    yield known_scene(
         name,
-        scene(names, *rows, parameters={"R": "positive"}),
+        scene_of(names, *rows, parameters={"R": "positive"}),
         because,
         traits,
         size=len(parts),
@@ -80,7 +80,7 @@ def _trial(name: str, parts: list[TrialPart], because: str, traits: tuple[str, .
     )
 
 
-def shared_heading(quick: bool) -> Iterator[Construction]:
+def shared_heading(quick: bool) -> Iterator[KnownScene]:
     """Discs that share their heading: each row has columns of its own, and theta sits in the coefficients of all."""
     for n in (1, 2) if quick else (1, 2, 4, 8):
         names = ["th", *(f"{q}{k}" for k in range(n) for q in ("x", "y", "ph"))]
@@ -92,9 +92,9 @@ def shared_heading(quick: bool) -> Iterator[Construction]:
             (["dth = 0"], n, 2 * n + 1, "together"),
             (["th = ph0"], 3 * n - 2, 3, "together"),
         ):
-            yield Construction(
+            yield known_scene(
                 f"{n} discs, {held[0] if held else 'free to turn'}",
-                scene(names, *held, *rows),
+                scene_of(names, *held, *rows),
                 "turning takes each anywhere; held, all follow their angles; turned by the first's roll, it does",
                 (trait,),
                 size=n,

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from dofkit.base.documents import read_document
-from dofkit.benchmark.trials.construction import Construction
+from dofkit.benchmark.trials.construction import KnownScene, known_scene
 from dofkit.scene.catalog import catalog_names, catalog_text
 
 #: What is done to an equation ``left = right``; is it the same constraint then?
@@ -25,13 +25,13 @@ def scenes() -> Iterator[tuple[str, dict[str, Any]]]:
         yield name, dict(found)
 
 
-def catalog(quick: bool) -> Iterator[Construction]:
+def catalog(quick: bool) -> Iterator[KnownScene]:
     """Every scene of the catalog: its freedom, its labels, what is redundant in it."""
     for number, (name, scene) in enumerate(scenes()):
         if quick and number % 12:
             continue
         expect = scene["expect"]
-        yield Construction(
+        yield known_scene(
             name,
             {key: value for key, value in scene.items() if key != "expect"},
             "derived by hand: see the scene's notes",
@@ -43,7 +43,7 @@ def catalog(quick: bool) -> Iterator[Construction]:
         )
 
 
-def catalog_rewritten(quick: bool) -> Iterator[Construction]:
+def catalog_rewritten(quick: bool) -> Iterator[KnownScene]:
     """Equations of the catalog, rewritten: the same, or not quite."""
     for number, (name, scene) in enumerate(scenes()):
         if quick and number % 30:
@@ -62,7 +62,7 @@ def catalog_rewritten(quick: bool) -> Iterator[Construction]:
                     continue
                 answer = (constraint["name"], text.format(left=left.strip(), right=right.strip(), q=q))
                 label = f"{name}, {constraint['name']}, {how}"
-                yield Construction(label, plain, how, (trait,), equivalence=(*answer, truth))
+                yield known_scene(label, plain, how, (trait,), equivalence=(*answer, truth))
 
 
 def _labels(scene: Mapping[str, Any]) -> dict[str, bool] | None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from dofkit.benchmark.trials.construction import Construction, every, numbered, scene
+from dofkit.benchmark.trials.construction import KnownScene, every, known_scene, numbered, scene_of
 
 
-def pendulums(quick: bool) -> Iterator[Construction]:
+def pendulums(quick: bool) -> Iterator[KnownScene]:
     """Links one after the other from the ground; closed on the ground; and with links written twice."""
     for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16, 32, 64, 128)) for d in (2, 3)):
         places = [[k, k * k % 3, k % 2][:d] for k in range(n + 1)]
@@ -29,7 +29,7 @@ def pendulums(quick: bool) -> Iterator[Construction]:
             ("closed", closed, d * (n - 1) - n, []),
         ):
             if dof >= 0:
-                yield Construction(
+                yield known_scene(
                     f"{n} links in dimension {d}, {name}",
                     made,
                     "each link takes one; a chain that is not straight is regular; a link written again adds nothing",
@@ -44,7 +44,7 @@ def _link(name: str, a: Any, b: Any) -> dict[str, Any]:
     return {"name": name, "type": "link", "between": [a, b]}
 
 
-def bodies(quick: bool) -> Iterator[Construction]:
+def bodies(quick: bool) -> Iterator[KnownScene]:
     """Bodies hinged one to the next, in the plane and in space; every third hinge welded too."""
     for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16, 32)) for d in (2, 3)):
         names = ["ground", *(f"b{k}" for k in range(n))]
@@ -58,7 +58,7 @@ def bodies(quick: bool) -> Iterator[Construction]:
             ("hinged", hinges, n, []),
             ("every third welded first", [*welds, *hinges], n - len(welded), [f"h{k}" for k in welded]),
         ):
-            yield Construction(
+            yield known_scene(
                 f"{n} bodies in dimension {d}, {name}",
                 {"dimension": d, "bodies": names[1:], "constraints": joints},
                 "an open chain: the freedoms of the joints add up; a hinge between welded bodies says nothing new",
@@ -69,7 +69,7 @@ def bodies(quick: bool) -> Iterator[Construction]:
             )
 
 
-def chained_forms(quick: bool) -> Iterator[Construction]:
+def chained_forms(quick: bool) -> Iterator[KnownScene]:
     """dq_i = q_i+1 dq_0: nothing integrates while the end is open, everything once it closes (Goursat's normal form).
 
     Closed: the last form reads dq_n = q_0 dq_0, so that q_n, then q_n-1, and so on are functions of q_0.
@@ -94,15 +94,15 @@ def chained_forms(quick: bool) -> Iterator[Construction]:
         ]  # fmt: skip
         for name, rows, dof, labels, because, trait in members:
             traits = (trait, "long-chain")
-            yield Construction(name, scene(names, *rows), because, traits, n, dof=dof, integrability=labels)
+            yield known_scene(name, scene_of(names, *rows), because, traits, n, dof=dof, integrability=labels)
 
 
-def trailers(quick: bool) -> Iterator[Construction]:
+def trailers(quick: bool) -> Iterator[KnownScene]:
     """A car that steers with trailers: every configuration is reached [Laumond1993]; on a straight rail it is not."""
     for n in (0, 1) if quick else (0, 1, 2, 4, 8, 16, 24):
         made = car(n)
         forms = numbered(n + 2)
-        yield Construction(
+        yield known_scene(
             f"a car with {n} trailers",
             made,
             "controllable: the derived system of n + 2 forms goes down to none (Laumond 1993)",
@@ -115,7 +115,7 @@ def trailers(quick: bool) -> Iterator[Construction]:
         if n > 3:
             continue
         held = {**made, "constraints": ["phi = 0", *made["constraints"]]}
-        yield Construction(
+        yield known_scene(
             f"a car with {n} trailers that does not steer",
             held,
             "its heading stays, so the axle runs straight and one direction is left: all integrate",
@@ -135,10 +135,10 @@ def car(n: int) -> dict[str, Any]:
         arms = "".join(f" + l{j} cos({angle} - th{j}) dth{j}" for j in range(1, i + 1))
         forms.append(f"sin({angle}) dx - cos({angle}) dy{arms} = 0")
     lengths = {"l": "positive"} | {f"l{j}": "positive" for j in range(1, n + 1)}
-    return scene(["x", "y", "phi", *angles], *forms, parameters=lengths)
+    return scene_of(["x", "y", "phi", *angles], *forms, parameters=lengths)
 
 
-def equations(quick: bool) -> Iterator[Construction]:
+def equations(quick: bool) -> Iterator[KnownScene]:
     """Relations each between neighbours: x_i+1 = f(x_i), and the ends tied once more, rightly or not."""
     for n in (3, 6) if quick else (3, 6, 12, 24):
         names = [f"x{k}" for k in range(n)]
@@ -150,9 +150,9 @@ def equations(quick: bool) -> Iterator[Construction]:
             ("tied by another slope", f"x{n - 1} = {factor + 1} x0", 0, [], ("plain", "long-chain")),
         )
         for name, last, dof, over, traits in rows:
-            yield Construction(
+            yield known_scene(
                 f"{n} coordinates, {name}",
-                scene(names, *sums, last),
+                scene_of(names, *sums, last),
                 f"x_n-1 = {factor} x_0 + {factor - 1} by the chain",
                 traits,
                 size=n,

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from dofkit.benchmark.trials.construction import Construction, scene
+from dofkit.benchmark.trials.construction import KnownScene, known_scene, scene_of
 
 #: What is done to ``u = 0`` (``{u}``, ``{q}`` a coordinate in it): is it the same, the trait, why.
 Way = tuple[str, str, bool, str, str]
@@ -51,7 +51,7 @@ class AskedConstraint:
     def scene(self, text: str = "") -> dict[str, Any]:
         """The scene, with another text for the constraint where one is given."""
         rows = (*self.others, _asked_equation(text or f"{self.u} = 0"))
-        return scene(self.coordinates.split(), *rows, parameters=dict(self.parameters or {}))
+        return scene_of(self.coordinates.split(), *rows, parameters=dict(self.parameters or {}))
 
 
 def _asked_equation(text: str) -> dict[str, str]:
@@ -202,7 +202,7 @@ MOVING = (
 FOR_FORMS = ("negated", "seven times", "tiny", "times 1 + q^2", "times e^q", "times 2 + sin q", "over 1 + q^2")
 
 
-def answers(quick: bool) -> Iterator[Construction]:
+def answers(quick: bool) -> Iterator[KnownScene]:
     """Every constraint in every way of writing it, and in the ways of its own."""
     for number, asked in enumerate(FINITE):
         for turn, way in enumerate(WAYS):
@@ -213,16 +213,16 @@ def answers(quick: bool) -> Iterator[Construction]:
     for asked in (*FINITE, *MOVING):
         for text, same, trait, because in asked.answers[:: 5 if quick else 1]:
             about = f"{asked.name}: {text}", asked.scene(), because, (trait,)
-            yield Construction(*about, equivalence=("asked", text, same))
+            yield known_scene(*about, equivalence=("asked", text, same))
 
 
-def _rewritten(asked: AskedConstraint, way: Way) -> Construction:
+def _rewritten(asked: AskedConstraint, way: Way) -> KnownScene:
     how, text, same, trait, because = way
     answer = ("asked", text.format(u=asked.u, q=asked.q), same)
-    return Construction(f"{asked.name}, {how}", asked.scene(), because, (trait,), equivalence=answer)
+    return known_scene(f"{asked.name}, {how}", asked.scene(), because, (trait,), equivalence=answer)
 
 
-def inequalities(quick: bool) -> Iterator[Construction]:
+def inequalities(quick: bool) -> Iterator[KnownScene]:
     """A side of a surface: the same side of the same surface, or not."""
     disc = AskedConstraint("disc", "x y", "", "x", parameters={"R": "positive"})
     rows = [
@@ -238,21 +238,21 @@ def inequalities(quick: bool) -> Iterator[Construction]:
     ]
     for text, truth, trait in rows[:: 4 if quick else 1]:
         made = disc.scene("x^2 + y^2 <= R^2")
-        yield Construction(text, made, "a disc", (trait, "inequality"), equivalence=("asked", text, truth))
+        yield known_scene(text, made, "a disc", (trait, "inequality"), equivalence=("asked", text, truth))
 
 
-def large_answers(quick: bool) -> Iterator[Construction]:
+def large_answers(quick: bool) -> Iterator[KnownScene]:
     """The same with many coordinates: spheres, sums of many rows, many forms."""
     for n in (3,) if quick else (3, 6, 12, 24):
         x = [f"x{k}" for k in range(n)]
         square = " + ".join(f"{q}^2" for q in x)
-        sphere = scene(x, _asked_equation(f"{square} = 1"))
+        sphere = scene_of(x, _asked_equation(f"{square} = 1"))
         rows = [f"x{k} = {k} x0" for k in range(1, n)]
-        chain = scene([*x, "y"], *rows, _asked_equation("y = x0^2"))
+        chain = scene_of([*x, "y"], *rows, _asked_equation("y = x0^2"))
         total = " + ".join(f"{k + 2}*(x{k} - {k} x0)" for k in range(1, n))
         forms = [f"dx{k} = y{k} dx0" for k in range(1, n)]
         names = [*x, *(f"y{k}" for k in range(1, n)), "z", "w"]
-        moving = scene(names, *forms, _asked_equation("dz = w dx0"))
+        moving = scene_of(names, *forms, _asked_equation("dz = w dx0"))
         summed = " + ".join(f"w*dx{k}" for k in range(1, n)), " + ".join(f"w*y{k}*dx0" for k in range(1, n))
         members = (
             (f"sphere in {n}, in exp", sphere, f"exp({square}) = E", True, "rewritten"),
@@ -267,15 +267,15 @@ def large_answers(quick: bool) -> Iterator[Construction]:
         )  # fmt: skip
         for name, made, text, truth, trait in members:
             about = name, made, "by its making", (trait, "large"), n
-            yield Construction(*about, equivalence=("asked", text, truth))
+            yield known_scene(*about, equivalence=("asked", text, truth))
 
 
-def tiny_answers(quick: bool) -> Iterator[Construction]:
+def tiny_answers(quick: bool) -> Iterator[KnownScene]:
     """A difference of 10^-k, in a finite relation and in a form, beside a factor of the same size."""
     for k in (6, 30) if quick else (3, 6, 9, 12, 15, 18, 24, 30, 60):
         e = f"1e-{k}"
-        circle = scene(["x", "y"], _asked_equation("x^2 + y^2 = 4"))
-        form = scene(["x", "y", "z"], _asked_equation("dz = y dx"))
+        circle = scene_of(["x", "y"], _asked_equation("x^2 + y^2 = 4"))
+        form = scene_of(["x", "y", "z"], _asked_equation("dz = y dx"))
         rows: tuple[tuple[str, dict[str, Any], str, bool], ...] = (
             ("radius", circle, f"x^2 + y^2 = 4 + {e}", False),
             ("ellipse", circle, f"x^2 + (1 + {e}) y^2 = 4", False),
@@ -289,7 +289,7 @@ def tiny_answers(quick: bool) -> Iterator[Construction]:
             trait = "rewritten" if truth else "tiny-difference"
             because = "a factor without zeros" if truth else "another set"
             about = f"{name}, {e}", made, because, (trait,)
-            yield Construction(*about, swept={"gap": float(e)}, equivalence=("asked", text, truth))
+            yield known_scene(*about, swept={"gap": float(e)}, equivalence=("asked", text, truth))
 
 
 FAMILIES = {"answers": answers, "sides": inequalities, "large answers": large_answers, "tiny differences": tiny_answers}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Mapping, Sequence
 
-from dofkit.benchmark.trials.construction import Construction, Line, every, numbered, scene, tabled
+from dofkit.benchmark.trials.construction import KnownScene, Line, every, known_scene, numbered, scene_of, tabled
 
 #: A form by coordinate: coefficients as text.
 Form = Mapping[str, str]
@@ -28,7 +28,7 @@ def combined(rows: Sequence[Sequence[str]], forms: Sequence[Form]) -> list[Form]
     return found
 
 
-def mixed_forms(quick: bool) -> Iterator[Construction]:
+def mixed_forms(quick: bool) -> Iterator[KnownScene]:
     """n exact forms mixed by functions: none integrates alone, all do together; with a contact form among them, none.
 
     The matrix is lower times upper triangular with ones on both diagonals: determinant 1.
@@ -45,9 +45,9 @@ def mixed_forms(quick: bool) -> Iterator[Construction]:
         ):
             rows = [text(form) for form in combined(matrix, forms)]
             whole = all(row[0] for row in matrix) or integrates
-            yield Construction(
+            yield known_scene(
                 f"{n} forms in {2 * n + 1} coordinates, {name}, {seed}",
-                scene(names, *rows),
+                scene_of(names, *rows),
                 "what they span does not change with a regular matrix of functions",
                 ("together" if integrates else "non-holonomic", "large"),
                 size=n,
@@ -143,21 +143,21 @@ TOGETHER: list[Line] = [
 ]  # fmt: skip
 
 
-def together(quick: bool) -> Iterator[Construction]:
+def together(quick: bool) -> Iterator[KnownScene]:
     """Forms with their system: the label of each is one of the whole."""
     return map(tabled, TOGETHER[: 9 if quick else None])
 
 
-def near_integrable(quick: bool) -> Iterator[Construction]:
+def near_integrable(quick: bool) -> Iterator[KnownScene]:
     """n exact forms, one with a step e x_k dx_l in it: it does not integrate, however small the step."""
     for n, digits in ((n, d) for n in ((1, 2) if quick else (1, 2, 4)) for d in (3, 6, 9, 12, 18, 30)):
         names = [*(f"z{k}" for k in range(n)), "x", "y"]
         exact = [f"dz{k} + {k + 1}*(y dx + x dy)" for k in range(n)]
         for name, step, holonomic in (("turned", f"1e-{digits}*x dy", False), ("curved", f"1e-{digits}*y dy", True)):
             rows = [*(f"{form} = 0" for form in exact[:-1]), f"{exact[-1]} + {step} = 0"]
-            yield Construction(
+            yield known_scene(
                 f"{n} forms, the last {name} by 1e-{digits}",
-                scene(names, *rows),
+                scene_of(names, *rows),
                 "d of the last is e dx dy, which no other form holds" if not holonomic else "all are closed",
                 ("near-integrable" if not holonomic else "integrable",),
                 size=n,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
@@ -23,7 +23,7 @@ End = str | int
 class Framework:
     """Free joints by name, joints on the ground by number, and bars between them, all drawn."""
 
-    joints: dict[str, Position]
+    joints: Mapping[str, Position]
     ground: tuple[Position, ...]
     bars: tuple[tuple[End, End], ...]
 

@@ -6,7 +6,7 @@ import random
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from dofkit.benchmark.trials.construction import Construction
+from dofkit.benchmark.trials.construction import KnownScene, known_scene
 
 Link = tuple[int, int]
 
@@ -27,14 +27,14 @@ def _of(links: Sequence[Link], redundant: Sequence[Link]) -> list[str]:
     return [f"l{k}" for k, link in enumerate(links) if link in chosen]
 
 
-def cliques(quick: bool) -> Iterator[Construction]:
+def cliques(quick: bool) -> Iterator[KnownScene]:
     """All pairs, joint after joint: its first d links put a joint in its place, each further one is redundant."""
     sizes = {1: (4, 8, 16, 32), 2: (4, 8, 16, 32, 64), 3: (4, 5, 8, 16, 32)}
     for d, n in ((d, n) for d, ladder in sizes.items() for n in (ladder[:1] if quick else ladder)):
         links = [(i, j) for j in range(n) for i in range(j)]
         needed = [(i, j) for i, j in links if i < d]
         for name, chosen in (("all pairs", links), ("only the links that are needed", needed)):
-            yield Construction(
+            yield known_scene(
                 f"{n} joints in dimension {d}, {name}",
                 linked(n, d, chosen),
                 "d links fix a joint to a rigid framework; further links are redundant",
@@ -45,7 +45,7 @@ def cliques(quick: bool) -> Iterator[Construction]:
             )
 
 
-def complete_bipartite(quick: bool) -> Iterator[Construction]:
+def complete_bipartite(quick: bool) -> Iterator[KnownScene]:
     """Every joint of one kind with every one of the other [BolkerRoth1980]."""
     # (dimension, m, n, dof, redundant: None where it was not derived)
     known = [
@@ -65,7 +65,7 @@ def complete_bipartite(quick: bool) -> Iterator[Construction]:
     ]
     for d, m, n, dof, over in known[:: 5 if quick else 1]:
         links = [(i, m + j) for j in range(n) for i in range(m)]
-        yield Construction(
+        yield known_scene(
             f"{m} and {n} joints in dimension {d}",
             linked(m + n, d, links),
             "rigid in the plane from 3 and 3 on, in space from 4 and 6 or 5 and 5 on (Bolker and Roth 1980)",
@@ -76,7 +76,7 @@ def complete_bipartite(quick: bool) -> Iterator[Construction]:
         )
 
 
-def bananas(quick: bool) -> Iterator[Construction]:
+def bananas(quick: bool) -> Iterator[KnownScene]:
     """Rigid spindles, each of two ends and a triangle: on the same two ends they are dependent; in a ring they are not.
 
     On the same ends: the last link of every one but the first says again how far these are apart. In a ring of three
@@ -99,7 +99,7 @@ def bananas(quick: bool) -> Iterator[Construction]:
         for how, joints, links, dof, over, because, trait in members:
             if how != "in a ring" or n > 2:
                 name = f"{n} bananas {how}"
-                yield Construction(name, linked(joints, 3, links), because, (trait,), n, dof=dof, redundancy=over)
+                yield known_scene(name, linked(joints, 3, links), because, (trait,), n, dof=dof, redundancy=over)
 
 
 def _spindle(a: int, b: int, first: int) -> list[Link]:
@@ -108,7 +108,7 @@ def _spindle(a: int, b: int, first: int) -> list[Link]:
     return [*combinations(triangle, 2), *((end, c) for end in (a, b) for c in triangle)]
 
 
-def henneberg(quick: bool) -> Iterator[Construction]:
+def henneberg(quick: bool) -> Iterator[KnownScene]:
     """Put together joint by joint [Henneberg1911] [TayWhiteley1985]: rigid, and no link too many.
 
     With links more, each of them is redundant; with the last one left out, there is one freedom more.
@@ -126,7 +126,7 @@ def henneberg(quick: bool) -> Iterator[Construction]:
             ("and links more", [*links, *extra], rigid, extra),
             ("one left out", links[:-1], rigid + 1, []),
         ):
-            yield Construction(
+            yield known_scene(
                 f"{n} joints in dimension {d}, {seed}, {name}",
                 linked(n, d, chosen),
                 "each step keeps the links independent, and with d joints more than links the framework rigid",
@@ -150,7 +150,7 @@ def steps(joints: int, dimension: int, rng: random.Random) -> list[Link]:
     return links
 
 
-def trees_on_a_line(quick: bool) -> Iterator[Construction]:
+def trees_on_a_line(quick: bool) -> Iterator[KnownScene]:
     """Links along a line: one that closes a circle is redundant, and every part moves by itself."""
     for n in (4, 8) if quick else (4, 8, 16, 32, 64, 128, 256, 512):
         rng = random.Random(n)
@@ -161,7 +161,7 @@ def trees_on_a_line(quick: bool) -> Iterator[Construction]:
             ("with circles", links, redundant),
             ("without", [link for link in links if link not in redundant], []),
         ):
-            yield Construction(
+            yield known_scene(
                 f"{n} joints on a line, {name}",
                 linked(n, 1, chosen),
                 "one freedom for every connected part; the last link of a circle is redundant",
@@ -190,7 +190,7 @@ def union(n: int, links: Sequence[Link]) -> tuple[int, list[Link]]:
     return sum(find(v) == v for v in range(n)), closing
 
 
-def clusters(quick: bool) -> Iterator[Construction]:
+def clusters(quick: bool) -> Iterator[KnownScene]:
     """Rigid clusters with one link too many each, hinged one to the next; or with a link less."""
     for n in (2, 4) if quick else (2, 4, 8, 16, 32, 64, 128):
         links: list[Link] = []
@@ -201,7 +201,7 @@ def clusters(quick: bool) -> Iterator[Construction]:
             ("one diagonal", "two triangles each", [link for k, link in enumerate(links) if k % 6 != 5], []),
         )
         for name, because, chosen, over in members:
-            yield Construction(
+            yield known_scene(
                 f"{n} quadrilaterals with {name}",
                 linked(3 * n + 1, 2, chosen),
                 f"{because}; each cluster turns against the last",

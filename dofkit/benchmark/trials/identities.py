@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
-from dofkit.benchmark.trials.construction import Construction, KnownTruth, scene
+from dofkit.benchmark.trials.construction import KnownScene, known_scene, scene_of
 from dofkit.benchmark.trials.contexts import CONTEXTS
 from dofkit.benchmark.trials.rewritten import other_coordinates
 from dofkit.benchmark.trials.steps import tiny_steps
@@ -18,7 +19,7 @@ TAKEN = ("1e-12", "1e-30")
 FINITE = ("planes", "circle", "lines", "height", "angle")
 
 
-def identities(quick: bool) -> Iterator[Construction]:
+def identities(quick: bool) -> Iterator[KnownScene]:
     """Zero by an identity, or missed by a constant that floating point does not see, or by a sign."""
     seen = set()
     for trap, text, zero, trait, number in _traps(9 if quick else 1):
@@ -26,7 +27,7 @@ def identities(quick: bool) -> Iterator[Construction]:
         if known is not None and known.name not in seen:
             seen.add(known.name)
             because = "zero by an identity" if zero else "an identity missed by a constant, or by a sign"
-            yield Construction.of(known, because, (trait,))
+            yield replace(known, because=because, traits=(trait,))
 
 
 def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, str, int]]:
@@ -42,7 +43,7 @@ def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, str, int]]:
             yield Trap(name, text, None, names, "^" not in text), text, False, "near-identity", number + STRIDE * turn
 
 
-def _in_context(trap: Trap, text: str, zero: bool, number: int) -> KnownTruth | None:
+def _in_context(trap: Trap, text: str, zero: bool, number: int) -> KnownScene | None:
     """The trap in the first context from this on in which it can stand."""
     for turn in range(len(CONTEXTS)):
         found = CONTEXTS[(number + turn) % len(CONTEXTS)](trap, text, zero)
@@ -51,28 +52,29 @@ def _in_context(trap: Trap, text: str, zero: bool, number: int) -> KnownTruth | 
     return None
 
 
-def steps(quick: bool) -> Iterator[Construction]:
+def steps(quick: bool) -> Iterator[KnownScene]:
     """Forms and relations a tiny exact step away from integrable, dependent or consistent ones."""
     for number, known in enumerate(tiny_steps()):
         if number % 23 if quick else not known.name.endswith(TAKEN):
             continue
         contradictory = known.truth.get("consistent") is False
         trait = "tiny-gap" if contradictory or any(word in known.group for word in FINITE) else "near-integrable"
-        yield Construction.of(known, "a step is exact, however small", (trait,))
+        yield replace(known, because="a step is exact, however small", traits=(trait,))
 
 
-def rewritten(quick: bool) -> Iterator[Construction]:
+def rewritten(quick: bool) -> Iterator[KnownScene]:
     """The same scene in other coordinates: what is true of it does not change."""
     for number, known in enumerate(other_coordinates()):
         if number % (40 if quick else STRIDE + 2):
             continue
         how = known.name.removeprefix(f"{known.group}, ")
         trait = "scale" if "scaled" in how else "offset" if "moved" in how else "rewritten"
-        other = "non-holonomic" if False in {v.get("holonomic") for v in known.labels.values()} else "integrable"
-        yield Construction.of(known, "coordinates do not change what is true", (trait, other))
+        labels = [value for key, value in known.truth.items() if key.endswith(".holonomic")]
+        other = "non-holonomic" if False in labels else "integrable"
+        yield replace(known, because="coordinates do not change what is true", traits=(trait, other))
 
 
-def bases(quick: bool) -> Iterator[Construction]:
+def bases(quick: bool) -> Iterator[KnownScene]:
     """Powers to different bases in the coefficients of forms."""
     for number, (name, zero) in enumerate(BASES[:: 4 if quick else 1]):
         trap = Trap(name, zero, None, "w")
@@ -80,19 +82,17 @@ def bases(quick: bool) -> Iterator[Construction]:
             known = _in_context(trap, text, is_zero, 2 * number + turn)
             if known is not None:
                 because = "one function, written to two bases" if is_zero else "off by a constant"
-                yield Construction.of(known, because, ("mixed-bases" if is_zero else "near-identity",))
+                yield replace(known, because=because, traits=("mixed-bases" if is_zero else "near-identity",))
     for power in (2,) if quick else (2, 3, 5, 8, 12):
         names = ["x", "y", "z"]
-        same = scene(names, f"({2**power})^x dz + 2^({power} x) dy = 0")
-        other = scene(names, f"({2**power})^x dz + 2^({power} x) y dx = 0")
-        for known, because in (
-            (KnownTruth("", f"a factor 2^({power} x)", same, {"dof": 2}, {"c1": {"holonomic": True}}), "dz + dy"),
-            (
-                KnownTruth("", f"a contact form by 2^({power} x)", other, {"dof": 3}, {"c1": {"holonomic": False}}),
-                "dz + y dx",
-            ),
+        same = scene_of(names, f"({2**power})^x dz + 2^({power} x) dy = 0")
+        other = scene_of(names, f"({2**power})^x dz + 2^({power} x) y dx = 0")
+        for name, made, dof, because in (
+            (f"a factor 2^({power} x)", same, 2, "dz + dy"),
+            (f"a contact form by 2^({power} x)", other, 3, "dz + y dx"),
         ):
-            yield Construction.of(known, f"over the factor: {because}", ("mixed-bases",))
+            over = f"over the factor: {because}"
+            yield known_scene(name, made, over, ("mixed-bases",), dof=dof, integrability={"c1": dof == 2})
 
 
 #: Zero for every real w.

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from dofkit.benchmark.trials.construction import Construction
+from dofkit.benchmark.trials.construction import KnownScene, known_scene
 
 Place = Sequence[Any]
 
 
-def doors(quick: bool) -> Iterator[Construction]:
+def doors(quick: bool) -> Iterator[KnownScene]:
     """A door on n hinges: on one line it turns, and all but the first say nothing new; off the line it is held."""
     for n in (2, 3) if quick else (2, 3, 4, 8, 16):
         # name, the places and axes of the hinges, dof, how many of the first are needed, trait
@@ -27,7 +27,7 @@ def doors(quick: bool) -> Iterator[Construction]:
                 {"name": name, "type": "revolute", "between": ["ground", "door"], "at": at, "axis": axis}
                 for name, (at, axis) in zip(names, hinges, strict=True)
             ]
-            yield Construction(
+            yield known_scene(
                 f"{n} hinges {name}",
                 {"bodies": ["door"], "constraints": joints},
                 "hinges on one line are one hinge; two that are not hold the door",
@@ -38,7 +38,7 @@ def doors(quick: bool) -> Iterator[Construction]:
             )
 
 
-def cranks(quick: bool) -> Iterator[Construction]:
+def cranks(quick: bool) -> Iterator[KnownScene]:
     """A platform on n parallel bars of one length moves; with one foot aside, or one bar longer, it does not."""
     for n in (3, 4) if quick else (3, 4, 8, 16):
         platform = [[k, 2 + k % 2] for k in range(n)]
@@ -61,7 +61,7 @@ def cranks(quick: bool) -> Iterator[Construction]:
             ]
             last = n if needed == n else needed
             redundant = names[2 : n - 1] if needed == n else names[last:]
-            yield Construction(
+            yield known_scene(
                 f"{n} bars, {name}",
                 {"dimension": 2, "bodies": ["platform"], "constraints": bars},
                 "parallel bars of one length: a circle for every point; three that are not through one point hold it",
@@ -72,7 +72,7 @@ def cranks(quick: bool) -> Iterator[Construction]:
             )
 
 
-def loops(quick: bool) -> Iterator[Construction]:
+def loops(quick: bool) -> Iterator[KnownScene]:
     """A closed loop of n hinges in space: parallel ones move as in the plane, a tilted one is locked."""
     for n in (4, 5) if quick else (4, 5, 6, 8):
         places = [[k, k * (n - 1 - k), 0] for k in range(n)]
@@ -93,7 +93,7 @@ def loops(quick: bool) -> Iterator[Construction]:
                 }
                 for k in range(n)
             ]
-            yield Construction(
+            yield known_scene(
                 f"{n} hinges, {name}",
                 {"bodies": bodies[1:], "constraints": joints},
                 "parallel screws have rank 3; a tilted one is outside of them, and so does not turn",
@@ -131,7 +131,7 @@ KNOWN: list[tuple[str, list[tuple[Place, Place]], int, str, str]] = [
 ]  # fmt: skip
 
 
-def known_loops(quick: bool) -> Iterator[Construction]:
+def known_loops(quick: bool) -> Iterator[KnownScene]:
     """Loops with a name."""
     for name, hinges, dof, because, trait in KNOWN[:: 2 if quick else 1]:
         n = len(hinges)
@@ -142,10 +142,10 @@ def known_loops(quick: bool) -> Iterator[Construction]:
             for k, (at, axis) in enumerate(hinges)
         ]
         scene = {"bodies": bodies[1:], "constraints": joints}
-        yield Construction(name, scene, because, (trait,), size=n, dof=dof)
+        yield known_scene(name, scene, because, (trait,), size=n, dof=dof)
 
 
-def braced_grids(quick: bool) -> Iterator[Construction]:
+def braced_grids(quick: bool) -> Iterator[KnownScene]:
     """m by m squares drawn, some with a diagonal: rows and columns as a graph [BolkerCrapo1977].
 
     A row and a column are joined where their square is braced; a brace that closes a circle is redundant, and every
@@ -164,7 +164,7 @@ def braced_grids(quick: bool) -> Iterator[Construction]:
             ("a corner of", [(i, j) for i, j in spots if i < m // 2 and j < m // 2]),
         ):
             scene, redundant, parts = _grid(m, braced)
-            yield Construction(
+            yield known_scene(
                 f"{m} by {m} squares, {name} braces",
                 scene,
                 "Bolker and Crapo 1977: 3 + (parts of the graph of rows and columns) - 1",
@@ -198,7 +198,7 @@ def _grid(m: int, braced: Sequence[tuple[int, int]]) -> tuple[dict[str, Any], li
     return scene, redundant, sum(part[v] == v for v in part)
 
 
-def triangulated(quick: bool) -> Iterator[Construction]:
+def triangulated(quick: bool) -> Iterator[KnownScene]:
     """Squares with a diagonal each, of any lengths: rigid, and every square off the border has a link too many."""
     for m in (2, 3) if quick else (2, 3, 4, 8, 16):
         links: list[tuple[str, tuple[int, int], tuple[int, int]]] = []
@@ -219,7 +219,7 @@ def triangulated(quick: bool) -> Iterator[Construction]:
                     {"name": label, "type": "link", "between": [f"p{a[0]}_{a[1]}", f"p{b[0]}_{b[1]}"]}
                     for label, a, b in chosen
                 ]
-                yield Construction(
+                yield known_scene(
                     f"{m} by {m} squares, {name}, {'drawn' if drawn else 'of any lengths'}",
                     {"dimension": 2, "particles": particles, "constraints": constraints},
                     "each joint stands on two of a rigid framework; a third link to it is redundant",

@@ -5,11 +5,11 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator
 
-from dofkit.benchmark.trials.construction import Construction, every, numbered
+from dofkit.benchmark.trials.construction import KnownScene, every, known_scene, numbered
 from dofkit.benchmark.trials.random_systems import dependent, graph, loop, tree
 
 
-def trees(quick: bool) -> Iterator[Construction]:
+def trees(quick: bool) -> Iterator[KnownScene]:
     """Joints of every type, each body on one before it; and one of the joints written again."""
     for d, n in ((d, n) for n in ((1, 2) if quick else (1, 2, 4, 8, 16)) for d in (2, 3)):
         for seed in range(1 if quick or n > 4 else 2):
@@ -18,7 +18,7 @@ def trees(quick: bool) -> Iterator[Construction]:
             joints = made.scene["constraints"]
             again = {**rng.choice(joints), "name": "again"}
             for name, constraints, over in (("", joints, []), (", one joint twice", [*joints, again], ["again"])):
-                yield Construction(
+                yield known_scene(
                     f"{n} bodies in dimension {d}, {seed}{name}",
                     {**made.scene, "constraints": constraints},
                     "the freedoms of the joints of a tree add up; a joint written again adds nothing",
@@ -29,13 +29,13 @@ def trees(quick: bool) -> Iterator[Construction]:
                 )
 
 
-def loops(quick: bool) -> Iterator[Construction]:
+def loops(quick: bool) -> Iterator[KnownScene]:
     """Closed loops of joints of every type, where their screws span all or are independent."""
     for d, n in ((d, n) for n in ((1, 2) if quick else (1, 2, 3, 4, 5, 6)) for d in (2, 3)):
         for seed in range(2 if quick else 4):
             made = loop(random.Random(f"loop {d} {n} {seed}"), d, n)
             if made.dof is not None:
-                yield Construction(
+                yield known_scene(
                     f"{n} bodies in dimension {d}, {seed}",
                     made.scene,
                     "rates whose screws cancel, by the exact rank: regular where they span all, none where independent",
@@ -45,12 +45,12 @@ def loops(quick: bool) -> Iterator[Construction]:
                 )
 
 
-def bars(quick: bool) -> Iterator[Construction]:
+def bars(quick: bool) -> Iterator[KnownScene]:
     """Random bars between joints at random places, some pairs twice: the exact rank."""
     for d, n in ((d, n) for n in ((4, 5) if quick else (4, 6, 8, 12, 16)) for d in (1, 2, 3)):
         for seed in range(1 if quick else 2):
             drawn = graph(random.Random(f"bars {d} {n} {seed}"), d, n, twice=True)
-            yield Construction(
+            yield known_scene(
                 f"{n} joints in dimension {d}, {seed}",
                 drawn.scene(),
                 "the rank of the rigidity matrix over the rationals, at places in general position",
@@ -61,7 +61,7 @@ def bars(quick: bool) -> Iterator[Construction]:
             )
 
 
-def rolling(quick: bool) -> Iterator[Construction]:
+def rolling(quick: bool) -> Iterator[KnownScene]:
     """Balls that roll on a plane, where nothing integrates, and discs that roll on a line, where all does."""
     for n in (1, 2) if quick else (1, 2, 4, 8):
         bodies = [f"b{k}" for k in range(n)]
@@ -72,7 +72,7 @@ def rolling(quick: bool) -> Iterator[Construction]:
             ("discs on a line", 2, rolls, n, every(numbered(n), True)),
             ("balls along lines", 3, [*rolls, *held], 4 * n, None),
         ):
-            yield Construction(
+            yield known_scene(
                 f"{n} {name}",
                 {"dimension": d, "bodies": bodies, "constraints": constraints},
                 "a ball reaches every place and every turn; a disc on a line is where its angle says",

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dofkit.benchmark.trials.construction import Construction, every, numbered, scene
+from dofkit.benchmark.trials.construction import KnownScene, every, known_scene, numbered, scene_of
 
 POWERS = (1, 2, 3, 8, 16, 32, 64)
 #: The largest power of a sum that a scene may hold, as powers of powers are bounded.
 LARGEST = 32
 
 
-def high_powers(quick: bool) -> Iterator[Construction]:
+def high_powers(quick: bool) -> Iterator[KnownScene]:
     """Powers of an equation have its zeros, and no gradient there; x^k beside y^k are curves, points or nothing."""
     for k in (2, 3) if quick else POWERS:
         even = k % 2 == 0
@@ -30,9 +30,9 @@ def high_powers(quick: bool) -> Iterator[Construction]:
         for name, coordinates, texts, dof, over, trait in rows:
             if k > LARGEST and "(" in "".join(texts):
                 continue
-            yield Construction(
+            yield known_scene(
                 f"{name}, k = {k}",
-                scene(coordinates, *texts),
+                scene_of(coordinates, *texts),
                 "a power is 0 where its base is; real even powers are not negative",
                 (trait, "real") if "x^k +" in name or dof < 0 else (trait,),
                 size=k,
@@ -42,7 +42,7 @@ def high_powers(quick: bool) -> Iterator[Construction]:
             )
 
 
-def power_forms(quick: bool) -> Iterator[Construction]:
+def power_forms(quick: bool) -> Iterator[KnownScene]:
     """Forms with powers in them, and powers of forms."""
     for k in (2, 3) if quick else POWERS:
         # (name, text, integrates?, because)
@@ -59,9 +59,9 @@ def power_forms(quick: bool) -> Iterator[Construction]:
         for name, text, integrates, because in rows:
             if k > LARGEST and text.startswith("("):
                 continue
-            yield Construction(
+            yield known_scene(
                 f"{name}, k = {k}",
-                scene(["x", "y", "z"], text),
+                scene_of(["x", "y", "z"], text),
                 because,
                 ("squared", "nonlinear") if "the power of" in name else ("high-power",),
                 size=k,
@@ -71,7 +71,7 @@ def power_forms(quick: bool) -> Iterator[Construction]:
             )
 
 
-def sums_of_squares(quick: bool) -> Iterator[Construction]:
+def sums_of_squares(quick: bool) -> Iterator[KnownScene]:
     """One equation that says n things: a sum of n squares; with a sign, or a constant, it does not."""
     for n in (2, 3) if quick else (2, 3, 4, 6, 8, 12):
         total, mixed = _sum(n, "(x{k} - {k})^2"), _sum(n, "(x{k} + 2 x{next})^2")
@@ -85,24 +85,24 @@ def sums_of_squares(quick: bool) -> Iterator[Construction]:
         ]
         names = [f"x{k}" for k in range(n)]
         for name, text, dof, because, traits in rows:
-            yield Construction(f"{name} of {n}", scene(names, text), because, traits, size=n, dof=dof)
+            yield known_scene(f"{name} of {n}", scene_of(names, text), because, traits, size=n, dof=dof)
         yield from _squared_forms(n, names)
 
 
-def _squared_forms(n: int, names: list[str]) -> Iterator[Construction]:
+def _squared_forms(n: int, names: list[str]) -> Iterator[KnownScene]:
     traits = ("sum-of-squares", "nonlinear")
-    yield Construction(
+    yield known_scene(
         f"{n} forms in one",
-        scene([*names, "y"], f"(x0dot - x1 ydot)^2 + {_sum(n, '(x{k}dot - y ydot)^2', 1)} = 0"),
+        scene_of([*names, "y"], f"(x0dot - x1 ydot)^2 + {_sum(n, '(x{k}dot - y ydot)^2', 1)} = 0"),
         "each square is 0: dx_k = y dy, and dx_0 = x_1 dy with it; one direction is left: they integrate",
         traits,
         size=n,
         dof=1,
         integrability={"c1": True},
     )
-    yield Construction(
+    yield known_scene(
         f"{n - 1} forms in one, and one that does not integrate",
-        scene([*names, "y", "z"], f"{_sum(n, '(x{k}dot - z ydot)^2')} = 0"),
+        scene_of([*names, "y", "z"], f"{_sum(n, '(x{k}dot - z ydot)^2')} = 0"),
         "each square is 0: dx_k = z dy; differences integrate, the form does not",
         traits,
         size=n,
@@ -116,7 +116,7 @@ def _sum(n: int, text: str, first: int = 0) -> str:
     return " + ".join(text.format(k=k, next=(k + 1) % n) for k in range(first, n))
 
 
-def branches(quick: bool) -> Iterator[Construction]:
+def branches(quick: bool) -> Iterator[KnownScene]:
     """Products: the set is the union of the branches, the freedom that of the largest."""
     # (name, coordinates, rows, dof, integrability: None for finite ones, because, trait)
     rows: list[tuple[str, list[str], list[str], int, dict[str, bool] | None, str, str]] = [
@@ -139,8 +139,8 @@ def branches(quick: bool) -> Iterator[Construction]:
         ("one square", ["x", "y"], ["(x - y)^2*(x + y) = 0"], 1, {"c1": True}, "two lines", "squared"),
     ]  # fmt: skip
     for name, coordinates, texts, dof, labels, because, trait in rows[: 4 if quick else None]:
-        yield Construction(
-            name, scene(coordinates, *texts), because, (trait,), size=len(coordinates), dof=dof, integrability=labels
+        yield known_scene(
+            name, scene_of(coordinates, *texts), because, (trait,), size=len(coordinates), dof=dof, integrability=labels
         )
 
 

@@ -96,7 +96,7 @@ def loop(rng: random.Random, dimension: int, bodies: int) -> RandomBodies:
         joints.append(joint)
         screws += own
     each = dimension * (dimension + 1) // 2
-    rank = _rank(screws)
+    rank = exact_rank(screws)
     first = len(screws) - rank
     dof = first if first == 0 or rank == each else None
     equations = (bodies + 1) * each - len(screws)
@@ -156,5 +156,6 @@ def _slide(axis: Vector) -> list[Fraction]:
     return [*ZERO, *axis]
 
 
-def _rank(screws: Sequence[Sequence[Fraction]]) -> int:
-    return int(fmpq_mat([[fmpq(x.numerator, x.denominator) for x in screw] for screw in screws]).rank())
+def exact_rank(rows: Sequence[Sequence[Fraction]]) -> int:
+    """Return the rank over the rationals."""
+    return int(fmpq_mat([[fmpq(x.numerator, x.denominator) for x in row] for row in rows]).rank()) if rows else 0

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations
 
-from dofkit.benchmark.trials.construction import Construction, every, numbered, scene
+from dofkit.benchmark.trials.construction import KnownScene, every, known_scene, numbered, scene_of
 
 #: name, coordinates, rows that are independent, a row that follows from them, one that does not and takes one more
 #: freedom, one that contradicts them (or None); the trait
@@ -53,7 +53,7 @@ HIDDEN: list[tuple[str, str, Sequence[str], str, str, str | None, str]] = [
 ]  # fmt: skip
 
 
-def hidden_relations(quick: bool) -> Iterator[Construction]:
+def hidden_relations(quick: bool) -> Iterator[KnownScene]:
     """Relations whose functions depend on each other; with a row that does not, and one that contradicts them."""
     for number, (name, names, rows, implied, new, never, trait) in enumerate(HIDDEN[:: 6 if quick else 1]):
         n, k = len(names.split()), len(rows)
@@ -65,9 +65,9 @@ def hidden_relations(quick: bool) -> Iterator[Construction]:
         for how, row, dof, over, main in members:
             if row is None or (dof < 0 and number % 2):
                 continue
-            yield Construction(
+            yield known_scene(
                 f"{name}, {how}",
-                scene(names.split(), *rows, row),
+                scene_of(names.split(), *rows, row),
                 f"{implied} by the rows before",
                 (main, trait) if main != trait else (trait,),
                 size=k + 1,
@@ -76,7 +76,7 @@ def hidden_relations(quick: bool) -> Iterator[Construction]:
             )
 
 
-def power_sums(quick: bool) -> Iterator[Construction]:
+def power_sums(quick: bool) -> Iterator[KnownScene]:
     """The power sums of n numbers are polynomials in the elementary symmetric ones [NewtonGirard]."""
     for n in (2,) if quick else (2, 3, 4, 5):
         x = [f"x{k}" for k in range(n)]
@@ -89,9 +89,9 @@ def power_sums(quick: bool) -> Iterator[Construction]:
             ("Newton's identity", last, n, [f"c{2 * n + 1}"]),
             ("Newton's identity missed", last + f" + e{n}", n - 1, []),
         ):
-            yield Construction(
+            yield known_scene(
                 f"{how} of {n}",
-                scene(names, *rows, row),
+                scene_of(names, *rows, row),
                 "p_n = e_1 p_n-1 - e_2 p_n-2 + ... up to n e_n (Newton); missed, it forces e_n = 0",
                 ("hidden-relation",),
                 size=n,
@@ -105,7 +105,7 @@ def _newton(n: int) -> str:
     return f"{' '.join(terms)} {'+' if n % 2 else '-'} {n}*e{n}".lstrip("+ ")
 
 
-def rotations(quick: bool) -> Iterator[Construction]:
+def rotations(quick: bool) -> Iterator[KnownScene]:
     """R^T R = 1, then R R^T = 1 too: the second says nothing new, as a left inverse is a right one."""
     for n in (2,) if quick else (2, 3):
         entry = [[f"r{i}{j}" for j in range(n)] for i in range(n)]
@@ -127,9 +127,9 @@ def rotations(quick: bool) -> Iterator[Construction]:
             ("that leave the first axis", ["r00 = 1"], (n - 1) * (n - 2) // 2, []),
             ("of trace beyond n", [" + ".join(f"r{i}{i}" for i in range(n)) + f" = {n} + 1e-9"], -1, []),
         ):
-            yield Construction(
+            yield known_scene(
                 f"{n} by {n} {how}",
-                scene(names, *columns, *more),
+                scene_of(names, *columns, *more),
                 "a left inverse is a right one; entries are at most 1",
                 ("hidden-relation",) if over else ("real",) if "axis" in how or dof < 0 else ("plain",),
                 size=n,
@@ -138,7 +138,7 @@ def rotations(quick: bool) -> Iterator[Construction]:
             )
 
 
-def linear_rows(quick: bool) -> Iterator[Construction]:
+def linear_rows(quick: bool) -> Iterator[KnownScene]:
     """Rows of a linear system; the last a combination of the others, at a gap; scaled; with coefficients far apart."""
     sizes = (3, 6) if quick else (3, 6, 12)
     for n, digits in ((n, d) for n in sizes for d in ((6, 30) if quick else (6, 12, 30, 60))):
@@ -161,9 +161,9 @@ def linear_rows(quick: bool) -> Iterator[Construction]:
             ("tilted by", f"{_row(last)} + {step}*x{n - 1} = {value}", n - k - 1, [], ("tiny-gap",)),
             ("scaled by", f"{step}*({_row(last)} - ({value})) = 0", n - k, [f"c{k + 1}"], ("scale", "redundant")),
         ):
-            yield Construction(
+            yield known_scene(
                 f"{n} coordinates, {how} 1e-{digits}",
-                scene(names, *texts, text),
+                scene_of(names, *texts, text),
                 "the first rows are in echelon form; the last is a combination of them, but for the gap",
                 traits,
                 size=n,
@@ -197,16 +197,16 @@ TOUCHING: list[tuple[str, str, Sequence[str], tuple[Told, Told, Told]]] = [
 ]  # fmt: skip
 
 
-def touching(quick: bool) -> Iterator[Construction]:
+def touching(quick: bool) -> Iterator[KnownScene]:
     """Surfaces that miss each other by a gap, touch, or meet: none, a point, or more."""
     for name, names, rows, told in TOUCHING[:: 5 if quick else 1]:
         for digits in (9,) if quick else (0, 12, 30, 60):
             signs = (("apart", f"1e-{digits}", 0), ("meeting", f"-1e-{digits}", 2))
             for how, e, k in (*signs, ("touching", "0", 1)) if digits in (9, 12) else signs:
                 dof, over = told[k]
-                yield Construction(
+                yield known_scene(
                     f"{name}, {how}" + (f" by 1e-{digits}" if k != 1 else ""),
-                    scene(names.split(), *(row.replace("{e}", e) for row in rows)),
+                    scene_of(names.split(), *(row.replace("{e}", e) for row in rows)),
                     "real solutions are there on one side of the gap only",
                     ("tiny-gap", "contradiction") if dof < 0 else ("tiny-gap", "real") if k == 1 else ("tiny-gap",),
                     size=len(rows),
@@ -240,16 +240,16 @@ SCALES: list[tuple[str, str, Sequence[str], int, Sequence[str] | None, bool | No
 FAR = (3, 6, 9)
 
 
-def scales(quick: bool) -> Iterator[Construction]:
+def scales(quick: bool) -> Iterator[KnownScene]:
     """Circles and planes of any size, anywhere, in any unit: what follows from what does not change."""
     for power in (-9, 9) if quick else (-30, -9, -6, 3, 6, 9, 30):
         r, a = f"1e{power}", f"1e{abs(power)}"
         for name, names, texts, dof, over, integrates, because, trait in SCALES:
             if trait == "offset" and integrates is None and power not in FAR:
                 continue
-            yield Construction(
+            yield known_scene(
                 f"{name}, {r}",
-                scene(names.split(), *(text.format(r=r, a=a) for text in texts)),
+                scene_of(names.split(), *(text.format(r=r, a=a) for text in texts)),
                 because,
                 (trait,),
                 swept={"scale": 10.0**power},
@@ -259,15 +259,15 @@ def scales(quick: bool) -> Iterator[Construction]:
             )
 
 
-def labels(quick: bool) -> Iterator[Construction]:
+def labels(quick: bool) -> Iterator[KnownScene]:
     """Relations without velocities are holonomic, inequalities never: nothing has to be computed."""
     for n in (2,) if quick else (2, 4, 8, 16):
         names = [f"x{k}" for k in range(n)]
         rows = [f"x{k}^2 + x{(k + 1) % n}^2 = {k + 2}" for k in range(0, n, 2)]
         walls = [f"x{k} >= {-k - 9}" for k in range(1, n, 2)]
-        yield Construction(
+        yield known_scene(
             f"{n} coordinates",
-            scene(names, *rows, *walls),
+            scene_of(names, *rows, *walls),
             "inequalities reduce nothing and are not holonomic",
             ("inequality",),
             size=n,

@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from dofkit.benchmark.trials.construction import KnownTruth, scene
+from dofkit.benchmark.trials.construction import KnownScene, scene_of
 
 x, y, z, w, theta, phi, psi, r, a = sp.symbols("x y z w theta phi psi r a", real=True)
 Form = Mapping[sp.Symbol, sp.Expr]
@@ -144,7 +144,7 @@ REWRITINGS: Mapping[str, Rewriting] = {
 
 
 @cache
-def _rewritten_truths() -> tuple[KnownTruth, ...]:
+def _rewritten_truths() -> tuple[KnownScene, ...]:
     found = []
     for base in _bases():
         for name, rewriting in REWRITINGS.items():
@@ -154,19 +154,19 @@ def _rewritten_truths() -> tuple[KnownTruth, ...]:
     return tuple(found)
 
 
-def other_coordinates() -> Iterator[KnownTruth]:
+def other_coordinates() -> Iterator[KnownScene]:
     """Every base in every other way of writing it."""
     return iter(_rewritten_truths())
 
 
-def _trial(base: Base, how: str) -> KnownTruth:
+def _trial(base: Base, how: str) -> KnownScene:
     texts = [f"{g} = 0" for g in base.finite]
     for form in base.forms:
         terms = [f"({v}) d{q}" for q, v in form.items() if v != 0]
         texts.append(f"{' + '.join(terms)} = 0")
     truth: dict[str, Any] = {"consistent": True, "dof": base.dof, "velocity_dof": base.velocity_dof}
     first = len(base.finite) + 1
-    labels = {f"c{i}": {"holonomic": True} for i in range(1, first)}
-    labels |= {f"c{first + i}": {"holonomic": h} for i, h in enumerate(base.holonomic) if h is not None}
-    made = scene([str(q) for q in base.coordinates], *texts)
-    return KnownTruth(base.name, f"{base.name}, {how}", made, truth, labels)
+    truth |= {f"c{i}.holonomic": True for i in range(1, first)}
+    truth |= {f"c{first + i}.holonomic": h for i, h in enumerate(base.holonomic) if h is not None}
+    made = scene_of([str(q) for q in base.coordinates], *texts)
+    return KnownScene(made, truth, name=f"{base.name}, {how}", group=base.name)

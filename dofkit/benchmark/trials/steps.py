@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from dofkit.benchmark.trials.construction import KnownTruth, scene
+from dofkit.benchmark.trials.construction import KnownScene, scene_of
 
 #: The sizes of the step, as a person writes them.
 STEPS = ("1e-6", "1e-12", "1e-30", "1/7000000000000000000")
@@ -75,22 +75,22 @@ TIMED: list[tuple[str, str, bool]] = [
 ]
 
 
-def tiny_steps() -> Iterator[KnownTruth]:
+def tiny_steps() -> Iterator[KnownScene]:
     """Every base form and system with every step."""
     for step in STEPS:
         for name, coordinates, text, integrable in FORMS:
             n = len(coordinates)
             truth = {"dof": n - 1 if integrable else n, "velocity_dof": n - 1, "holonomic": integrable}
-            label = {"c1": {"holonomic": integrable, "holonomic_alone": integrable}}
-            yield _trial(name, step, coordinates, (f"{text} = 0",), truth, label)
+            label = {"c1.holonomic": integrable, "c1.holonomic_alone": integrable}
+            yield _trial(name, step, coordinates, (f"{text} = 0",), {**truth, **label})
         for name, coordinates, rows, dof, velocity_dof, holonomic in SYSTEMS:
             truth = {"dof": dof, "velocity_dof": velocity_dof, "consistent": True}
-            labels = {f"c{i + 1}": {"holonomic": value} for i, value in enumerate(holonomic)}
-            yield _trial(name, step, coordinates, rows, truth, labels)
+            labels = {f"c{i + 1}.holonomic": value for i, value in enumerate(holonomic)}
+            yield _trial(name, step, coordinates, rows, {**truth, **labels})
         for name, rows in GAPS:
-            yield _trial(name, step, XYZ, rows, {"consistent": False, "dof": None, "conflicting": ["c1", "c2"]}, {})
+            yield _trial(name, step, XYZ, rows, {"consistent": False, "dof": None, "conflicting": ["c1", "c2"]})
         for name, text, still in TIMED:
-            yield _trial(name, step, XYZ, (text,), {"scleronomic": still}, {"c1": {"scleronomic": still}})
+            yield _trial(name, step, XYZ, (text,), {"scleronomic": still, "c1.scleronomic": still})
 
 
 def _trial(
@@ -99,7 +99,6 @@ def _trial(
     coordinates: tuple[str, ...],
     rows: tuple[str, ...],
     truth: dict[str, Any],
-    labels: dict[str, Any],
-) -> KnownTruth:
+) -> KnownScene:
     texts = [row.replace("{e}", f"({step})") for row in rows]
-    return KnownTruth(name, f"{name}, by {step}", scene(coordinates, *texts), truth, labels)
+    return KnownScene(scene_of(coordinates, *texts), truth, name=f"{name}, by {step}", group=name)

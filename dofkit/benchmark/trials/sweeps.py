@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from dofkit.benchmark.trials.construction import KnownTruth
+from dofkit.benchmark.trials.construction import KnownScene
 from dofkit.benchmark.trials.frameworks import Framework, Position, framework, written
 
 Move = Callable[[Position], Position]
@@ -207,39 +207,30 @@ SEEDS = range(2)
 TOLERANCES = ("1e-4",)
 
 
-@dataclass(frozen=True)
-class Case:
-    """What is known of a drawing, what was varied, and the framework behind it where it has one."""
-
-    known: KnownTruth
-    framework: Framework | None
-    swept: Mapping[str, Any] = field(default_factory=dict)
-
-
-def steps() -> Iterator[Case]:
+def steps() -> Iterator[KnownScene]:
     """At its singular pose, and 10^-1 ... 10^-12 beside it."""
     for step in (Fraction(0), *STEPS):
         for near in NEAR:
             freedom = near.beside if step else near.there
             name = f"{near.name}, {float(step):g} beside"
-            yield drawn_case(name, near.at(step), freedom, {"step": float(step)})
+            yield _drawn(name, near.at(step), freedom, {"step": float(step)})
         for jointed in JOINTED:
             yield _jointed(jointed, step, "as drawn")
 
 
-def sizes() -> Iterator[Case]:
+def sizes() -> Iterator[KnownScene]:
     """A million times larger, smaller, and far away: at the singular pose and beside it."""
     for how, move in MOVES.items():
         for step in (Fraction(0), STEPS[0]):
             for near in NEAR:
                 freedom = near.beside if step else near.there
                 name = f"{near.name}, {float(step):g} beside, {how}"
-                yield drawn_case(name, near.at(step).moved(move), freedom, _swept(step, how))
+                yield _drawn(name, near.at(step).moved(move), freedom, _swept(step, how))
             for jointed in JOINTED:
                 yield _jointed(jointed, step, how)
 
 
-def shuffles() -> Iterator[Case]:
+def shuffles() -> Iterator[KnownScene]:
     """Renamed and in another order."""
     for seed in SEEDS:
         for near in NEAR:
@@ -247,7 +238,7 @@ def shuffles() -> Iterator[Case]:
                 freedom = near.beside if step else near.there
                 drawn = near.at(step).shuffled(random.Random(f"{near.name} {seed}"))
                 name = f"{near.name}, {float(step):g} beside, shuffled by {seed}"
-                yield drawn_case(name, drawn, freedom, {"step": float(step)})
+                yield _drawn(name, drawn, freedom, {"step": float(step)})
 
 
 def turned(position: Position) -> Position:
@@ -262,7 +253,7 @@ def rounded(digits: int) -> Move:
     return lambda p: tuple(Fraction(round(x * 10**digits), 10**digits) for x in p)
 
 
-def roundings() -> Iterator[Case]:
+def roundings() -> Iterator[KnownScene]:
     """Singular poses with rounded coordinates: by themselves the truth is of what is written, exactly.
 
     Where the bars are independent then, so is every configuration near: the motion is as large as the rank says.
@@ -273,20 +264,20 @@ def roundings() -> Iterator[Case]:
             first = drawn.by_rank()
             regular = drawn.coordinates - first == len(drawn.bars)
             freedom = (first if regular else None, first)
-            yield drawn_case(f"{near.name}, {digits} digits", drawn, freedom, {"digits": digits})
+            yield _drawn(f"{near.name}, {digits} digits", drawn, freedom, {"digits": digits})
 
 
-def measured() -> Iterator[Case]:
+def measured() -> Iterator[KnownScene]:
     """The same with a tolerance of the last digit: the truth is of what was rounded."""
     for digits in DIGITS:
         for near in NEAR:
             drawn = near.at(Fraction(0)).moved(turned).moved(rounded(digits))
             name = f"{near.name}, {digits} digits with tolerance"
             swept = {"digits": digits, "tolerance": 10.0**-digits}
-            yield drawn_case(name, drawn, near.there, swept, tolerance=f"1e-{digits}")
+            yield _drawn(name, drawn, near.there, swept, tolerance=f"1e-{digits}")
 
 
-def measured_elsewhere() -> Iterator[Case]:
+def measured_elsewhere() -> Iterator[KnownScene]:
     """Exact drawings with a tolerance, of any size and anywhere."""
     for tolerance in TOLERANCES:
         for how, move in MOVES.items():
@@ -295,7 +286,7 @@ def measured_elsewhere() -> Iterator[Case]:
                     freedom = near.beside if step else near.there
                     name = f"{near.name}, {float(step):g} beside, {how}, within {tolerance}"
                     swept = {**_swept(step, how), "tolerance": float(tolerance)}
-                    yield drawn_case(name, near.at(step).moved(move), freedom, swept, tolerance=tolerance)
+                    yield _drawn(name, near.at(step).moved(move), freedom, swept, tolerance=tolerance)
                 for jointed in JOINTED:
                     yield _jointed(jointed, step, how, tolerance=tolerance)
 
@@ -305,24 +296,23 @@ def _swept(step: Fraction, how: str) -> dict[str, Any]:
     return {"step": float(step), "scale": scale, "offset": offset}
 
 
-def _jointed(near: Jointed, step: Fraction, how: str, **more: Any) -> Case:
+def _jointed(near: Jointed, step: Fraction, how: str, **more: Any) -> KnownScene:
     freedom = near.beside if step else near.there
     equations = 5 * len(near.hinges(step))
     scene = near.scene(step, MOVES[how], **more)
-    known = _known(f"{near.name}, {float(step):g} beside, {how}", scene, 6 * near.bodies, equations, freedom)
-    return Case(known, None, _swept(step, how) | {key: float(value) for key, value in more.items()})
+    swept = _swept(step, how) | {key: float(value) for key, value in more.items()}
+    return _known(f"{near.name}, {float(step):g} beside, {how}", scene, 6 * near.bodies, equations, freedom, swept)
 
 
-def drawn_case(
-    name: str, drawn: Framework, freedom: Freedom, swept: Mapping[str, Any] | None = None, **more: Any
-) -> Case:
+def _drawn(name: str, drawn: Framework, freedom: Freedom, swept: Mapping[str, Any], **more: Any) -> KnownScene:
     """A framework with what is known of its freedom."""
-    scene = drawn.scene(**more)
-    return Case(_known(name, scene, drawn.coordinates, len(drawn.bars), freedom), drawn, dict(swept or {}))
+    return _known(name, drawn.scene(**more), drawn.coordinates, len(drawn.bars), freedom, swept)
 
 
-def _known(name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom) -> KnownTruth:
-    """Where the rows are independent at the drawing, no constraint can be dropped."""
+def _known(
+    name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom, swept: Mapping[str, Any]
+) -> KnownScene:
+    """Where the rows are independent at the reference configuration, no constraint can be dropped."""
     dof, first = freedom
     truth: dict[str, Any] = {"consistent": True, "instantaneous_dof": first}
     if dof is not None:
@@ -330,11 +320,11 @@ def _known(name: str, scene: dict[str, Any], coordinates: int, equations: int, f
         truth["redundant_equations"] = max(0, equations - (coordinates - dof))
     if first == coordinates - equations:
         truth["redundant"] = []
-    return KnownTruth(name.partition(",")[0], name, scene, truth)
+    return KnownScene(scene, truth, name=name, group=name.partition(",")[0], swept=swept)
 
 
 #: Every sweep by name.
-SWEEPS: dict[str, Callable[[], Iterator[Case]]] = {
+SWEEPS: dict[str, Callable[[], Iterator[KnownScene]]] = {
     "beside a singular pose": steps,
     "scaled and moved": sizes,
     "renamed and reordered": shuffles,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dofkit.benchmark.trials.construction import Construction, Line, scene, tabled
+from dofkit.benchmark.trials.construction import KnownScene, Line, known_scene, scene_of, tabled
 
 TIMED: list[Line] = [
     ("a line that turns", "x y", ["y cos(t) = x sin(t)"], 1, [True], [], "a line", "rheonomic"),
@@ -55,12 +55,12 @@ TIMED: list[Line] = [
 ]  # fmt: skip
 
 
-def rheonomic(quick: bool) -> Iterator[Construction]:
+def rheonomic(quick: bool) -> Iterator[KnownScene]:
     """Relations and forms with time in them."""
     return map(tabled, TIMED[:: 4 if quick else 1])
 
 
-def hidden_by_time(quick: bool) -> Iterator[Construction]:
+def hidden_by_time(quick: bool) -> Iterator[KnownScene]:
     """Each coordinate the rate of the last: one finite relation at the start fixes all, and none leaves all free."""
     for n in (2, 3) if quick else (2, 3, 4, 6):
         names = [f"x{k}" for k in range(n)]
@@ -85,9 +85,9 @@ def hidden_by_time(quick: bool) -> Iterator[Construction]:
         ]
         for name, before, after, dof, integrate, because, traits in rows:
             constraints = [*before, *rates, *after]
-            yield Construction(
+            yield known_scene(
                 f"{n} coordinates, {name}",
-                scene(names, *constraints),
+                scene_of(names, *constraints),
                 because,
                 traits,
                 size=n,

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product as cartesian
 
+from dofkit.base.wording import many, verb
 from dofkit.classification.special.common_zeros import Leaf, Reals
 from dofkit.classification.special.wording import tuple_of
 from dofkit.exact.ring.canonical import Canon, Poly
@@ -132,11 +133,12 @@ def differences(generic: Report, special: Report, integrals: Sequence[str] = ())
         return []
     if generic.consistent != special.consistent:
         if special.consistent:
-            return [f"{_all(generic.conflicting)} can be satisfied: dof {_number(special.dof)}"]
+            return [f"{_all(generic.conflicting)} can be satisfied, with {_degrees(special.dof)}"]
         return [f"{_all(special.conflicting)} cannot be satisfied"]
     said = [*_branches(generic, special), *_labels(generic, special), *_integrals(special, integrals)]
-    numbers = {f: (getattr(generic, f), getattr(special, f)) for f in ("dof", "velocity_dof")}
-    differ = {f: pair for f, pair in numbers.items() if None not in pair and pair[0] != pair[1]}
+    fields = (("degrees of freedom", "dof"), ("velocity freedom", "velocity_dof"))
+    numbers = {name: (getattr(generic, f), getattr(special, f)) for name, f in fields}
+    differ = {name: pair for name, pair in numbers.items() if None not in pair and pair[0] != pair[1]}
     if len(set(differ.values())) == 1:
         differ = {" and ".join(differ): next(iter(differ.values()))}
     said += [f"{name} {new} instead of {old}" for name, (old, new) in differ.items()]
@@ -173,8 +175,8 @@ def _all(names: Sequence[str]) -> str:
     return f"{', '.join(names[:-1])} and {names[-1]} together" if names else "the constraints together"
 
 
-def _number(value: int | None) -> str:
-    return "undecided" if value is None else str(value)
+def _degrees(number: int | None) -> str:
+    return "an undecided number of degrees of freedom" if number is None else f"{many(number, 'degree')} of freedom"
 
 
 def _idle(generic: Report, special: Report) -> list[str]:
@@ -185,7 +187,7 @@ def _idle(generic: Report, special: Report) -> list[str]:
 
 def _labels(generic: Report, special: Report) -> list[str]:
     idle = _idle(generic, special)
-    said = [f"{', '.join(idle)} always {'holds' if len(idle) == 1 else 'hold'}"] if idle else []
+    said = [f"{', '.join(idle)} {verb(len(idle))} always satisfied"] if idle else []
     pairs = [p for p in zip(generic.constraints, special.constraints, strict=True) if p[0].name not in idle]
     becoming = [old.name for old, new in pairs if _flips(old, new, "holonomic", True)]
     if becoming and all(new.holonomic for old, new in pairs if old.form == "pfaffian"):

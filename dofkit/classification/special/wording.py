@@ -59,13 +59,9 @@ def drop(rank: int, by: int, velocities: int, moves: bool) -> str:
     if not moves:
         return "no velocity satisfies the constraints there"
     return (
-        f"the rank of the constraints drops from {rank} to {rank - by}: "
-        f"{_velocities(velocities + by)} there instead of {velocities}"
+        f"the rank of the constraints drops from {rank} to {rank - by} there, and the instantaneous freedom is "
+        f"{velocities + by} instead of {velocities}"
     )
-
-
-def _velocities(number: int) -> str:
-    return f"the instantaneous freedom is {number}"
 
 
 def flag(
@@ -75,11 +71,11 @@ def flag(
 
     ``own`` and ``there`` are the block's dimensions; the scene's have as many more as it has other coordinates.
     """
-    told = "the curvature vanishes there" if vanishes else "the curvature has smaller rank there"
+    told = f"the first Lie brackets add {'no direction' if vanishes else 'fewer directions'} there"
     if not scene or not own or there[-1] != own[-1] or [g + scene[0] - own[0] for g in own] != list(scene):
         return told, False
     special = [g + scene[0] - own[0] for g in there]
-    return f"{told}: growth vector {tuple_of(special)} instead of {tuple_of(scene)}", True
+    return f"{told}: the growth vector is {tuple_of(special)} instead of {tuple_of(scene)}", True
 
 
 def tuple_of(numbers: Sequence[int]) -> str:

@@ -35,11 +35,6 @@ class FormRows:
         return [[at[row[c]] if c in row else zero for c in range(n)] for row in self.entries]
 
 
-def zero_of(sample: Scalar) -> Scalar:
-    """0 in the numbers of ``sample``."""
-    return sample * 0
-
-
 @dataclass(frozen=True)
 class Pivots:
     """A choice of independent rows and of dependent columns, regular at a point."""

@@ -6,7 +6,6 @@ identically, which is a proof. Everything is bounded: past `MAX_TERMS` terms the
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -19,7 +18,6 @@ from dofkit.exact.ring.instructions import ADD, MUL, NUM, POW
 from dofkit.exact.ring.program import reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 
 MAX_TERMS = 3000
@@ -209,9 +207,3 @@ def is_identically_zero(expression: Expr, positive: frozenset[Expr] = frozenset(
         raise
     except NoValueError:
         return None
-
-
-def substitute_all(expressions: Mapping[str, Expr], mapping: Mapping[Expr, Expr]) -> dict[str, Expr]:
-    """A substitution in every value of a mapping, zeros left out."""
-    replaced = {name: substitute(e, mapping) for name, e in expressions.items()}
-    return {name: e for name, e in replaced.items() if not e.is_zero}

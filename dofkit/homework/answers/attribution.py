@@ -46,4 +46,4 @@ def by_platform(users: Sequence[Participant], student: str) -> str | None:
 
 def doubt_of(owner: str, student: str) -> str:
     """What is said of a submission that names somebody else."""
-    return f"it was handed in as {owner}'s, and names '{student}' as its student: a person has to say whose it is"
+    return f"it was submitted as {owner}'s, but names '{student}' as its student: a person has to decide whose it is"

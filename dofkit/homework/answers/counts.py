@@ -93,7 +93,7 @@ def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
     named = [one for one in segments if (name := _NAMED.match(one.text)) and plain(name[1]) in called]
     foreign = [one for one in segments if (name := _NAMED.match(one.text)) and plain(name[1]) in _OTHERS - called]
     if segments and len(foreign) == len(segments):
-        raise DoubtError("it is called as another quantity is.", segments[0].columns[0], _HINT)
+        raise DoubtError("it is labelled as a different quantity.", segments[0].columns[0], _HINT)
     others = [one for one in segments if one not in named and _only_number(one.text)]
     for segment in [*named, *others] if named else segments:
         try:
@@ -111,7 +111,7 @@ def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
     if len(told) > 1 or (not named and not told >= unread):
         whole = _sum_of_parts(body.text)
         if whole is None:
-            raise DoubtError("it says more than one number.", 1, _HINT)
+            raise DoubtError("it gives more than one number.", 1, _HINT)
         return whole
     return told.pop()
 
@@ -145,9 +145,9 @@ def _segments(script: Script) -> Iterator[Script]:
         if before and before[-1] not in "+-*/=(^":
             inside = script.cut(*group.span(1))
             if takes_back(inside.text):
-                raise DoubtError("a remark leaves it open.", inside.columns[0], _HINT)
+                raise DoubtError("a remark makes the answer ambiguous.", inside.columns[0], _HINT)
             if _OTHERWISE.search(inside.text) and _FIGURE.search(inside.text):
-                raise DoubtError("it says more than one number.", inside.columns[0], _HINT)
+                raise DoubtError("it gives more than one number.", inside.columns[0], _HINT)
             if _only_number(inside.text) and any(_only_number(w) for w in re.findall(r"[^\W_]+", before)):
                 yield inside
             script = script.replaced(re.compile(re.escape(group[0])), _blank)
@@ -173,7 +173,7 @@ def _segment(script: Script) -> Fraction | None:
     text = script.text
     bound = _BOUND.search(text)
     if bound is not None:
-        raise DoubtError("it bounds the number, and does not tell it.", script.columns[bound.start()], _HINT)
+        raise DoubtError("it gives a bound, not the number.", script.columns[bound.start()], _HINT)
     for cut in [*(m.span() for m in _SIGNS.finditer(text)), (len(text), len(text))]:
         piece = script.cut(place, cut[0])
         place = cut[1]
@@ -184,7 +184,7 @@ def _segment(script: Script) -> Fraction | None:
             if place >= len(text):
                 raise
             if _BEFORE_NAME.fullmatch(piece.text):
-                raise DoubtError("it says more than one number.", piece.columns[0], _HINT) from None
+                raise DoubtError("it gives more than one number.", piece.columns[0], _HINT) from None
             continue
         if value is not None:
             found.append(value)
@@ -196,7 +196,7 @@ def _segment(script: Script) -> Fraction | None:
     if failure is not None and not found:
         raise failure
     if found and found[-1] < 0 and _BETWEEN.fullmatch(script.text):
-        raise DoubtError("it says more than one number.", script.columns[0], _HINT)
+        raise DoubtError("it gives more than one number.", script.columns[0], _HINT)
     return found[-1] if found else None
 
 
@@ -213,9 +213,9 @@ def _value(script: Script) -> Fraction | None:
     if any(w in DOUBTS for w in words) or (
         any(w in NEGATIONS for w in words) and (counted or len(words) < _REMARK_WORDS)
     ):
-        raise DoubtError("it says what the number is not.", script.columns[0], _HINT)
+        raise DoubtError("it only says what the number is not.", script.columns[0], _HINT)
     if script.text.rstrip().endswith("?"):
-        raise DoubtError("a question mark leaves it open.", script.columns[0], _HINT)
+        raise DoubtError("a question mark makes the answer ambiguous.", script.columns[0], _HINT)
     stated = _STATED.match(script.text)
     if stated is not None and not any(NUMBERS.get(w, 0) > 1 for w in map(plain, _WORD.findall(stated[0]))):
         script = script.cut(stated.end())

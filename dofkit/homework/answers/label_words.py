@@ -149,11 +149,11 @@ def read_labels(answer: Given) -> Labels:
     for place, word in enumerate(given):
         text = plain(word.text.strip(".:!()\"'"))
         if text in DOUBTS or text in _HALF_SAID or text.endswith("%"):
-            raise DoubtError("a word leaves it open.", word.column, _HINT)
+            raise DoubtError("a word makes the answer ambiguous.", word.column, _HINT)
         label = None if text in _OTHERS else _label(text.rstrip("?"))
         if label is not None:
             if text.endswith("?"):
-                raise DoubtError("a question mark leaves it open.", word.column, _HINT)
+                raise DoubtError("a question mark makes the answer ambiguous.", word.column, _HINT)
             part, holds = label
             found[part] = found.get(part, frozenset()) | {holds != negated}
         elif unread is None and "nom" in text and text not in _ORDINARY:
@@ -165,7 +165,7 @@ def read_labels(answer: Given) -> Labels:
                 _reasoned(given[max(place - _BEFORE, 0) : place + _NEAR])
             negated = False
     if found and negated:
-        raise DoubtError("what is negated is open.", given[-1].column, _HINT)
+        raise DoubtError("it is not clear what is negated.", given[-1].column, _HINT)
     if unread is not None or not found:
         told = f"'{unread.text[:40]}' is no label" if unread is not None else "there is no label in this answer"
         raise TextError(told, unread.column if unread is not None else 1, _HINT)
@@ -175,7 +175,7 @@ def read_labels(answer: Given) -> Labels:
 def _reasoned(following: list[Word]) -> None:
     """Raises DoubtError where a negation among these words speaks of nothing that is a reason for a label."""
     if _REASONED.search(" ".join(plain(w.text) for w in following)) is None:
-        raise DoubtError("what is negated is open.", following[0].column, _HINT)
+        raise DoubtError("it is not clear what is negated.", following[0].column, _HINT)
 
 
 _ORDINARY = frozenset({"nombre", "name", "phenomenon", "denominator"})
@@ -188,10 +188,10 @@ def _split(answer: Given) -> list[Word]:
     script = script.replaced(_REPLY, "")
     denied = _GROUP_DENIED.search(script.text) or _TAKEN_BACK.search(script.text)
     if denied is not None:
-        raise DoubtError("what is negated is open.", script.columns[denied.start()], _HINT)
+        raise DoubtError("it is not clear what is negated.", script.columns[denied.start()], _HINT)
     for both in _TOLD_TWICE.finditer(script.text):
         if (plain(both[1]) in NO) != (plain(both[2]) in NO):
-            raise DoubtError("it says yes and no.", script.columns[both.start()], _HINT)
+            raise DoubtError("the answer says both yes and no.", script.columns[both.start()], _HINT)
     script = (
         script.replaced(_SHORTENED, lambda m: f"{m[1]}nom" if m[1] else f"{m[2]}lateral")
         .replaced(_TOLD, _answered)
@@ -211,7 +211,7 @@ def _answered(match: re.Match[str]) -> str:
         return match[0]
     before = _JOINED.search(match.string[: match.start()])
     if told in NO and before is not None and _label(plain(before[1])) is not None:
-        raise DoubtError("what is negated is open.", None, _HINT)
+        raise DoubtError("it is not clear what is negated.", None, _HINT)
     return f"not {label}" if told in NO else label
 
 

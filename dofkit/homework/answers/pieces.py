@@ -184,14 +184,14 @@ def _cleaned(script: Script, names: Names) -> Script | None:
         raise DoubtError("a letter may be a factor or the word for `and`.", script.columns[0], "write `;`")
     script = script.replaced(_ROUNDED, "=").replaced(_DECIMAL, ".")
     if script.text != text and len(_CHAINED.findall(text)) > 1:
-        raise DoubtError("a comma may be a decimal sign or stand between equations.", script.columns[0], None)
+        raise DoubtError("a comma may be a decimal sign or a separator between equations.", script.columns[0], None)
     return script
 
 
 def _check(remark: str, column: int) -> None:
     """Raises DoubtError for a remark that takes back what it stands beside."""
     if takes_back(remark):
-        raise DoubtError("a remark leaves it open.", column, None)
+        raise DoubtError("a remark makes the answer ambiguous.", column, None)
 
 
 def _known(word: str, names: Names) -> bool:

@@ -110,7 +110,7 @@ def submitted_rows(lines: Iterable[str], known: Columns, endings: Sequence[str])
     if every and not ours and all(row.error is None for row in every):
         shown = ", ".join(list(known)[:MOST_LISTED])
         raise TableError(
-            f"no row of it answers a question of this assignment: inputs are called {shown} there, and files are in "
+            f"no row answers a question of this assignment: inputs are named {shown} there, and files are in "
             "the table of final submissions only"
         )
     latest: dict[tuple[str, str], SubmittedRow] = {}
@@ -135,7 +135,7 @@ def _rows(lines: NumberedLines) -> Iterator[SubmittedRow]:
     _, header, error = next(found)
     columns = _columns([name.strip(" \ufeff").lower() for name in header])
     if error is not None or not set(_NEEDED) <= set(columns):
-        raise TableError(error or "it is no table of PrairieLearn's submissions")
+        raise TableError(error or "this is not a table of submissions from PrairieLearn")
     for line, cells, error in found:
         if error is not None or any(cell.strip() for cell in cells):
             told = {name: clean(cells[i]).strip() if i < len(cells) else "" for name, i in columns.items()}
@@ -150,9 +150,9 @@ def _row(line: int, cells: Mapping[str, str], error: str | None) -> SubmittedRow
         try:
             given = json.loads(cells["given"] or "{}")
         except (ValueError, RecursionError):
-            error = "what was submitted is no JSON object: save the table as it was downloaded"
+            error = "the submitted answer is not a JSON object: use the table as it was downloaded"
     if error is None and not isinstance(given, Mapping):
-        error = "what was submitted is no JSON object"
+        error = "the submitted answer is not a JSON object"
     if error is None and not student:
         error = "the row names neither a uid nor a group"
     answered = given if isinstance(given, Mapping) and error is None else {}

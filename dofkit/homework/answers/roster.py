@@ -208,7 +208,7 @@ def _fields(header: list[str], shown: str) -> dict[str, int]:
         found.setdefault("canvas" if canvas else "other" if "number" in found else "number", words.index("id"))
     if not {"name", "last", *_UNIQUE} & set(found):
         raise RosterError(
-            f"{shown} tells nobody apart: its header is {clean(', '.join(header))[:120]}; "
+            f"{shown} does not identify anyone: its header is {clean(', '.join(header))[:120]}; "
             "a roster has a column 'name', 'email' or 'id'"
         )
     return found
@@ -230,7 +230,9 @@ def _members(fields: Mapping[str, int], rows: Iterable[tuple[int, list[str]]], s
         own = (getattr(member, name) for name in (*_UNIQUE, "name"))
         student = next((text for text in own if shared[_key(text)] == 1), None)
         if student is None:
-            raise RosterError(f"{shown}, line {member.line}: others go by all that '{member.name}' goes by")
+            raise RosterError(
+                f"{shown}, line {member.line}: '{member.name}' shares every name, address and number with others"
+            )
         yield replace(member, student=student)
 
 
@@ -249,6 +251,6 @@ def _told_apart(members: Iterable[Participant], shown: str) -> None:
             other = seen.setdefault(mark, member)
             if other is not member:
                 raise RosterError(
-                    f"{shown}, line {member.line}: '{getattr(member, mark[0])}' stands in line {other.line} too: "
-                    "nobody could tell these two apart"
+                    f"{shown}, line {member.line}: '{getattr(member, mark[0])}' also occurs in line {other.line}: "
+                    "the two cannot be told apart"
                 )

@@ -87,7 +87,7 @@ def read_submission(source: str | os.PathLike[str] | Mapping[str, Any], known: C
     found = list(islice((one for h in hand_ins([path], known) for one in h.submissions(known)), 2))
     if len(found) == 1:
         return found[0]
-    return refused(_stem(clean(path)), FilePlace(clean(path)), "it holds more than one submission")
+    return refused(_stem(clean(path)), FilePlace(clean(path)), "it contains more than one submission")
 
 
 def hand_ins(sources: Sequence[str], known: Columns, others: Iterable[str | os.PathLike[str]] = ()) -> Iterator[Handed]:
@@ -102,7 +102,7 @@ def hand_ins(sources: Sequence[str], known: Columns, others: Iterable[str | os.P
             yield _claimed(one, source)
             nothing = False
         if nothing:
-            yield _unreadable(source, "there is no submission in it")
+            yield _unreadable(source, "it contains no submission")
 
 
 def _claimed(one: Handed, source: str) -> Handed:
@@ -152,7 +152,7 @@ def _folder(folder: str, known: Columns, left_out: frozenset[str]) -> Iterator[H
         if name.startswith(".") or name.lower() in (*_LEFT, METADATA) or os.path.realpath(path) in left_out:
             continue
         if is_link:
-            yield _unreadable(path, "it is a link, which is not followed")
+            yield _unreadable(path, "it is a symbolic link, which is not followed")
         elif is_folder:
             yield from _folder(path, known, left_out)
         else:
@@ -163,7 +163,7 @@ def _file(path: str, known: Columns, within: bool = False) -> Iterator[Handed]:
     suffix = os.path.splitext(path)[1].lower()
     try:
         if within and (not stat.S_ISREG(os.stat(path).st_mode) or suffix not in (*DOCUMENTS, *LINES, *TABLES)):
-            yield _unreadable(path, f"it is no submission: {', '.join((*DOCUMENTS, *LINES, *TABLES))} are read")
+            yield _unreadable(path, f"it is not a submission: {', '.join((*DOCUMENTS, *LINES, *TABLES))} are read")
             return
         with open(path, "rb") as file:
             yield from _stream(file, path, known)
@@ -271,7 +271,11 @@ def _of_prairielearn(lines: Iterator[str], file: str, known: Columns) -> Iterato
                 yield Handed(row.student, place, given, users=users)
             else:
                 inside = list(_stream(BytesIO(files[0].data), files[0].name, known))
-                only = inside[0] if len(inside) == 1 else Handed("", place, error="its file holds no one submission")
+                only = (
+                    inside[0]
+                    if len(inside) == 1
+                    else Handed("", place, error="its file does not contain exactly one submission")
+                )
                 within = FilePlace(f"{place}, {files[0].name}")
                 yield replace(only, name=row.student, place=within, users=users)
     except (TableError, UnicodeError) as error:

@@ -90,7 +90,7 @@ def of_text(
     if not isinstance(value, list):
         return [of_value(shaped(value, known), name, place, document)]
     if not value:
-        return [refused(name, place, "there is no submission in it", _SHAPE)]
+        return [refused(name, place, "it contains no submission", _SHAPE)]
     return [
         of_value(shaped(one, known), name, FilePlace(place.file, document.place((i,))[0]), document, i)
         for i, one in enumerate(value)

@@ -119,7 +119,7 @@ def records(lines: NumberedLines, delimiter: str) -> Iterator[tuple[int, list[st
         yield start, cells, error
 
 
-_OPEN = "a quote is never closed"
+_OPEN = "a quotation mark is never closed"
 
 
 def _cells(text: str, delimiter: str) -> tuple[list[str], str | None]:
@@ -184,7 +184,7 @@ def _meant(names: list[str], student: int, known: Columns) -> str:
     others = [name for i, name in enumerate(names) if i != student]
     near = next((f"'{near}' for '{clean(name)[:60]}'" for name in others if (near := nearest(name, known))), None)
     shown = ", ".join(list(known)[:MOST_LISTED]) + (", ..." if len(known) > MOST_LISTED else "")
-    return f"write {near or shown}" if near or shown else "nothing is asked"
+    return f"write {near or shown}" if near or shown else "no question of the assignment has this name"
 
 
 def _split(name: str) -> tuple[str, str]:
@@ -199,7 +199,7 @@ def _row(header: Header, line: int, cells: list[str], error: str | None) -> Tabl
     if error is None and (len(cells) < width or any(cell.strip() for cell in cells[width:])):
         error = f"the row has {len(cells)} cells, the header {width}"
     if error is None and named and not student:
-        error = "the row names no student"
+        error = "the row has no student"
     if error is None and any(map(_undecoded, cells)):
         error = "the row is not in UTF-8 (save the table as UTF-8)"
     answers: dict[str, dict[str, str]] = {}

@@ -96,7 +96,7 @@ def is_none(answer: object, says: Callable[[str], bool], known: Collection[str] 
     if not isinstance(answer, str) or len(answer) > MOST_CHARACTERS:
         return False
     if any(says(part) or affirms(part) for part in beside_none(answer)):
-        raise DoubtError("it says that there is none, and names one.", 1, None)
+        raise DoubtError("it says that there is none and then gives one.", 1, None)
     return says_none(answer, known, every)
 
 

@@ -47,13 +47,17 @@ def export_gradescope(
     RunReview.read(prepared, reviewed, None)
     files = {path.name: path.read_bytes() for path in sorted(SCRIPTS.iterdir()) if path.is_file()}
     files["assignment.json"] = f"{exact_json(inlined(assignment))}\n".encode()
-    cut_short = undecided(prepared, "", "grading was cut short.")
-    files["fallback.json"] = text(document(cut_short, visibility_of(prepared))).encode()
+    interrupted = undecided(prepared, "", "grading was interrupted.")
+    files["fallback.json"] = text(document(interrupted, visibility_of(prepared), prepared.assignment.language)).encode()
     if reviewed is not None:
         files[TABLE] = reviewed.read_bytes()
     files["pythons"] = "".join(f"{python}\n" for python in pythons).encode()
     with tempfile.TemporaryDirectory() as folder:
-        notes = _wheels(Path(folder), pythons) if wheels else ["dofkit comes without wheels: it is installed by pip"]
+        notes = (
+            _wheels(Path(folder), pythons)
+            if wheels
+            else ["the zip contains no wheels: setup.sh installs dofkit with pip, which needs a network"]
+        )
         files |= {f"wheels/{path.name}": path.read_bytes() for path in sorted(Path(folder).iterdir())}
     try:
         _zip(files, out)
@@ -66,11 +70,11 @@ def _wheels(folder: Path, pythons: Sequence[str]) -> list[str]:
     """Put the wheels into a folder."""
     own_wheel(folder)
     needed = requirements()
-    notes = [] if needed else ["dofkit is not installed, so that it is not known what it needs"]
+    notes = [] if needed else ["dofkit is not installed, so its requirements are unknown"]
     for python in pythons:
         why = download(folder, python, [*needed, "pip"])
         if why is not None:
-            notes.append(f"wheels for Python {python} could not be had ({why}): setup.sh will need a network")
+            notes.append(f"wheels for Python {python} could not be downloaded ({why}): setup.sh will need a network")
     return notes
 
 

@@ -62,9 +62,7 @@ def export_otter(assignment: str | os.PathLike[str], folder: Path) -> list[Path]
     """
     prepared = load_assignment(assignment)
     if prepared.assignment.variants is not None:
-        raise OtterError(
-            "every student has a sheet of their own, and otter has the same tests for all: use dofkit grade"
-        )
+        raise OtterError("every student has a variant, but otter runs the same tests for all: use dofkit grade")
     folder.mkdir(parents=True, exist_ok=True)
     texts = {
         f"{_plain(Path(assignment).stem)}.ipynb": json.dumps(_notebook(prepared), indent=1, ensure_ascii=False) + "\n",

@@ -65,7 +65,7 @@ def unfit(result: Result) -> str | None:
     if result.doubt is not None:
         return line(result.doubt)
     if not decided(result):
-        return f"it is not final: {number(open_points(result))} points are open"
+        return f"it is not final: {number(open_points(result))} points are undecided"
     return None
 
 
@@ -78,11 +78,11 @@ def with_rows(
         member = None if roster is None else roster.find(result.student)
         why = unfit(result)
         if roster is not None and member is None:
-            why = "they are not in the roster" + (f"; {why}" if why else "")
+            why = "the student is not in the roster" + (f"; {why}" if why else "")
         if why is None and member is None and not is_cell(result.student):
-            why = "the name cannot stand in a table as it is"
+            why = "the name cannot be written to a table unchanged"
         if why is None and (mark := mark_of(result.student if member is None else member.student)) in seen:
-            why = "they have a row already"
+            why = "the student already has a row"
         if why is not None:
             apart.add(result, why)
             continue

@@ -15,6 +15,7 @@ from dofkit.homework.formats.base import Format, Target
 from dofkit.homework.formats.documents import write_documents
 from dofkit.homework.formats.wording import OPEN_SHARE, feedback, number, stand_in
 from dofkit.homework.result import Result
+from dofkit.homework.sentences.said import Language, in_language
 
 
 def provisional(result: Result) -> float:
@@ -23,29 +24,32 @@ def provisional(result: Result) -> float:
     return min(max(float(score), 0.0), result.max_score)
 
 
-def document(result: Result) -> dict[str, Any]:
+def document(result: Result, language: Language = "en") -> dict[str, Any]:
     """What ``feedback.json`` says of a submission."""
-    told = feedback(result)
+    paragraphs = [feedback(result, language)]
     waiting = sum(item.max_score for item in result.items if item.score is None and stand_in(item))
     if waiting:
-        told = (
-            f"Provisional: {number(OPEN_SHARE * waiting)} points stand in for answers worth {number(waiting)} that "
-            f"could not be decided.\n\n{told}"
+        provisional_points = in_language(
+            language,
+            "This score is provisional: it includes half of the points ({points} of {most}) for answers that a person "
+            "will review.",
+            points=number(OPEN_SHARE * waiting),
+            most=number(waiting),
         )
+        paragraphs.insert(0, provisional_points)
     unread = sum(item.max_score for item in result.items if item.status == "unreadable" and not stand_in(item))
     if unread:
-        again = "Write them in another way, and hand in again."
-        told = f"Answers worth {number(unread)} points could not be read. {again}\n\n{told}"
+        unreadable = "Some answers could not be read (points: {points}). Write them differently and submit again."
+        paragraphs.insert(0, in_language(language, unreadable, points=number(unread)))
     return {
         "fractionalScore": provisional(result) / result.max_score if result.max_score else 0.0,
-        "feedback": told,
+        "feedback": "\n\n".join(paragraphs),
     }
 
 
 def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None:
     """One ``feedback.json`` a student."""
-    del prepared
-    write_documents(results, target, document)
+    write_documents(results, target, lambda result: document(result, prepared.assignment.language))
 
 
 COURSERA = Format("coursera", write)

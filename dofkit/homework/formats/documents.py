@@ -34,7 +34,7 @@ def write_documents(results: Iterator[Result], target: Target, document: Documen
     _write(document(first), target)
     second = next(results, None)
     if second is not None:
-        raise FormatError("this format holds one student: name a folder with --out, for a file each")
+        raise FormatError("this format holds one student: give --out a folder, to get one file per student")
 
 
 def text(document: dict[str, Any]) -> str:

@@ -22,8 +22,9 @@ from typing import Any
 from dofkit.homework.assignment import Prepared, Visibility
 from dofkit.homework.formats.base import Format, Target
 from dofkit.homework.formats.documents import write_documents
-from dofkit.homework.formats.wording import line, open_points, plain, remark, standing, title
+from dofkit.homework.formats.wording import line, open_points, plain, points, remark, standing, title
 from dofkit.homework.result import Item, Result
+from dofkit.homework.sentences.said import Language, in_language
 
 
 def numbers(items: Sequence[Item]) -> list[str | None]:
@@ -49,12 +50,12 @@ def visibility_of(prepared: Prepared | None) -> Visibility:
     return "visible" if prepared is None else prepared.assignment.shown
 
 
-def document(result: Result, visibility: Visibility = "visible") -> dict[str, Any]:
+def document(result: Result, visibility: Visibility = "visible", language: Language = "en") -> dict[str, Any]:
     """What ``results.json`` says of a submission."""
     later = visibility != "visible" and result.error is None
     found: dict[str, Any] = {
         "score": result.score or 0.0,
-        "output": _told_at_once(result) if later else standing(result),
+        "output": _first_output(result, language) if later else standing(result, language),
         "output_format": "text",
         "visibility": visibility if later else "visible",
         "extra_data": {
@@ -66,34 +67,39 @@ def document(result: Result, visibility: Visibility = "visible") -> dict[str, An
         },
     }
     places = list(zip(result.items, numbers(result.items), strict=True))
-    tests = [_test(item, place, visibility) for item, place in places]
+    tests = [_test(item, place, visibility, language) for item, place in places]
     if later:
-        tests = [*(_reading(item) for item in result.items), *tests]
+        tests = [*(_reading(item, language) for item in result.items), *tests]
     if result.error is not None:
-        tests = [{"name": "Reading the submission", "status": "failed", "output": plain(result.error),
+        tests = [{"name": in_language(language, "Submission"), "status": "failed", "output": standing(result, language),
                   "output_format": "text", "visibility": "visible"}]  # fmt: skip
     return {**found, "tests": tests}
 
 
-def _told_at_once(result: Result) -> str:
-    """What is said of the whole before points are shown."""
-    doubt = "" if result.doubt is None else f"This is not final, for {plain(result.doubt)}.\n"
-    return f"{doubt}Below stands how every answer was read. What they are worth is shown later."
+def _first_output(result: Result, language: Language) -> str:
+    """Return what is said of the submission before points are shown."""
+    doubt = result.doubt
+    lines = [] if doubt is None else [in_language(language, "This result is not final: {fault}.", fault=plain(doubt))]
+    return "\n".join(
+        [*lines, in_language(language, "The list shows how each answer was read; points are shown later.")]
+    )
 
 
-def _reading(item: Item) -> dict[str, Any]:
-    """How an answer was read, without what it is worth."""
+def _reading(item: Item, language: Language) -> dict[str, Any]:
+    """Return how an answer was read, without its points."""
     if item.status == "unreadable":
-        output = remark(item)
+        output = remark(item, language)
     elif item.status == "missing":
-        output = "There is no answer."
+        output = in_language(language, "No answer was given.")
+    elif item.read_as:
+        output = in_language(language, "Read as: {text}", text=plain(item.read_as))
     else:
-        output = f"Read as: {plain(item.read_as)}" if item.read_as else "A person will read it."
-    return {"name": f"{title(item)}: how it was read", "output": output, "output_format": "text",
-            "visibility": "visible"}  # fmt: skip
+        output = in_language(language, "A person will review this answer.")
+    name = in_language(language, "{answer}: how it was read", answer=title(item))
+    return {"name": name, "output": output, "output_format": "text", "visibility": "visible"}
 
 
-def _test(item: Item, place: str | None, visibility: Visibility) -> dict[str, Any]:
+def _test(item: Item, place: str | None, visibility: Visibility, language: Language) -> dict[str, Any]:
     found: dict[str, Any] = {"name": title(item)}
     if place is not None:
         found["number"] = place
@@ -101,9 +107,9 @@ def _test(item: Item, place: str | None, visibility: Visibility) -> dict[str, An
         found["score"] = item.score
         found["max_score"] = item.max_score
         found["status"] = "passed" if item.status == "right" else "failed"
-    output = remark(item)
+    output = remark(item, language)
     if item.score is None:
-        output = f"{output}\nOpen: {item.max_score:g} points."
+        output = f"{output}\n{points(item, language)}."
     return {
         **found,
         "output": output,
@@ -117,7 +123,7 @@ def _test(item: Item, place: str | None, visibility: Visibility) -> dict[str, An
 def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None:
     """One ``results.json`` a student."""
     shown = visibility_of(prepared)
-    write_documents(results, target, lambda result: document(result, shown))
+    write_documents(results, target, lambda result: document(result, shown, prepared.assignment.language))
 
 
 GRADESCOPE = Format("gradescope", write)

@@ -16,9 +16,10 @@ from dofkit.homework.formats.base import Format, Target
 from dofkit.homework.formats.documents import write_documents
 from dofkit.homework.formats.wording import decided, feedback, identity
 from dofkit.homework.result import Result
+from dofkit.homework.sentences.said import Language
 
 
-def document(result: Result, timestamp: str) -> dict[str, Any]:
+def document(result: Result, timestamp: str, language: Language = "en") -> dict[str, Any]:
     """A score; ``timestamp`` is in ISO 8601 with parts of a second, and later than those of scores posted before."""
     found: dict[str, Any] = {"userId": identity(result.student)}
     if decided(result):
@@ -27,7 +28,7 @@ def document(result: Result, timestamp: str) -> dict[str, Any]:
     progress = "FullyGraded" if decided(result) else "PendingManual" if result.error is None else "Failed"
     return {
         **found,
-        "comment": feedback(result),
+        "comment": feedback(result, language),
         "timestamp": timestamp,
         "activityProgress": "Completed" if result.error is None else "Submitted",
         "gradingProgress": progress,
@@ -36,9 +37,9 @@ def document(result: Result, timestamp: str) -> dict[str, Any]:
 
 def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None:
     """One score a student."""
-    del prepared
+    language = prepared.assignment.language
     write_documents(
-        results, target, lambda result: document(result, datetime.now(UTC).isoformat(timespec="microseconds"))
+        results, target, lambda result: document(result, datetime.now(UTC).isoformat(timespec="microseconds"), language)
     )
 
 

@@ -58,9 +58,9 @@ def _write(results: Iterator[Result], prepared: Prepared, target: Target, roster
         for result, member in chain([] if first is None else [first], rest):
             who = result.student if member is None else _COLUMNS[column](member)
             if not is_cell(who) or who == "0" or (member is None and ("@" in who) != (column == "useremail")):
-                apart.add(result, f"there is no {column} of theirs")
+                apart.add(result, f"the student has no {column}")
                 continue
-            told = escape(feedback(result), quote=False)
+            told = escape(feedback(result, prepared.assignment.language), quote=False)
             rows.writerow([who, number(result.score or 0.0), cell(told)])
 
 

@@ -18,36 +18,40 @@ from dofkit.homework.formats.documents import text, write_documents
 from dofkit.homework.formats.prairielearn_scores import write_scores
 from dofkit.homework.formats.wording import line, plain, remark, shortened, standing, title
 from dofkit.homework.result import Item, Result
+from dofkit.homework.sentences.said import Language, in_language
 
 #: PrairieLearn takes no more than a megabyte; and the characters of one text where that is too much.
 MOST_BYTES, MOST_CHARACTERS = 1_000_000, 1000
 UNGRADED = (
-    "This was not graded and cost no attempt. What could not be read can be written in another way; what a person has "
-    "to look at is graded when they have."
+    "This submission was not graded and did not use an attempt. Write the answers that could not be read differently; "
+    "a person will review the others."
 )
 
 
-def document(result: Result) -> dict[str, Any]:
+def document(result: Result, language: Language = "en") -> dict[str, Any]:
     """What ``results.json`` says of a submission, in less than a megabyte."""
-    found = _document(result)
+    found = _document(result, language)
     most = MOST_CHARACTERS
     while len(text(found)) > MOST_BYTES and most >= 8:
         found = _cut(found, most)
         most //= 2
     if len(text(found)) > MOST_BYTES:
         found = {**found, "tests": [], "format_errors": found.get("format_errors", [])[:50]}
-        found["message"] = f"{found['message']}\nThe answers one by one are too many to be shown."
+        too_many = in_language(language, "There are too many answers to be listed one by one.")
+        found["message"] = f"{found['message']}\n{too_many}"
     return found
 
 
-def _document(result: Result) -> dict[str, Any]:
+def _document(result: Result, language: Language) -> dict[str, Any]:
+    message = standing(result, language)
     if result.error is not None:
-        return {"gradable": False, "format_errors": [plain(result.error)], "message": standing(result), "tests": []}
-    errors = [_error(item) for item in result.items if item.status == "unreadable" or item.score is None]
+        error = in_language(language, "{fault}", fault=plain(result.error))
+        return {"gradable": False, "format_errors": [error], "message": message, "tests": []}
+    errors = [_error(item, language) for item in result.items if item.status == "unreadable" or item.score is None]
     if errors:
-        return {"gradable": False, "format_errors": errors, "message": UNGRADED, "tests": []}
-    tests = [_test(item) for item in result.items]
-    return {"gradable": True, "score": share(result), "message": standing(result), "tests": tests}
+        return {"gradable": False, "format_errors": errors, "message": in_language(language, UNGRADED), "tests": []}
+    tests = [_test(item, language) for item in result.items]
+    return {"gradable": True, "score": share(result), "message": message, "tests": tests}
 
 
 def share(result: Result) -> float:
@@ -55,20 +59,20 @@ def share(result: Result) -> float:
     return min(max((result.score or 0.0) / result.max_score, 0.0), 1.0) if result.max_score else 0.0
 
 
-def _test(item: Item) -> dict[str, Any]:
+def _test(item: Item, language: Language) -> dict[str, Any]:
     return {
         "name": title(item),
-        "description": f"Read as: {line(item.read_as)}" if item.read_as else "",
+        "description": in_language(language, "Read as: {text}", text=line(item.read_as)) if item.read_as else "",
         "points": item.score,
         "max_points": item.max_score,
-        "message": remark(item),
+        "message": remark(item, language),
         "output": "",
     }
 
 
-def _error(item: Item) -> str:
-    where = "" if item.column is None else f" (column {item.column})"
-    return f"{title(item)}{where}: {line(item.feedback) or 'it could not be read.'}"
+def _error(item: Item, language: Language) -> str:
+    where = "" if item.column is None else in_language(language, " (column {column})", column=item.column)
+    return f"{title(item)}{where}: {line(item.feedback) or in_language(language, 'not readable')}"
 
 
 def _cut(found: dict[str, Any], most: int) -> dict[str, Any]:
@@ -81,8 +85,7 @@ def _cut(found: dict[str, Any], most: int) -> dict[str, Any]:
 
 def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None:
     """One ``results.json`` a student."""
-    del prepared
-    write_documents(results, target, document)
+    write_documents(results, target, lambda result: document(result, prepared.assignment.language))
 
 
 PRAIRIELEARN = Format("prairielearn", write, endings=("json", "csv"), write_back=write_scores)

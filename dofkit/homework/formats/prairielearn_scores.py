@@ -22,6 +22,7 @@ from dofkit.homework.formats.base import FormatError, Handback
 from dofkit.homework.formats.cells import cell
 from dofkit.homework.formats.wording import number, plain, points, title
 from dofkit.homework.result import Item, Result
+from dofkit.homework.sentences.said import Language
 from dofkit.homework.statement import marked
 
 #: Less than this makes no difference to a percentage.
@@ -33,7 +34,7 @@ def write_scores(results: Iterator[Result], prepared: Prepared, target: Path, ha
     rows = submitted_in(handback.sources, prepared.columns())
     if not rows:
         raise FormatError(
-            f"{target} takes points back to PrairieLearn by its own table: grade the CSV that its page Downloads has, "
+            f"{target} returns points to PrairieLearn in its own table: grade the CSV from its Downloads page,  "
             "of submissions for manual grading or of final submissions"
         )
     known: dict[str, SubmittedRow] = {}
@@ -46,11 +47,12 @@ def write_scores(results: Iterator[Result], prepared: Prepared, target: Path, ha
             row = known.get(result.student)
             if not _is_asked(result, row):
                 continue
-            why = "there is no submission of theirs in the table" if row is None else _withheld(result, row)
+            why = "the table has no submission of this student" if row is None else _withheld(result, row)
             if row is None or why is not None:
                 apart.add(result, str(why))
                 continue
-            cells = (row.student, row.question, row.submission, f"{_percent(result):.4f}", _feedback(result))
+            feedback = _feedback(result, prepared.assignment.language)
+            cells = (row.student, row.question, row.submission, f"{_percent(result):.4f}", feedback)
             table.writerow([*map(cell, cells)])
 
 
@@ -81,11 +83,11 @@ def _withheld(result: Result, row: SubmittedRow) -> str | None:
     return why
 
 
-def _feedback(result: Result) -> str:
+def _feedback(result: Result, language: Language) -> str:
     """What is told of every answer, in Markdown that shows what was written as it stands."""
-    return "\n".join(f"* **{marked(title(item))}**: {_told(item)}" for item in result.items)
+    return "\n".join(f"* **{marked(title(item))}**: {_told(item, language)}" for item in result.items)
 
 
-def _told(item: Item) -> str:
+def _told(item: Item, language: Language) -> str:
     said = marked(plain(item.feedback)) if item.decided_by is not None else ""
-    return f"{points(item)}. {said}".rstrip()
+    return f"{points(item, language)}. {said}".rstrip()

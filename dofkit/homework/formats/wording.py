@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterator
 from typing import NamedTuple
 
 from dofkit.homework.result import Item, Result, Status
+from dofkit.homework.sentences.said import Language, in_language
 
 #: The share of its points that stands for an answer that could not be decided where a number has to stand.
 OPEN_SHARE = 0.5
-#: How a status is told.
+#: What each status is called, in English.
 STATUSES: dict[Status, str] = {
-    "right": "right",
-    "partly": "partly right",
-    "wrong": "wrong",
-    "unreadable": "could not be read",
+    "right": "correct",
+    "partly": "partly correct",
+    "wrong": "incorrect",
+    "unreadable": "not readable",
     "missing": "no answer",
-    "needs_review": "open: waits for review",
+    "needs_review": "awaiting review",
 }
 #: Characters of an answer that are shown on either side of the place where reading stopped.
 MOST_AROUND = 60
@@ -74,11 +74,10 @@ def number(value: float) -> str:
     return f"{value:.4f}".rstrip("0").rstrip(".")
 
 
-def points(item: Item) -> str:
-    """The points of one answer; none are named where they are open."""
-    if item.score is None:
-        return f"open, of {number(item.max_score)}"
-    return f"{number(item.score)} of {number(item.max_score)}"
+def points(item: Item, language: Language = "en") -> str:
+    """Return the points of one answer, as in ``1 of 2``; a dash for those that are undecided."""
+    score = "–" if item.score is None else number(item.score)
+    return in_language(language, "{score} of {most}", score=score, most=number(item.max_score))
 
 
 def open_points(result: Result) -> float:
@@ -99,40 +98,41 @@ def decided(result: Result) -> bool:
     return known and not result.needs_review
 
 
-def standing(result: Result) -> str:
-    """How the submission stands, in a sentence or two."""
+def standing(result: Result, language: Language = "en") -> str:
+    """Return how the submission stands, in a sentence or two."""
     if result.error is not None:
-        return f"This submission could not be graded: {plain(result.error)}"
+        return in_language(language, "This submission could not be graded: {fault}", fault=plain(result.error))
     if result.doubt is not None:
-        told = standing(result.model_copy(update={"doubt": None}))
-        return f"This is not final, for {plain(result.doubt)}.\n{told}"
-    comment = f"Points: {number(result.score or 0.0)} of {number(result.max_score)}."
+        doubt = in_language(language, "This result is not final: {fault}.", fault=plain(result.doubt))
+        return f"{doubt}\n{standing(result.model_copy(update={'doubt': None}), language)}"
+    given = {"score": number(result.score or 0.0), "most": number(result.max_score)}
     if not result.needs_review:
-        return comment
-    answers = "1 answer" if result.needs_review == 1 else f"{result.needs_review} answers"
-    waits = "waits" if result.needs_review == 1 else "wait"
-    return (
-        f"So far {number(result.score or 0.0)} of {number(result.max_score)} points are given, which is not final: "
-        f"{answers} worth {number(open_points(result))} points could not be decided automatically and {waits} for "
-        "review by a person."
+        return in_language(language, "Points: {score} of {most}.", **given)
+    return in_language(
+        language,
+        "Points so far: {score} of {most}. This is not final: a person will review the answers that could not be "
+        "graded automatically (points: {open}).",
+        **given,
+        open=number(open_points(result)),
     )
 
 
-def remark(item: Item) -> str:
-    """What is said of one answer: how it was read, or where reading stopped, and the feedback."""
-    where = "" if item.column is None else f" (column {item.column})"
-    lines = [f"{STATUSES[item.status].capitalize()}{where}."]
+def remark(item: Item, language: Language = "en") -> str:
+    """Return what is said of one answer: how it was read, or where reading stopped, and the feedback."""
+    status = in_language(language, STATUSES[item.status])
+    where = "" if item.column is None else in_language(language, " (column {column})", column=item.column)
+    lines = [f"{status[0].upper()}{status[1:]}{where}."]
     stop = stop_of(item)
     if stop is not None:
         lines += stop.lines()
     if item.read_as:
-        lines.append(f"Read as: {plain(item.read_as)}")
+        lines.append(in_language(language, "Read as: {text}", text=plain(item.read_as)))
     if item.feedback:
         lines.append(unmarked(plain(item.feedback)))
     if item.would_read:
-        lines.append(f"It would be read as: {plain(item.would_read)}")
+        lines.append(in_language(language, "It would be read as: {text}", text=plain(item.would_read)))
     if item.decided_by is not None:
-        lines.append("A person gave these points.")
+        lines.append(in_language(language, "A person gave these points."))
     return "\n".join(lines)
 
 
@@ -172,14 +172,10 @@ def unmarked(text: str) -> str:
     return _MARKED_NAME.sub(r"'\1'", text)
 
 
-def feedback(result: Result) -> str:
-    """Everything that is said of a submission, as plain text."""
-    return "\n\n".join([standing(result), *_answers(result)])
-
-
-def _answers(result: Result) -> Iterator[str]:
-    for item in result.items:
-        yield f"{title(item)}: {points(item)}. {remark(item)}"
+def feedback(result: Result, language: Language = "en") -> str:
+    """Return everything that is said of a submission, as plain text."""
+    answers = (f"{title(item)}: {points(item, language)}. {remark(item, language)}" for item in result.items)
+    return "\n\n".join([standing(result, language), *answers])
 
 
 def title(item: Item) -> str:

@@ -25,13 +25,13 @@ from dofkit.scene.names import coordinate_table
 from dofkit.scene.parts import Force, show_point
 
 _SIGNED = {
-    "real": "{names}: a constant.",
-    "positive": "{names}: a positive constant.",
-    "nonzero": "{names}: a constant that is not 0.",
+    "real": "{names}: constant.",
+    "positive": "{names}: positive constant.",
+    "nonzero": "{names}: nonzero constant.",
 }
 _FREEDOM = {
-    "configuration": "Degrees of freedom are here the dimension of the configuration space.",
-    "velocity": "Degrees of freedom are here the number of independent velocities.",
+    "configuration": "The number of degrees of freedom is the dimension of the configuration space.",
+    "velocity": "The number of degrees of freedom is the number of independent generalized velocities.",
 }
 
 
@@ -57,11 +57,11 @@ class SheetComposer:
         assignment = self.prepared.assignment
         blocks = [f"# {marked(assignment.title)}"]
         if self.whose is not None:
-            whose = self.told("This is the sheet of {student}.", student=marked(self.whose))
+            whose = self.told("Assignment for {student}", student=marked(self.whose))
             blocks.append(f"**{whose}**")
         for n, problem in enumerate(assignment.problems, 1):
             blocks += self._problem(n, problem)
-        heading = self.told("How are answers written?")
+        heading = self.told("How to write answers")
         blocks += [f"## {heading}", "\n".join(f"- {way}" for way in self._ways())]
         return "\n\n".join(blocks) + "\n"
 
@@ -84,7 +84,8 @@ class SheetComposer:
         )
 
     def _points(self, points: Fraction) -> str:
-        return self.told("points: {number}", number=number(float(points)))
+        sentence = "{number} point" if points == 1 else "{number} points"
+        return self.told(sentence, number=number(float(points)))
 
     def _asked(self, question: QuestionBase) -> str:
         constraint = getattr(question, "constraint", None) is not None
@@ -99,16 +100,14 @@ class SheetComposer:
             if owner is None:
                 yield self.told("{names}: coordinates.", names=symbols)
             elif owner in table.bodies and key.scene.dimension > 1:
-                yield self.told(
-                    "{names}: the place and the orientation of the body {owner}.", names=symbols, owner=owner
-                )
+                yield self.told("{names}: position and orientation of the body {owner}.", names=symbols, owner=owner)
             else:
-                yield self.told("{names}: the place of {owner}.", names=symbols, owner=owner)
+                yield self.told("{names}: position of {owner}.", names=symbols, owner=owner)
         for name, value in key.scene.parameters.items():
             sign = _SIGNED.get(str(value))
             yield self.told(sign, names=f"${name}$") if sign else f"${name} = {as_written(value)}$"
         for name, arguments in key.scene.functions.items():
-            yield self.told("{names}: an unknown smooth function.", names=f"${name}({', '.join(arguments)})$")
+            yield self.told("{names}: unknown smooth function.", names=f"${name}({', '.join(arguments)})$")
         if (ALL, None) not in places(problem.text or ""):
             yield from self._constraints(key, asked_equations(problem))
             yield from map(_of_force, key.scene.forces)
@@ -117,7 +116,7 @@ class SheetComposer:
     def _constraints(self, key: Key, hidden: set[str]) -> Iterator[str]:
         for constraint, name in zip(key.scene.constraints, key.constraints, strict=True):
             if constraint.facts.written and name in hidden:
-                yield self.told("{names}: a constraint.", names=f"`{name}`")
+                yield self.told("{names}: constraint.", names=f"`{name}`")
             else:
                 yield f"`{name}`: {shown(constraint)}"
 
@@ -126,7 +125,7 @@ class SheetComposer:
             yield self.told("You may also use {names}.", names=f"${name} = {text}$")
         for name, others in problem.names.items():
             listed = ", ".join(f"`{other}`" for other in others)
-            yield self.told("{name} may also be called {names}.", name=f"`{name}`", names=listed)
+            yield self.told("{name} may also be written as {names}.", name=f"`{name}`", names=listed)
 
     def _ways(self) -> Iterator[str]:
         """How answers are written: of every kind of question that the sheet has."""
@@ -136,10 +135,12 @@ class SheetComposer:
             yield self.told(_FREEDOM[self.prepared.assignment.convention])
         for cls in kinds.values():
             example = safe_example(self.prepared, cls)
-            lead = self.told("Of another system, for example:")
+            lead = self.told("Example (for a different system):")
             yield self.told(cls.how) + (f" {lead} `{example}`" if example is not None else "")
-        yield self.told("Greek letters may be typed as such or as words: theta, omega. LaTeX is read as well.")
-        yield self.told("A decimal number has a point or a comma; exact numbers, such as 1/3 or sqrt(2), are better.")
+        yield self.told("Greek letters may be typed directly or as words such as theta and omega. LaTeX is accepted.")
+        yield self.told(
+            "Decimals are written with a point or a comma; exact numbers such as 1/3 or sqrt(2) are preferred."
+        )
 
 
 def asked_equations(problem: Problem) -> set[str]:

@@ -109,14 +109,14 @@ def remarks(prepared: Prepared) -> Iterator[str]:
     """What a lecturer should know of a sheet before it is handed out."""
     for problem in prepared.assignment.problems:
         for text in unset_formulas(problem.text or ""):
-            yield f"problem '{problem.id}': the formula ${text}$ cannot be set, and is shown as it is typed"
+            yield f"problem '{problem.id}': the formula ${text}$ cannot be typeset, and is shown as typed"
         if problem.text is None:
             if any(isinstance(question, MOTION) for question in problem.questions):
-                yield f"problem '{problem.id}': the sheet does not say what the forces and masses are: say it in `text`"
+                yield f"problem '{problem.id}': the handout does not state the forces and masses: state them in `text`"
             scene = named(prepared.keys[problem.id].scene)
             asked = [n for q in problem.questions if isinstance(q, EquationQuestion) for n in q.constraint]
             for name in dict.fromkeys(n for n in asked if scene[n].facts.written):
                 yield (
-                    f"problem '{problem.id}': the equation of '{name}' is asked for, and the scene has nothing but "
-                    "this equation: say in `text` what holds"
+                    f"problem '{problem.id}': the equation of '{name}' is asked for, and the scene contains only "
+                    "this equation: describe the system in `text`"
                 )

@@ -24,17 +24,21 @@ from dofkit.system import System
 
 _FEEDBACK = {
     Sameness.SAME: "",
-    Sameness.IRREGULAR: "It has the right solutions, but its gradient vanishes on them, as that of a square does.",
-    Sameness.BRANCH: "It holds on one branch only: taking a root has lost the others.",
-    Sameness.DIFFERENTIATED: "This is the differentiated constraint: it leaves the constant open, so it says less.",
-    Sameness.INTEGRATED: "It is the constraint in integrated form.",
-    Sameness.WITHOUT_CONSTANT: "It is the integrated form without its constant, which the initial state sets.",
-    Sameness.WEAKER: "It allows more than the constraint does: something is missing.",
-    Sameness.STRONGER: "It allows less than the constraint does: it says more than was asked for.",
-    Sameness.DIFFERENT: "It is another constraint.",
-    Sameness.EMPTY: "Nothing satisfies it together with the other constraints.",
+    Sameness.IRREGULAR: (
+        "The solutions are correct, but the gradient vanishes on all of them, as for a squared equation."
+    ),
+    Sameness.BRANCH: "This describes only one branch: the others were lost by taking a root.",
+    Sameness.DIFFERENTIATED: "This is the time derivative of the constraint: the constant is lost, so it is weaker.",
+    Sameness.INTEGRATED: "This is the constraint in integrated form.",
+    Sameness.WITHOUT_CONSTANT: (
+        "This is the integrated form without its constant, which is fixed by the initial conditions."
+    ),
+    Sameness.WEAKER: "This is weaker than the constraint: it allows motions that the constraint forbids.",
+    Sameness.STRONGER: "This is stronger than the constraint: it forbids motions that the constraint allows.",
+    Sameness.DIFFERENT: "This is a different constraint.",
+    Sameness.EMPTY: "No configuration satisfies it together with the other constraints.",
 }
-_UNDECIDED = "whether it is the same constraint was not decided in the time there is."
+_UNDECIDED = "it could not be decided in the time available whether this is the same constraint."
 #: What an answer that is not quite the constraint is worth.
 _HALVES = frozenset({Sameness.IRREGULAR, Sameness.BRANCH, Sameness.DIFFERENTIATED, Sameness.WITHOUT_CONSTANT})
 _RIGHT = frozenset({Sameness.SAME, Sameness.INTEGRATED})
@@ -75,7 +79,7 @@ class EquationComparison:
         if found.status == "wrong" and found.share == NOTHING:
             for exact in exact_ways(way):
                 if self._found(exact).status == "right":
-                    told = "Its numbers are rounded: write them exactly, as roots and fractions."
+                    told = "The numbers are rounded: write them exactly, with roots and fractions."
                     return partly(HALF, way.shown, told, ROUNDED)
         if found.codes == (Sameness.EMPTY.value,) and len(way.relations) > 1 and not way.derived:
             return self._contradictory(way) or found
@@ -83,7 +87,7 @@ class EquationComparison:
             last = self._found(way.claim)
             if last.status == "right":
                 return last
-            return needs_review(way.shown, "whether the last of the equations alone is meant.")
+            return needs_review(way.shown, "it is not clear whether only the last equation is meant.")
         return found
 
     def _contradictory(self, way: AnswerReading) -> Judgement | None:
@@ -96,7 +100,7 @@ class EquationComparison:
                 ways.append(JudgedReading(found.read_as, found.share))
         if all(share == NOTHING for _, share in ways):
             return None
-        return replace(needs_review(way.shown, "it contradicts itself."), ways=tuple(ways))
+        return replace(needs_review(way.shown, "the answer contradicts itself."), ways=tuple(ways))
 
     def _found(self, way: AnswerReading) -> Judgement:
         if not way.own:
@@ -113,7 +117,7 @@ class EquationComparison:
             found = self._declared(other)
             if found.status == "right":
                 told = ", ".join(f"{own} = {name}" for own, name in names.items())
-                return right(other.shown, say("Read {names}: so the problem calls it.", names=told))
+                return right(other.shown, say("The names were matched to those of the problem: {names}.", names=told))
         return self._undecided(way)
 
     def _undecided(self, way: AnswerReading) -> Judgement:
@@ -133,11 +137,13 @@ class EquationComparison:
         """Equations of accelerations: a constraint that was differentiated twice is partly right."""
         held = held_accelerations(way, self.key, self.names)
         if held:
-            told = "This is the constraint, differentiated until it holds accelerations: it leaves more open."
+            told = (
+                "This is the constraint differentiated until accelerations occur: constants are lost, so it is weaker."
+            )
             return partly(HALF, way.shown, told, Sameness.DIFFERENTIATED.value)
         if held is None:
-            return needs_review(way.shown, "it holds accelerations.")
-        return wrong(way.shown, "It holds accelerations, which no constraint of this kind does.", "DIFFERENT")
+            return needs_review(way.shown, "it contains accelerations.")
+        return wrong(way.shown, "It contains accelerations; a constraint of this kind does not.", "DIFFERENT")
 
     def _told(self, read: Read, shown: str) -> Judgement:
         found = self.key.compared((self.names, read.texts, read.constants), lambda: self._compared(read))
@@ -164,7 +170,7 @@ class EquationComparison:
             return wrong(shown, told, code)
         missing = [n for n, met in zip(self.names, found.met, strict=True) if not met]
         met = len(self.names) - len(missing)
-        count = say("{number} of {all} constraints follow from it.", number=met, all=len(self.names))
+        count = say("It implies {number} of the {all} constraints.", number=met, all=len(self.names))
         return partly(share, shown, told, code).saying(count)
 
 

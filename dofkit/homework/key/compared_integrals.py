@@ -1,4 +1,4 @@
-"""An answer beside the finite relation that a differential constraint integrates to, its constant anywhere or left out.
+"""An answer beside the integral of a differential constraint, its constant anywhere or left out.
 
 `y = C x` is an integral of y dx - x dy = 0 because on every curve of this family the form vanishes, and because the
 family has a curve through every point. So the constant is a coordinate of its own that does not change.
@@ -23,7 +23,7 @@ from dofkit.scene.scene import Scene
 
 #: What the constant of a bare expression is called, as in `x y` for x y = C.
 _FRESH = ("C", "c", "K", "C_1", "const")
-_LEFT_OUT = "The constant of integration was left out: `... = C`."
+_LEFT_OUT = "The constant of integration is missing: `... = C`."
 
 
 def integral_judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
@@ -44,14 +44,14 @@ def _in_parameters(way: AnswerReading, key: Key, name: str) -> Judgement:
         found = _judgement(gone._replace(own=own), key, name)
         if found.status == "right":
             return replace(found, read_as=way.shown)
-    return needs_review(way.shown, "whether it is an integral was not decided in the time there is.")
+    return needs_review(way.shown, "it could not be decided in the time available whether this is an integral.")
 
 
 def _judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
     """The same of one reading, all names of its own constants."""
     read = _with_constants(way, key)
     if read.moving:
-        told = "This still holds velocities: the finite relation that it integrates to is asked for."
+        told = "This still contains velocities; the integral, a relation between the coordinates, is asked for."
         return wrong(read.shown, told, "NOT_INTEGRATED")
     remark = "" if read.constants else _LEFT_OUT
     found = with_answer(key, read, lambda posed: is_integral(posed.system, posed.system.numbers_of(name), posed.own))
@@ -61,8 +61,12 @@ def _judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
     if family is Leaves.ALL or (family is Leaves.ONE and not read.constants):
         return right(read.shown, remark)
     if family is Leaves.OPEN:
-        return needs_review(read.shown, "whether it is an integral was not decided in the time there is.")
-    return wrong(read.shown, "Its differential is not the constraint.", "WRONG_INTEGRAL")
+        return needs_review(read.shown, "it could not be decided in the time available whether this is an integral.")
+    return wrong(
+        read.shown,
+        ("This is not an integral of the constraint: its differential is a different condition."),
+        "WRONG_INTEGRAL",
+    )
 
 
 def _with_constants(way: AnswerReading, key: Key) -> Read:

@@ -32,7 +32,7 @@ Convention = Literal["configuration", "velocity"]
 
 @dataclass(frozen=True)
 class Key:
-    """What is right for one problem. ``convention``: which freedom a bare "degrees of freedom" means.
+    """What is right for one problem. ``convention``: what "degrees of freedom" means.
 
     ``also``: further coordinates that an answer may use, and what they are. ``others``: other name -> declared name.
     ``base``: the key without the coordinates of an answer's own.

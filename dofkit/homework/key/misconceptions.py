@@ -104,60 +104,80 @@ def _spatial_grubler(f: SceneCounts) -> Numbers:
 
 #: In the order in which they are likely where several give the same number.
 ERRORS: tuple[Misconception, ...] = (
-    Misconception("ALL_LINKS", "Not all links between N particles are independent where N > d + 1.", _all_links),
-    Misconception("ROD_3", "Of masses on one straight rod fewer distances are independent, and more conditions hold "
-                  "than their count says: they stay in line.", _rod_three),
-    Misconception("NH_SUBTRACT", "A non-holonomic constraint ties velocities only: it leaves all configurations within "
-                  "reach and does not reduce the dimension of the configuration space.",
+    Misconception("ALL_LINKS", (
+        "The distances between more than d + 1 particles in d dimensions are not all independent."
+    ), _all_links),
+    Misconception("ROD_3", (
+        "The masses stay on one straight line: this takes more equations than the distances alone suggest."
+    ), _rod_three),
+    Misconception("NH_SUBTRACT", (
+        "A non-holonomic constraint restricts the velocities only; it does not reduce the dimension of the "
+        "configuration space."
+    ),
                   _less(lambda f: f.nonholonomic)),
-    Misconception("NH_HALF", "A non-holonomic constraint does not take half a degree of freedom away.",
+    Misconception("NH_HALF", "A non-holonomic constraint does not remove half a degree of freedom.",
                   _less(lambda f: Fraction(f.nonholonomic, 2)), True),
-    Misconception("ROLL_NH", "This differential constraint integrates to a relation between coordinates, which counts.",
+    Misconception("ROLL_NH", (
+        "A differential constraint of this system is integrable: it reduces the number of degrees of freedom."
+    ),
                   _more(lambda f: f.integrable)),
-    Misconception("INEQ_SUBTRACT", "An inequality bounds the motion but takes no degree of freedom away.",
+    Misconception("INEQ_SUBTRACT", (
+        "An inequality bounds the motion but does not reduce the number of degrees of freedom."
+    ),
                   _less(lambda f: f.walls)),
-    Misconception("INEQ_AS_EQ", "An inequality is no equation: inside its bound everything can still move.",
+    Misconception("INEQ_AS_EQ", "An inequality is not an equation: within its bound the system moves freely.",
                   _less(lambda f: f.walls)),
-    Misconception("SPRING", "A spring is no rod: it exerts a force and constrains nothing.",
+    Misconception("SPRING", "A spring is not a rod: it exerts a force and is not a constraint.",
                   _less(lambda f: f.forces.count("spring"))),
-    Misconception("DRIVEN", "A prescribed motion is no degree of freedom: it is given as a function of time.",
+    Misconception("DRIVEN", "A prescribed motion is not a degree of freedom: it is a given function of time.",
                   _more(lambda f: f.drives)),
-    Misconception("PULLEY", "What hangs on a string: count every pulley that moves, and every direction in which a "
-                  "weight is guided.", _pulley),
+    Misconception("PULLEY", (
+        "Check the pulleys and the strings: each inextensible string gives one equation, and each movable "
+        "pulley has its own coordinate."
+    ), _pulley),
     Misconception("CART_FIXED", "The support moves freely along its guide: its motion is not prescribed.",
                   _less(lambda f: f.guides if f.dof > 1 else 0)),
-    Misconception("ROD_SPIN", "Two particles on a rod are no rigid body: turning about the rod's own axis changes "
-                  "nothing.", _more(lambda f: f.bars.rods if f.d == 3 else 0)),
-    Misconception("NO_SPIN", "A rigid body also turns about its own axis.",
+    Misconception("ROD_SPIN", (
+        "Two particles on a rod are not a rigid body: a rotation about the rod's axis changes nothing."
+    ), _more(lambda f: f.bars.rods if f.d == 3 else 0)),
+    Misconception("NO_SPIN", "A rigid body can also rotate about its own axis.",
                   _less(lambda f: f.bodies + f.bars.clusters if f.d == 3 else 0)),
-    Misconception("PLANE_FORGOT", "That the motion stays in a plane is a constraint, and counts.", _plane_forgotten),
-    Misconception("CURVE_ONE", "A curve in space is where two surfaces meet: it takes two equations.",
+    Misconception("PLANE_FORGOT", "The motion stays in a plane: this is a constraint too.", _plane_forgotten),
+    Misconception("CURVE_ONE", "A curve in space is the intersection of two surfaces: it takes two equations.",
                   _more(lambda f: f.surfaces.surplus)),
-    Misconception("SUM_SQ", "A sum of squares that is zero is several equations in one: every square vanishes.",
+    Misconception("SUM_SQ", "A vanishing sum of squares stands for several equations: each square vanishes.",
                   _sum_of_squares),
-    Misconception("GROUND", "The ground is a link that does not move: count it neither as free nor not at all.",
+    Misconception("GROUND", "The ground is a fixed link: it must be counted as a link, but it has no freedom.",
                   _ground),
-    Misconception("SPATIAL_GRUBLER", "In the plane a body has three degrees of freedom and a joint takes two.",
+    Misconception("SPATIAL_GRUBLER", (
+        "In the plane a body has three degrees of freedom and a revolute joint removes two."
+    ),
                   _spatial_grubler),
-    Misconception("PLANE_TWICE", "With two coordinates for each particle the plane is counted already.",
+    Misconception("PLANE_TWICE", "With two coordinates for each particle, the plane is already taken into account.",
                   _less(lambda f: f.particles if f.d == 2 else 0)),
-    Misconception("BAR_TWO", "A bar between two particles takes one degree of freedom away, not two.",
+    Misconception("BAR_TWO", "A rod between two particles removes one degree of freedom, not two.",
                   _less(lambda f: f.bars.links)),
-    Misconception("BAR_POINT", "Two particles joined by a bar are not one particle: they can turn.",
+    Misconception("BAR_POINT", "Two particles joined by a rod are not one particle: the rod can rotate.",
                   _less(lambda f: (f.d - 1) * f.bars.links)),
-    Misconception("PARAM_COUNT", "A parametric curve brings its parameter as one more unknown.",
+    Misconception("PARAM_COUNT", "A parametric curve adds its parameter as one more unknown.",
                   _less(lambda f: f.surfaces.on_curves)),
-    Misconception("MOTION", "The trajectory follows from forces and the initial state: it is no constraint.",
+    Misconception("MOTION", (
+        "The trajectory is determined by the forces and the initial conditions: it is not a constraint."
+    ),
                   _trajectory),
-    Misconception("CONSERVATION", "That energy is conserved follows from the motion: it is no constraint.",
+    Misconception("CONSERVATION", (
+        "Conservation of energy is a consequence of the equations of motion: it is not a constraint."
+    ),
                   _conservation),
-    Misconception("POINT_6", "A particle has d degrees of freedom: only a body also turns.",
+    Misconception("POINT_6", "A particle has no rotational degrees of freedom.",
                   _more(lambda f: f.particles * (f.body_freedom - f.d))),
-    Misconception("ALL_COUNTED", "Not all of these equations are independent: one that follows from the others takes "
-                  "nothing away.", _all_equations, alone=True),
-    Misconception("FIXED_FORGOT", "An equation that holds one coordinate at a number is a constraint, and counts.",
+    Misconception("ALL_COUNTED", (
+        "Not all of these equations are independent; a dependent equation does not reduce the number of "
+        "degrees of freedom."
+    ), _all_equations, alone=True),
+    Misconception("FIXED_FORGOT", "An equation that fixes one coordinate is a constraint too.",
                   _more(lambda f: f.surfaces.fixed), alone=True),
-    Misconception("NOT_SUBTRACTED", "This leaves every coordinate free: the constraints were not subtracted.",
+    Misconception("NOT_SUBTRACTED", "This is the number of coordinates: the constraints were not subtracted.",
                   _no_constraint, True, alone=True),
 )  # fmt: skip
 
@@ -184,27 +204,27 @@ def explain_label(part: str, entry: ConstraintEntry, key: Key) -> tuple[str, str
     del key
     if part == "scleronomic":
         if not entry.scleronomic and entry.integral is not None:
-            sentence = "It integrates to {integral}, and time occurs in that relation: it is rheonomic."
+            sentence = "It integrates to {integral}, which contains time explicitly: it is rheonomic."
             return "RHEO_MISSED", say(sentence, integral=entry.integral)
         if not entry.scleronomic:
-            return "RHEO_MISSED", "Time enters this constraint: look for t, or a motion that is prescribed."
+            return "RHEO_MISSED", "Time occurs explicitly in this constraint: look for t or for a prescribed motion."
         if entry.catastatic is False:
             return (
                 "RHEO_NH",
-                "Time does not occur in it, and it does not integrate: it is scleronomic. A term without velocities "
-                "makes it acatastatic.",
+                "It does not contain time explicitly and is not integrable, so it is scleronomic. A term "
+                "without velocities makes it acatastatic.",
             )
         if entry.form in ("pfaffian", "nonlinear"):
-            return "RHEO_NH", "Velocities are not time: a constraint on velocities is rheonomic only where t enters."
-        return "RHEO_MOVES", "That what it is attached to moves does not matter: time itself does not enter."
+            return "RHEO_NH", "A constraint on velocities is rheonomic only if t occurs explicitly."
+        return "RHEO_MOVES", "It does not matter that the support moves: time does not occur explicitly."
     if part == "bilateral":
         if entry.bilateral:
-            return "EQ_AS_INEQ", "It is an equation, which holds from both sides."
-        return "INEQ_AS_EQ", "It is an inequality, which stops the motion from one side only."
+            return "EQ_AS_INEQ", "It is an equation, so it is bilateral."
+        return "INEQ_AS_EQ", "It is an inequality, so it is unilateral."
     if not entry.bilateral:
-        return "INEQ_AS_EQ", "It is an inequality: no relation between the coordinates holds because of it."
+        return "INEQ_AS_EQ", "It is an inequality, so it is not holonomic."
     if entry.holonomic and entry.form != "finite":
-        return "ROLL_NH", "It holds velocities, but does it integrate to a relation between coordinates?"
+        return "ROLL_NH", "It contains velocities, but it is integrable, so it is holonomic."
     if entry.holonomic:
-        return "HOLONOMIC_MISSED", "It is a relation between coordinates (and time) alone."
-    return "NH_MISSED", "It ties velocities, and no relation between coordinates follows from it."
+        return "HOLONOMIC_MISSED", "It relates coordinates (and possibly time) only, so it is holonomic."
+    return "NH_MISSED", "It constrains velocities and is not integrable."

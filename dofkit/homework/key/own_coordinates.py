@@ -75,7 +75,7 @@ def extended(key: Key, own: Sequence[str], relations: Sequence[Comparison]) -> K
     """The key with coordinates that an answer defines. Raises DoubtError where they may leave configurations out."""
     left = restrictions(relations, own, key.scene)
     if left is None or not all(implied(key, f"{to_text(e)} = 0") for e in left):
-        raise DoubtError("its own coordinates may leave configurations out.", 1, None)
+        raise DoubtError("the coordinates defined in the answer may not cover all configurations.", 1, None)
     return key.with_own(tuple(own), tuple(as_text(c) for c in relations))
 
 

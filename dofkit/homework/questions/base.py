@@ -27,7 +27,7 @@ def _points(value: object) -> object:
         raise fault_error(f"points are not negative, as {value} is", "write 0 or more")
     if found > MOST_POINTS or 0 < found < FEWEST_POINTS:
         raise fault_error(
-            f"no question is worth {value} points", f"write 0, or {float(FEWEST_POINTS)} to {MOST_POINTS}"
+            f"a question cannot be worth {value} points", f"write 0, or {float(FEWEST_POINTS)} to {MOST_POINTS}"
         )
     return found
 

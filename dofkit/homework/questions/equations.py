@@ -29,10 +29,10 @@ def _names(value: object) -> object:
 class EquationQuestion(QuestionBase):
     """The same constraint(s), in the presence of the scene's others."""
 
-    wanted: ClassVar[str] = "Which equation or equations say what the constraint {about} demands?"
+    wanted: ClassVar[str] = "Which equation or equations express the constraint {about}?"
     how: ClassVar[str] = (
-        "An equation is typed with * or a space for a product, ^ for a power, sqrt(...), sin(...); xdot or dx for a "
-        "velocity or a differential. Several equations stand one to a line, or with semicolons between them."
+        "An equation: write * or a space for a product, ^ for a power, sqrt(...), sin(...), xdot for a "
+        "velocity, dx for a differential. Write one equation per line, or separate equations with semicolons."
     )
     examples: ClassVar[tuple[str, ...]] = (
         "(u - a)^2 + w^2 = b^2",
@@ -55,7 +55,7 @@ class EquationQuestion(QuestionBase):
         return [way.with_own(key.also) for way in readings_of(answer, vocabulary)]
 
     def solution(self, key: Key) -> Sentence:
-        return say("For example: {text}.", text=equations_of(key, self.constraint))
+        return say("A correct answer is {text}.", text=equations_of(key, self.constraint))
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
@@ -66,18 +66,21 @@ class EquationQuestion(QuestionBase):
 class IntegralQuestion(QuestionBase):
     """The finite relation; its constant is named by the student, or left out; ``none`` where there is none."""
 
-    wanted: ClassVar[str] = "To which finite relation does the constraint {about} integrate, if to any?"
-    how: ClassVar[str] = "A finite relation is typed with a constant of your own; where there is none, write: none."
+    wanted: ClassVar[str] = "Is {about} integrable? If so, give its integral."
+    how: ClassVar[str] = (
+        "An integral: write a relation between the coordinates with a constant, such as C; if there is none, "
+        "write: none."
+    )
     examples: ClassVar[tuple[str, ...]] = ("u^2 - w^3 = C", "u w^2 = C")
-    ask: Literal["integral"] = Field(description="the finite relation that a differential constraint integrates to")
+    ask: Literal["integral"] = Field(description="the integral of a differential constraint")
     constraint: str = Field(description="the name of the constraint")
 
     def faults(self, key: Key) -> Iterator[Fault]:
         yield from _unknown((self.constraint,), key)
         entry = key.constraints.get(self.constraint)
         if entry is not None and entry.form not in ("pfaffian", "nonlinear"):
-            hint = "ask for the integral of a differential constraint"
-            yield Fault(f"'{self.constraint}' is not differential", ("constraint",), hint=hint)
+            hint = "`integral` asks about a differential constraint"
+            yield Fault(f"'{self.constraint}' is not a differential constraint", ("constraint",), hint=hint)
 
     def read(self, answer: Given, key: Key) -> str:
         if is_none(answer, _says_relation):
@@ -90,21 +93,25 @@ class IntegralQuestion(QuestionBase):
     def solution(self, key: Key) -> Sentence:
         entry = key.constraints[self.constraint]
         if entry.holonomic is False:
-            return say("There is none: {reason}", reason=entry.reason)
-        return "" if entry.integral is None else say("For example: {text}.", text=entry.integral)
+            return say("It is not integrable: {reason}", reason=entry.reason)
+        return "" if entry.integral is None else say("A correct answer is {text}.", text=entry.integral)
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
         entry = key.constraints[self.constraint]
         if is_none(answer, _says_relation):
             if entry.holonomic is None:
-                return needs_review("none", "dofkit does not know whether the constraint integrates.")
-            told = "Test once more whether the form is closed, by itself or times a factor."
+                return needs_review("none", "it is not known whether the constraint is integrable.")
+            told = "The constraint is integrable, on its own or together with the other constraints."
             return wrong("none", told, "INTEGRABLE") if entry.holonomic else right("none")
         ways = self._ways(answer, key)
         if entry.holonomic is False:
             shown = ways[0].shown
-            return wrong(shown, "Its differential is not the constraint.", "NOT_INTEGRABLE")
+            return wrong(
+                shown,
+                ("This is not an integral of the constraint: its differential is a different condition."),
+                "NOT_INTEGRABLE",
+            )
         return agreed([integral_judgement(way, key, self.constraint) for way in ways])
 
 

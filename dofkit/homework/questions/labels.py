@@ -26,9 +26,10 @@ Part = Literal["holonomic", "scleronomic", "bilateral"]
 class LabelQuestion(QuestionBase):
     """Words in any order; each part that is asked for counts the same."""
 
-    wanted: ClassVar[str] = "Which of these labels does the constraint {about} have: {parts}?"
+    wanted: ClassVar[str] = "Classify the constraint {about}: {parts}?"
     how: ClassVar[str] = (
-        "Labels are words: holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral; in any order."
+        "Classification: write holonomic or non-holonomic, scleronomic or rheonomic, bilateral or unilateral,"
+        " in any order."
     )
     examples: ClassVar[tuple[str, ...]] = (
         "non-holonomic, rheonomic",
@@ -36,10 +37,10 @@ class LabelQuestion(QuestionBase):
         "non-holonomic, scleronomic",
         "holonomic, scleronomic",
     )
-    ask: Literal["label"] = Field(description="the labels of a constraint")
+    ask: Literal["label"] = Field(description="the classification of a constraint")
     constraint: str = Field(description="the name of the constraint")
     parts: Annotated[tuple[Part, ...], Listed, Field(min_length=1)] = Field(
-        ("holonomic", "scleronomic"), description="which labels are asked for"
+        ("holonomic", "scleronomic"), description="which parts of the classification are asked for"
     )
 
     def faults(self, key: Key) -> Iterator[Fault]:
@@ -48,7 +49,9 @@ class LabelQuestion(QuestionBase):
             yield Fault(f"the scene has no constraint '{self.constraint}'", ("constraint",), hint=hint)
 
     def asked(self, about: str) -> Said:
-        return say(self.wanted, about=about, parts=", ".join(f"{TERMS[p].holds}, {TERMS[p].fails}" for p in self.parts))
+        return say(
+            self.wanted, about=about, parts=", ".join(f"{TERMS[p].holds} / {TERMS[p].fails}" for p in self.parts)
+        )
 
     def read(self, answer: Given, key: Key) -> str:
         del key
@@ -61,17 +64,17 @@ class LabelQuestion(QuestionBase):
         truth = truths(key.constraints[self.constraint])
         known = [word_of(p, holds) for p in self.parts if (holds := truth[p]) is not None]
         reason = key.constraints[self.constraint].reason
-        return say("It is {labels}: {reason}", labels=", ".join(known), reason=reason) if known else ""
+        return say("The constraint is {labels}: {reason}", labels=", ".join(known), reason=reason) if known else ""
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
         given, entry = read_labels(answer), key.constraints[self.constraint]
         truth, shown = truths(entry), label_text(given)
         if any(truth[p] is None for p in self.parts):
-            return needs_review(shown, "dofkit does not know the label for certain.")
+            return needs_review(shown, "the classification of this constraint is not known for certain.")
         hinted = [p for p in self.parts if p not in given and mentions(p, answer)]
         if hinted:
-            return needs_review(shown, "it says something of a part without its label.")
+            return needs_review(shown, "a property is described but not named.")
         twice = [p for p in self.parts if len(given.get(p, ())) > 1]
         if twice:
             return self._contradictory(given, twice, key)
@@ -80,7 +83,7 @@ class LabelQuestion(QuestionBase):
     def _contradictory(self, given: Labels, twice: list[Part], key: Key) -> Judgement:
         """Parts that are said to hold and not to: a person has to look; what each way to read it would earn."""
         labels = ", ".join(word_of(p, holds) for p in twice for holds in (True, False))
-        found = needs_review(label_text(given), say("it contradicts itself: {labels}.", labels=labels))
+        found = needs_review(label_text(given), say("the answer contradicts itself: {labels}.", labels=labels))
         ways = []
         for chosen in product((True, False), repeat=len(twice)):
             one = self._judged({**given, **{p: frozenset({c}) for p, c in zip(twice, chosen, strict=True)}}, key)
@@ -96,7 +99,7 @@ class LabelQuestion(QuestionBase):
         explained = [explain_label(p, entry, key) for p in self.parts if p not in good and p not in missing]
         told: list[Sentence] = [why for _, why in explained]
         told += [
-            say("You did not say whether it is {holds} or {fails}.", holds=TERMS[p].holds, fails=TERMS[p].fails)
+            say("State also whether it is {holds} or {fails}.", holds=TERMS[p].holds, fails=TERMS[p].fails)
             for p in missing
         ]
         share = Fraction(len(good), len(self.parts))

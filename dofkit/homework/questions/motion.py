@@ -45,12 +45,14 @@ class _MotionQuestion(QuestionBase):
         for guess in posed.guesses:
             found = self._judged(guess)
             if found.status == "right":
-                return found.saying("Your names are not the problem's: they were read as its own.")
+                return found.saying("The names differ from those of the problem; they were matched to them.")
         if posed.error is not None:
             raise posed.error
         motion = posed.key.motion
         if isinstance(motion, DofkitError):
-            return needs_review(posed.shown, say("dofkit has no equations of motion here ({reason}).", reason=motion))
+            return needs_review(
+                posed.shown, say(("the equations of motion could not be derived ({reason})."), reason=motion)
+            )
         return self._judgement(posed, motion)
 
     def _judgement(self, posed: PosedMotion, known: RightMotion) -> Judgement:
@@ -78,8 +80,7 @@ class Lagrangian(_Value):
 
     wanted: ClassVar[str] = "What is the Lagrangian?"
     how: ClassVar[str] = (
-        "A Lagrangian is typed with xdot for a velocity, ^ for a power and * or a space for a product; L = may stand "
-        "before it."
+        "A Lagrangian: write xdot for a velocity, ^ for a power, and * or a space for a product; L = is optional."
     )
     examples: ClassVar[tuple[str, ...]] = ("L = 1/2 M (udot^2 + wdot^2) - M g w", "L = 1/2 I chidot^2 + kappa u^4")
     ask: Literal["lagrangian"] = Field(description="the Lagrangian")
@@ -89,17 +90,15 @@ class Lagrangian(_Value):
         if same:
             return right(shown)
         if same is None:
-            return needs_review(shown, "whether it gives the same motion was not decided.")
+            return needs_review(shown, "it could not be decided whether this Lagrangian gives the same motion.")
         if same_lagrangian(given, known.total, known):
             return wrong(shown, "This is the energy T + V; the Lagrangian is T - V.", "TOTAL_ENERGY")
         if same_lagrangian(given, -known.lagrangian, known):
             return wrong(shown, "This is V - T; the Lagrangian is T - V.", "SIGN")
-        return wrong(
-            shown, "It is another Lagrangian: Euler's equation of the difference is not 0.", "WRONG_LAGRANGIAN"
-        )
+        return wrong(shown, "This Lagrangian does not give the equations of motion of the system.", "WRONG_LAGRANGIAN")
 
     def _solution(self, known: RightMotion) -> Sentence:
-        return say("For example: {text}.", text=f"L = {to_text(known.lagrangian)}")
+        return say("A correct answer is {text}.", text=f"L = {to_text(known.lagrangian)}")
 
 
 class _OfCoordinate(_Value):
@@ -122,9 +121,11 @@ class _OfCoordinate(_Value):
         if same:
             return right(shown)
         if same is None:
-            return needs_review(shown, "whether it is the same was not decided.")
+            return needs_review(shown, "it could not be decided whether this is equal to the correct expression.")
         if reduced and known.zero(given - self._unreduced(known)) is not False:
-            return needs_review(shown, "it may be meant in the coordinates before the constraints are used.")
+            return needs_review(
+                shown, ("it may be written in the original coordinates, before the constraints are substituted.")
+            )
         if known.zero(given + wanted):
             return wrong(shown, "The sign is wrong.", "SIGN")
         return wrong(shown, self._feedback(), self._code())
@@ -137,14 +138,14 @@ class _OfCoordinate(_Value):
 
     def _solution(self, known: RightMotion) -> Sentence:
         wanted = self._right(known)
-        return say("For example: {text}.", text=to_text(self._unreduced(known) if wanted is None else wanted))
+        return say("A correct answer is {text}.", text=to_text(self._unreduced(known) if wanted is None else wanted))
 
 
 class Momentum(_OfCoordinate):
     """p = dL/d(qdot)."""
 
-    wanted: ClassVar[str] = "What is the generalized momentum of {about}?"
-    how: ClassVar[str] = "A generalized momentum is typed as a Lagrangian is; p = may stand before it."
+    wanted: ClassVar[str] = "What is the generalized momentum conjugate to {about}?"
+    how: ClassVar[str] = "A generalized momentum: write it like a Lagrangian; p = is optional."
     examples: ClassVar[tuple[str, ...]] = ("p = M udot + a chidot", "p = I chidot^3")
     ask: Literal["momentum"] = Field(description="a generalized momentum")
 
@@ -155,7 +156,10 @@ class Momentum(_OfCoordinate):
         return known.unreduced[self.coordinate][0]
 
     def _feedback(self) -> Sentence:
-        return say("The generalized momentum is the derivative of L by {velocity}.", velocity=f"{self.coordinate}dot")
+        return say(
+            ("The generalized momentum is the derivative of L with respect to {velocity}."),
+            velocity=f"{self.coordinate}dot",
+        )
 
     def _code(self) -> str:
         return "WRONG_MOMENTUM"
@@ -164,8 +168,8 @@ class Momentum(_OfCoordinate):
 class GeneralizedForce(_OfCoordinate):
     """dL/dq and the non-conservative forces."""
 
-    wanted: ClassVar[str] = "What is the generalized force of {about}?"
-    how: ClassVar[str] = "A generalized force is typed as a Lagrangian is; Q = may stand before it."
+    wanted: ClassVar[str] = "What is the generalized force for {about}?"
+    how: ClassVar[str] = "A generalized force: write it like a Lagrangian; Q = is optional."
     examples: ClassVar[tuple[str, ...]] = ("Q = -kappa u^3", "Q = -M g sin(chi)^2")
     ask: Literal["force"] = Field(description="a generalized force")
 
@@ -177,7 +181,8 @@ class GeneralizedForce(_OfCoordinate):
 
     def _feedback(self) -> Sentence:
         return say(
-            "It is the derivative of L by {coordinate}, with the forces that have no potential.",
+            "The quantity asked for is the derivative of L with respect to {coordinate}, plus the forces that"
+            " have no potential.",
             coordinate=self.coordinate,
         )
 
@@ -189,13 +194,13 @@ class MotionQuestion(_MotionQuestion):
     """The equations of motion, up to factors and linear combinations."""
 
     wanted: ClassVar[str] = "What are the equations of motion?"
-    how: ClassVar[str] = "Equations of motion are typed with xddot for an acceleration; one to a line."
+    how: ClassVar[str] = "Equations of motion: write xddot for an acceleration, one equation per line."
     examples: ClassVar[tuple[str, ...]] = ("M uddot + kappa u^3 = 0", "chiddot + nu^2 sin(chi)^2 = 0")
-    ask: Literal["motion"] = Field(description="an equation of motion, or all")
+    ask: Literal["motion"] = Field(description="an equation of motion, or all of them")
     coordinate: str | None = Field(None, description="the coordinate whose equation is asked for")
 
     def asked(self, about: str) -> Said:
-        one = "What is the equation of motion of {about}?"
+        one = "What is the equation of motion for {about}?"
         return say(one, about=about) if self.coordinate is not None else super().asked(about)
 
     def _judgement(self, posed: PosedMotion, known: RightMotion) -> Judgement:
@@ -209,9 +214,9 @@ class MotionQuestion(_MotionQuestion):
             known = key.whole_motion
             found = AnsweredMotion(known, equations, own).follow()
         if found is None:
-            return needs_review(shown, "whether these are the equations of motion was not decided.")
+            return needs_review(shown, "it could not be decided whether these are the equations of motion.")
         if found.contradictory:
-            return needs_review(shown, "it contradicts itself.")
+            return needs_review(shown, "the answer contradicts itself.")
         if self.coordinate is not None and self.coordinate in known.names:
             return self._one(answered, found.told, known, shown)
         return _all(found, known, shown)
@@ -219,16 +224,18 @@ class MotionQuestion(_MotionQuestion):
     def _one(self, answered: AnsweredMotion, told: Sequence[Found], known: RightMotion, shown: str) -> Judgement:
         """One coordinate's equation: it holds that coordinate's acceleration, and is not the equation of another."""
         if answered.own or known.multipliers:
-            return needs_review(shown, "one equation with multipliers may be written in many ways.")
+            return needs_review(shown, "a single equation with multipliers can be written in many ways.")
         if Found.NOT in told:
-            return wrong(shown, "The accelerations of the system do not satisfy it.", Found.NOT.value)
+            return wrong(shown, "This equation is not satisfied by the motion.", Found.NOT.value)
         rows = [r for r, t in zip(answered.rows or (), told, strict=True) if t is Found.FOLLOWS]
         place = known.names.index(self.coordinate or "")
         if not any(is_zero(row[place], known.positive) is False for row in rows):
-            told_why = say("It does not say what the acceleration of {coordinate} is.", coordinate=self.coordinate)
+            told_why = say(
+                ("This equation does not determine the acceleration of {coordinate}."), coordinate=self.coordinate
+            )
             return wrong(shown, told_why, Found.TRIVIAL.value)
         if len(rows) == 1 and len(known.names) > 1 and self._of_another(rows[0], answered, known, place):
-            return wrong(shown, "This is the equation of another coordinate.", "OTHER_COORDINATE")
+            return wrong(shown, "This is the equation of motion of another coordinate.", "OTHER_COORDINATE")
         return right(shown)
 
     def _of_another(self, row: Sequence[Expr], answered: AnsweredMotion, known: RightMotion, place: int) -> bool:
@@ -240,7 +247,7 @@ class MotionQuestion(_MotionQuestion):
         given = known.equations
         own = None if self.coordinate is None else given.get(self.coordinate)
         chosen = list(given.values()) if own is None else [own]
-        return say("For example: {text}.", text="; ".join(f"{to_text(e)} = 0" for e in chosen))
+        return say("A correct answer is {text}.", text="; ".join(f"{to_text(e)} = 0" for e in chosen))
 
 
 def _all(found: Followed, known: RightMotion, shown: str) -> Judgement:
@@ -253,12 +260,14 @@ def _all(found: Followed, known: RightMotion, shown: str) -> Judgement:
     if good:
         share = Fraction(max(rank, 0), wanted)
         told_why = say(
-            "These fix {number} of {all} accelerations: something is missing.", number=max(rank, 0), all=wanted
+            "These equations determine only {number} of the {all} accelerations: an equation is missing.",
+            number=max(rank, 0),
+            all=wanted,
         )
         return partly(share, shown, told_why, "WEAKER")
     share = Fraction(max(0, min(rank, wanted - 1)), wanted) if wanted > 1 else (HALF if rank else Fraction(0))
     number = sum(t is Found.NOT for t in told)
-    told_why = say("{number} of {all} equations do not hold for the motion.", number=number, all=len(told))
+    told_why = say("{number} of the {all} equations are not satisfied by the motion.", number=number, all=len(told))
     return partly(share, shown, told_why, Found.NOT.value)
 
 

@@ -18,8 +18,8 @@ from dofkit.homework.sentences.said import say
 class Coordinates(QuestionBase):
     """Names of an independent and complete set of generalized coordinates."""
 
-    wanted: ClassVar[str] = "Which coordinates are independent and fix the configuration?"
-    how: ClassVar[str] = "Coordinates are named with commas; one of your own is defined beside it."
+    wanted: ClassVar[str] = "Give a complete set of independent generalized coordinates."
+    how: ClassVar[str] = "Coordinates: write their names, separated by commas; define any coordinate of your own."
     examples: ClassVar[tuple[str, ...]] = ("u, w", "chi, where u = a cos(chi), w = a sin(chi)")
     ask: Literal["coordinates"] = Field(description="an independent and complete set of generalized coordinates")
 
@@ -29,7 +29,7 @@ class Coordinates(QuestionBase):
 
     def solution(self, key: Key) -> Sentence:
         names = key.report.generalized_coordinates
-        return "" if names is None else say("For example: {text}.", text=", ".join(names) or "none")
+        return "" if names is None else say("A correct answer is {text}.", text=", ".join(names) or "none")
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
@@ -40,24 +40,28 @@ class Coordinates(QuestionBase):
         names, key = chosen_coordinates(answer, key)
         shown = ", ".join(names) or "none"
         if dof is None:
-            return needs_review(shown, "dofkit does not know the degrees of freedom for certain.")
+            return needs_review(shown, "the number of degrees of freedom is not known for certain.")
         if len(names) < dof:
-            return wrong(shown, "These do not fix the configuration: the set is not complete.", "INCOMPLETE")
+            return wrong(
+                shown, ("These coordinates do not determine the configuration: the set is incomplete."), "INCOMPLETE"
+            )
         independent = len(names) == dof and key.known(determine, names)
         if independent is None:
-            return needs_review(shown, "whether these coordinates are independent was not decided.")
+            return needs_review(shown, "it could not be decided whether these coordinates are independent.")
         if not independent:
-            return wrong(shown, "The constraints tie these coordinates to each other: they are dependent.", "DEPENDENT")
+            return wrong(shown, "These coordinates are not independent: the constraints relate them.", "DEPENDENT")
         return right(shown)
 
 
 class Redundant(QuestionBase):
     """Constraints that can all be dropped together without changing anything, as many as possible."""
 
-    wanted: ClassVar[str] = "Which constraints can be dropped together without a change, as many as possible?"
-    how: ClassVar[str] = "Constraints are named with commas; where there are none, write: none."
+    wanted: ClassVar[str] = (
+        "Which constraints are redundant? Give a largest set that may be removed without changing the motion."
+    )
+    how: ClassVar[str] = "Constraints: write their names, separated by commas; if there are none, write: none."
     examples: ClassVar[tuple[str, ...]] = ("bar_17, bar_23",)
-    ask: Literal["redundant"] = Field(description="constraints that can be dropped together, as many as possible")
+    ask: Literal["redundant"] = Field(description="a largest set of redundant constraints")
 
     def read(self, answer: Given, key: Key) -> str:
         return " or ".join(", ".join(self._names(one, key)) or "none" for one in alternatives(answer))
@@ -69,7 +73,7 @@ class Redundant(QuestionBase):
 
     def solution(self, key: Key) -> Sentence:
         redundant = key.report.redundant
-        return "" if redundant is None else say("For example: {text}.", text=", ".join(redundant) or "none")
+        return "" if redundant is None else say("A correct answer is {text}.", text=", ".join(redundant) or "none")
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier
@@ -79,16 +83,18 @@ class Redundant(QuestionBase):
         names, report = self._names(answer, key), key.report
         shown = ", ".join(names) or "none"
         if report.dof is None or report.redundant is None:
-            return needs_review(shown, "dofkit does not know for certain what is redundant.")
+            return needs_review(shown, "it is not known for certain which constraints are redundant.")
         if set(names) == set(report.redundant):
             return right(shown)
         if not names:
-            return wrong(shown, "There are constraints that follow from the others.", "REDUNDANT_MISSED")
+            return wrong(shown, "Some constraints are redundant: they are implied by the others.", "REDUNDANT_MISSED")
         dropped = key.known(can_be_dropped, names)
         if dropped is None:
-            return needs_review(shown, "whether these can be dropped together was not decided.")
+            return needs_review(shown, "it could not be decided whether these constraints may be removed together.")
         if not dropped:
-            return wrong(shown, "Dropping these would let the system move more freely.", "NOT_REDUNDANT")
+            return wrong(shown, "Without these constraints the system would have more freedom.", "NOT_REDUNDANT")
         if len(names) < len(report.redundant):
-            return wrong(shown, "These can be dropped, but more can be.", "REDUNDANT_MISSED")
+            return wrong(
+                shown, ("These constraints may be removed, but more can be removed with them."), "REDUNDANT_MISSED"
+            )
         return right(shown)

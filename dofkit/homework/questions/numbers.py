@@ -18,18 +18,18 @@ from dofkit.scene.fields import as_written
 
 #: A number that follows from an earlier wrong one; the number of the other convention.
 CARRIED, OTHER_CONVENTION = "CARRIED", "OTHER_CONVENTION"
-_CONFIGURATION = "Count the coordinates, less the finite equations of which none follows from the others."
+_CONFIGURATION = "Count the coordinates and subtract the number of independent holonomic equations."
 _VELOCITIES = (
-    "Count the coordinates, less all equations of which none follows from the others, those on velocities too."
+    "Count the coordinates and subtract the number of independent constraint equations, holonomic and non-holonomic."
 )
 _CONVENTIONS = {
     "configuration": (
-        "This is the number of independent velocities. Here the degrees of freedom are the dimension of the "
-        "configuration space: non-holonomic constraints do not reduce it."
+        "This is the number of independent generalized velocities. Here the number of degrees of freedom is "
+        "the dimension of the configuration space, which non-holonomic constraints do not reduce."
     ),
     "velocity": (
-        "This is the dimension of the configuration space. Here the degrees of freedom are the number of "
-        "independent velocities: non-holonomic constraints reduce it too."
+        "This is the dimension of the configuration space. Here the number of degrees of freedom is the "
+        "number of independent generalized velocities, which non-holonomic constraints reduce as well."
     ),
 }
 
@@ -72,18 +72,18 @@ class NumberQuestion(QuestionBase):
 
     def solution(self, key: Key) -> Sentence:
         found = self.truth(key)
-        return "" if found is None else say("The answer is {number}.", number=found)
+        return "" if found is None else say("The correct answer is {number}.", number=found)
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         given, truth = number(answer, self.letters), self.truth(key)
         shown = as_written(given)
         if truth is None:
-            return needs_review(shown, "dofkit does not know this number for certain.")
+            return needs_review(shown, "the correct number is not known for certain.")
         if given == truth:
             return right(shown)
         codes, told = explain(given, self.kind(), key)
         if given in set(self.consequences(key, earlier)):
-            why = "It follows from your earlier answer, which is wrong: half of the points."
+            why = "This is consistent with your earlier answer, which is wrong: half of the points."
             return partly(HALF, shown, why, CARRIED, *codes)
         if given == self.other(key):
             return wrong(shown, self.clash(key), OTHER_CONVENTION, *codes)
@@ -94,9 +94,9 @@ class Dof(NumberQuestion):
     """f: the dimension of the configuration space, or of the velocities where the assignment's convention says so."""
 
     wanted: ClassVar[str] = "How many degrees of freedom does the system have?"
-    how: ClassVar[str] = "The degrees of freedom are a whole number."
+    how: ClassVar[str] = "The number of degrees of freedom: write an integer."
     examples: ClassVar[tuple[str, ...]] = ("f = 12", "f = 15", "f = 18")
-    ask: Literal["dof"] = Field(description="the degrees of freedom")
+    ask: Literal["dof"] = Field(description="the number of degrees of freedom")
 
     def advice(self, key: Key) -> str:
         return _VELOCITIES if key.convention == "velocity" else _CONFIGURATION
@@ -115,10 +115,10 @@ class Dof(NumberQuestion):
 class VelocityDof(NumberQuestion):
     """The number of independent velocities."""
 
-    wanted: ClassVar[str] = "How many velocities are independent?"
-    how: ClassVar[str] = "The number of independent velocities is a whole number."
+    wanted: ClassVar[str] = "How many independent generalized velocities are there?"
+    how: ClassVar[str] = "The number of independent generalized velocities: write an integer."
     examples: ClassVar[tuple[str, ...]] = ("12", "15", "18")
-    ask: Literal["velocity_dof"] = Field(description="the number of independent velocities")
+    ask: Literal["velocity_dof"] = Field(description="the number of independent generalized velocities")
 
     def advice(self, key: Key) -> str:
         return _VELOCITIES
@@ -130,7 +130,10 @@ class VelocityDof(NumberQuestion):
         return key.report.dof
 
     def clash(self, key: Key) -> str:
-        return "This is the dimension of the configuration space; the number of independent velocities is asked for."
+        return (
+            "This is the dimension of the configuration space; the question asks for the number of "
+            "independent generalized velocities."
+        )
 
     def consequences(self, key: Key, earlier: Earlier) -> Iterator[Fraction]:
         dof, velocity_dof = key.report.dof, key.report.velocity_dof
@@ -139,18 +142,16 @@ class VelocityDof(NumberQuestion):
 
 
 class CountQuestion(NumberQuestion):
-    """k: the number of independent finite constraint equations, coordinates less the configuration's dimension."""
+    """k: the number of independent holonomic equations, coordinates less the configuration's dimension."""
 
     letters: ClassVar[frozenset[str]] = frozenset({"k", "r", "m", "nc", "constraints", "bindungen"})
-    wanted: ClassVar[str] = "How many of the finite constraint equations are independent?"
-    how: ClassVar[str] = "The number of constraint equations is a whole number."
+    wanted: ClassVar[str] = "How many independent holonomic constraint equations are there?"
+    how: ClassVar[str] = "The number of constraint equations: write an integer."
     examples: ClassVar[tuple[str, ...]] = ("k = 12", "k = 15", "k = 18")
-    ask: Literal["k"] = Field(description="the number of independent finite constraint equations")
+    ask: Literal["k"] = Field(description="the number of independent holonomic equations")
 
     def advice(self, key: Key) -> str:
-        return (
-            "Count the finite equations of which none follows from the others: those on velocities are not among them."
-        )
+        return "Count the independent holonomic equations; non-integrable equations in the velocities do not count."
 
     def truth(self, key: Key) -> int | None:
         return None if key.report.dof is None else len(key.coordinates) - key.report.dof

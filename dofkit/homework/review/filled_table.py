@@ -92,7 +92,7 @@ class _TableReader:
                 if columns and any(cell.strip() for cell in cells):
                     self._row(line, columns, cells)
         except csv.Error as error:
-            self._fault(f"the table cannot be read: {error}", 1 + skipped, 1, "save it as CSV once more")
+            self._fault(f"the table cannot be read: {error}", 1 + skipped, 1, "save it as CSV again")
         if not self.faults and self.rows and not any(self._known(identity) for identity in self.rows):
             hint = "name the review.csv that was written with this assignment's results"
             self._fault("no row of it is about a question of this assignment", 1, 1, hint)
@@ -124,7 +124,7 @@ class _TableReader:
         cells = {name: _bare(given[i]) if i < len(given) else "" for name, i in columns.items()}
         identity, before = cells["id"], len(self.faults)
         if mark_of(identity) is None:
-            told = f"'{identity[:40]}' is no id of a review" if identity else "the row has no id"
+            told = f"'{identity[:40]}' is not an id of a review" if identity else "the row has no id"
             self._fault(told, line, columns["id"] + 1, "copy it from the review.csv that dofkit wrote")
         decision = self._decision(line, columns, cells)
         if len(self.faults) > before:
@@ -134,7 +134,7 @@ class _TableReader:
             self.rows.setdefault(identity, row)
             self.places.setdefault(identity, line)
         elif first.decision is not None and decision is not None and first.decision != decision:
-            told = f"this answer is decided otherwise in line {self.places[identity]}"
+            told = f"this answer is decided differently in line {self.places[identity]}"
             self._fault(told, line, columns["points"] + 1, "keep one of the two rows")
         elif first.decision is None:
             self.rows[identity], self.places[identity] = row, line
@@ -150,7 +150,7 @@ class _TableReader:
         points = _number(text)
         allowed = "write a number of points" if most is None else f"write 0 to {_shown(most)}, or nothing"
         if points is None:
-            self._fault(f"'{text[:40]}' is no number of points", line, columns["points"] + 1, allowed)
+            self._fault(f"'{text[:40]}' is not a number of points", line, columns["points"] + 1, allowed)
         elif most is not None and not 0 <= points <= most:
             self._fault(f"{text} points are out of range", line, columns["points"] + 1, allowed)
         else:

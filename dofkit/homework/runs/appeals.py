@@ -110,7 +110,7 @@ def _told_of(
 ) -> dict[str, Any]:
     """The certificates of one answer, written; or why there are none."""
     found: list[dict[str, Any]] = []
-    why = "it can be read in more than one way" if key is not None else "its own scene could not be made again"
+    why = "it can be read in more than one way" if key is not None else "its variant could not be reproduced"
     if key is not None and " or " not in answer.read_as and isinstance(question, EquationQuestion):
         texts = [text.strip() for text in answer.read_as.split(";")]
         right = answer.status == "right"

@@ -24,10 +24,10 @@ def convert(assignment: str, results: Path, options: GradingOptions) -> int:
     form, path = options.format, results / RESULTS if results.is_dir() else results
     if options.out is None or form.name == NATIVE:
         others = ", ".join(name for name in FORMATS if name != NATIVE)
-        raise FormatError(f"--format is one of {others}")
+        raise FormatError(f"--format must be one of {others}")
     read = [Path(given).resolve() for given in (assignment, path, options.roster or "")]
     if any(target.resolve() in read for target in options.written):
-        raise FormatError(f"--out would overwrite what is read: {options.out}")
+        raise FormatError(f"--out would overwrite an input file: {options.out}")
     prepared = load_assignment(assignment)
     roster = None if options.roster is None else load_roster(options.roster)
     most = float(sum(prepared.most_points().values()))
@@ -46,10 +46,10 @@ def _results(path: Path, most: float) -> Iterator[Result]:
                 result = Result.model_validate_json(line)
             except ValidationError:
                 hint = "name the results.jsonl that `dofkit grade ... --out FOLDER` wrote"
-                raise FormatError(f"{path}, line {number}: this is no result of dofkit ({hint})") from None
+                raise FormatError(f"{path}, line {number}: this is not a result of dofkit ({hint})") from None
             if abs(result.max_score - most) > 1e-9:
                 raise FormatError(
-                    f"{path}, line {number}: this is a result of another assignment, of {result.max_score:g} points, "
-                    f"not {most:g}: grade again"
+                    f"{path}, line {number}: this result has {result.max_score:g} points, the assignment "
+                    f"{most:g}: run `dofkit grade` again"
                 )
             yield result

@@ -16,10 +16,10 @@ from dofkit.homework.runs.batch import GradingTask, Orders, ResultLine, batch_re
 
 #: What a student reads of an answer that broke its worker, by how that ended.
 _ENDED = {
-    "overrun": "working on it took too long or too much memory.",
-    "memory": "working on it took too long or too much memory.",
-    "died": "working on it took too long or too much memory.",
-    "failed": "dofkit failed here.",
+    "overrun": "grading it took too long or too much memory.",
+    "memory": "grading it took too long or too much memory.",
+    "died": "grading it took too long or too much memory.",
+    "failed": "an internal error occurred.",
 }
 
 

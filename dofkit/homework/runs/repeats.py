@@ -21,7 +21,7 @@ def without_repeats(
         for line in lines:
             before = None if line.failed or line.doubted else seen.first(line.student, str(one.place))
             if before is not None:
-                why = f"{one.place}: '{line.student}' has handed in before, at {before}: only the first is graded"
+                why = f"{one.place}: '{line.student}' already submitted in {before}: only the first is graded"
                 line = orders.refused(line.student, why)
             told.append(line)
         yield one, told

@@ -73,9 +73,9 @@ class RunReview:
         write_page(queue, rows, prepared, self.paths.page, self.paths.table.name)
         waiting = len(queue.open_answers())
         if waiting:
-            different = "1 answer waits" if waiting == 1 else f"{waiting} different answers wait"
+            different = "1 answer awaits" if waiting == 1 else f"{waiting} different answers await"
             again = f"fill in points, then grade again with --reviewed {self.paths.table}"
-            print(f"{different} for a person in {self.paths.table}: {again}", file=sys.stderr)
+            print(f"{different} review in {self.paths.table}: {again}", file=sys.stderr)
 
     def write_page(self, results: Path, prepared: Prepared) -> None:
         """Write the page alone, of results whose table stands elsewhere. Raises OSError."""

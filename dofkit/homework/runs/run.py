@@ -57,9 +57,11 @@ class GradingOptions:
     def format(self) -> Format:
         """The format called so. Raises FormatError."""
         if self.form not in FORMATS:
-            raise FormatError(f"'{self.form}' is no format: there are {', '.join(FORMATS)}")
+            raise FormatError(f"'{self.form}' is not a format: the formats are {', '.join(FORMATS)}")
         if self.check_only and self.form != NATIVE:
-            raise FormatError("--check-only tells how answers are read, one JSON object a line, in no other format")
+            raise FormatError(
+                "--check-only writes how answers are read as one JSON object per line and takes no other --format"
+            )
         if FORMATS[self.form].needs_path and self.out is None:
             raise FormatError(f"the format {self.form} needs --out PATH")
         ending = "" if self.out is None or self.out.is_dir() else self.out.suffix.lower()[1:]
@@ -108,7 +110,7 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     form = options.format
     for path in options.written:
         if path.resolve() in [Path(given).resolve() for given in (assignment, *sources, options.roster or "")]:
-            raise FormatError(f"--out would overwrite {path}, which is read")
+            raise FormatError(f"--out would overwrite the input file {path}")
     prepared = load_assignment(assignment)
     roster = None if options.roster is None else load_roster(options.roster)
     review = RunReview.read(prepared, options.reviewed, options.review)
@@ -127,7 +129,9 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
         else:
             one.to_path(stream, options.out, options.native, review)
     if one.doubted:
-        print(f"a person has to say whose they are: {one.doubted} of the submissions have a 'doubt'", file=sys.stderr)
+        print(
+            f"{one.doubted} of the submissions have a 'doubt': a person has to decide whose they are", file=sys.stderr
+        )
     if options.certificates is not None:
         (appeals or Appeals(prepared)).write(options.certificates)
     return one.failed == 0

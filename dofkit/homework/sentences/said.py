@@ -64,8 +64,8 @@ class Said(NamedTuple):
     def told(self, language: Language = "en") -> str:
         """The sentence in a language; in English where it has none.
 
-        >>> say("The answer is {number}.", number=3).told("de")
-        'Die Antwort ist 3.'
+        >>> say("The correct answer is {number}.", number=3).told("de")
+        'Die richtige Antwort ist 3.'
         """
         known = {} if language == "en" else catalogue()[language]
         sentence = known.get(self.sentence, self.sentence)
@@ -77,8 +77,17 @@ class Said(NamedTuple):
 
 
 def _word(text: str, known: dict[str, str]) -> str:
-    """A value, its words translated where all of them are known."""
-    return ", ".join(known.get(word, word) for word in text.split(", "))
+    """Return a value with its words translated, if all of them are known."""
+    return "".join(known.get(word, word) for word in re.split("(, | / )", text))
+
+
+def in_language(language: Language, sentence: str, **values: object) -> str:
+    """Return a sentence of the catalogue in a language, its places filled.
+
+    >>> in_language("de", "{score} of {most}", score=1, most=2)
+    '1 von 2'
+    """
+    return say(sentence, **values).told(language)
 
 
 def say(sentence: str, **values: object) -> Said:

@@ -59,17 +59,17 @@ def fit(key: Key, base: Key) -> str | None:
     if report.consistent is False:
         return "inconsistent"
     if report.verdict != PROVED or report.dof is None:
-        return "not proved"
+        return "the number of degrees of freedom is not proved"
     if (report.dof == 0) != (base.report.dof == 0):
-        return "nothing moves"
+        return "it has no freedom"
     if report.dof == len(key.coordinates) and base.report.dof != len(base.coordinates):
-        return "nothing is held"
+        return "it has no effective constraint"
     if len(key.coordinates) != len(base.coordinates):
-        return "another size"
+        return "its size differs"
     if abs(len(report.constraints) - len(base.report.constraints)) > 1:
-        return "another size"
+        return "its size differs"
     if any(entry.equations == 0 for entry in report.constraints):
-        return "an empty constraint"
+        return "a constraint is empty"
     return None
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from math import isqrt
 from typing import Any, TypeVar
 
 from dofkit.exact.errors import NoValueError, TooLargeError, raising_no_value
@@ -19,6 +18,8 @@ T = TypeVar("T")
 
 #: Canonical forms asked for in one integration; past it the search ends without a result.
 STEPS = 400
+#: Seconds that SymPy is given in one integration.
+SECONDS = 2.0
 #: The largest expression taken up, in nodes, and the largest polynomial factored or divided, in terms.
 MAX_NODES = 500
 MAX_TERMS = 120
@@ -36,21 +37,13 @@ def size(e: Expr) -> int:
     return sum(1 for _ in ex.nodes(e))
 
 
-def replace(e: Expr, old: Expr, new: Expr) -> Expr:
-    """``e`` with every occurrence of the node ``old`` replaced."""
-    memo: dict[Expr, Expr] = {old: new}
-    for node in ex.nodes(e):
-        if node not in memo:
-            memo[node] = ex.rebuild(node, tuple(memo[child] for child in ex.children(node)))
-    return memo[e]
-
-
 class Algebra:
     """Canonical forms under one budget; ``positive`` symbols are their own absolute value."""
 
     def __init__(self, positive: frozenset[Expr], steps: int = STEPS) -> None:
         self.positive = positive
         self.steps = steps
+        self.seconds = SECONDS
         self._tidied: dict[Expr, Expr] = {}
         self._vanishing: dict[Expr, bool] = {}
 
@@ -160,23 +153,6 @@ def factored(canon: Canon, poly: Poly) -> Expr:
         return canon.to_expr(poly)
     constant, factors = poly.factor()
     return ex.mul(canon.to_expr(canon.one * constant), *(canon.to_expr(f) ** int(k) for f, k in factors))
-
-
-def square_root(work: Algebra, e: Expr) -> Expr | None:
-    """r with r^2 = e identically where ``e`` is a square in the canonical ring; the sign of r is of no account."""
-    root = ex.ONE
-    tidy = work.tidy(e)
-    for factor in tidy.args if tidy.op == "mul" else (tidy,):
-        if factor.op == "num":
-            above, below = factor.args[0].numerator, factor.args[0].denominator
-            if above < 0 or isqrt(above) ** 2 != above or isqrt(below) ** 2 != below:
-                return None
-            root = root * ex.num(isqrt(above)) / ex.num(isqrt(below))
-        elif factor.op == "pow" and factor.args[1].op == "num" and factor.args[1].args[0] % 2 == 0:
-            root = root * ex.power(factor.args[0], factor.args[1] / 2)
-        else:
-            return None
-    return root
 
 
 # -- linear systems over quotients of polynomials --------------------------------------------------

@@ -14,8 +14,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, Poly, Quotient, size, solve
-from dofkit.integrability.integrals.antiderivative import antiderivative
-from dofkit.integrability.integrals.potential import Form
+from dofkit.integrability.integrals.antiderivative import Form, antiderivative
 
 #: Past so many variables only the cheap factors are tried.
 MAX_VARIABLES = 5

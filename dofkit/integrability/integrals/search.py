@@ -18,9 +18,9 @@ from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, GivenUpError, size
+from dofkit.integrability.integrals.antiderivative import Form, potential
 from dofkit.integrability.integrals.factors import FAMILIES, MAX_VARIABLES
 from dofkit.integrability.integrals.normal_shape import Pair, arranged, cost, shapes, upright
-from dofkit.integrability.integrals.potential import Form, potential
 from dofkit.relations.normal.pieces import Pfaffian
 
 __all__ = ["Integral", "integrate"]

@@ -72,7 +72,7 @@ def _others(scenes: Iterator[SceneGiven], kept: KeptReports, crew: SceneCrew) ->
 
 def _counted(report: KeptReport) -> Printed:
     """What is taken over is counted, and not printed."""
-    return Printed("", "", report.outcome is None, report.outcome)
+    return Printed("", "", int(report.outcome is None), report.outcome)
 
 
 @contextmanager

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import log10
+from math import inf, log10
 
 from dofkit.base.surface import handed_on
+from dofkit.base.wording import gap_in_words
 from dofkit.interface.show.sheet import Remark
 from dofkit.report import FieldVerdict, Report
 
@@ -61,6 +62,8 @@ _FIELDS = {
 }
 
 
+#: Of which points an answer speaks that is not about all of them.
+_NEAR = {"component": ", near the witness", "reference": ", near the reference configuration"}
 #: Stands before each part of a model that its scene leaves out.
 LEFT_OUT = "; left out: "
 
@@ -91,14 +94,20 @@ def reservation(report: Report) -> str:
         digits = min(int(int(bound.removeprefix("2^-")) * log10(2)) for bound in bounds)
         return f"chance of error below 1e-{digits} (details: --how)"
     if report.verdict == "numeric" and bounds:
-        gap = f"{min(map(float, bounds)):.0e}".replace("e+0", "e").replace("e+", "e")
-        return f"rank is unambiguous: smallest kept / largest dropped singular value {gap} (details: --how)"
+        return f"{_gap(min(bounds, key=float), report.method)} (details: --how)"
     if report.verdict == "undecided":
         names = [_FIELDS.get(name, name.replace("_", " ")) for name, _ in weakest]
         names += [entry.name for entry in report.constraints if entry.verdict == "undecided"]
         listed = ", ".join(names[:_MOST_FIELDS]) + (", ..." if len(names) > _MOST_FIELDS else "")
         return f"{listed} (details: --how)" if listed else ""
     return ""
+
+
+def _gap(bound: str, method: str) -> str:
+    """Return the gap behind a numeric answer in words."""
+    if float(bound) == inf:
+        return "no value is taken as zero"
+    return gap_in_words(float(bound), "singular value" if "singular values" in method else "value")
 
 
 def way(report: Report) -> str:
@@ -121,7 +130,7 @@ def _arguments(report: Report) -> Iterator[Remark]:
     for key, names in together.items():
         row = table[key]
         theorem = f" [{row.theorem}]" if row.theorem else ""
-        because = "" if len(row.hypotheses) < _TERSE else f", because {row.hypotheses}"
+        because = "" if len(row.hypotheses) < _TERSE else f" (condition: {row.hypotheses})"
         told = f"{row.claims}{because}".replace("over GF(p)", "modulo a large prime")
         yield Remark(", ".join(names), f"'{key}': {told}{theorem}")
 
@@ -131,16 +140,16 @@ def not_proved(report: Report) -> list[Remark]:
     together: dict[str, list[str]] = {}
     for name, found in report.verdicts.items():
         if found.verdict != "proved":
-            together.setdefault(f"{found.verdict}{_because(found)}", []).append(_FIELDS.get(name, name))
+            together.setdefault(f"{found.verdict}{_because(found, report.method)}", []).append(_FIELDS.get(name, name))
     return [Remark(", ".join(names), said) for said, names in together.items()]
 
 
-def _because(found: FieldVerdict) -> str:
+def _because(found: FieldVerdict, method: str) -> str:
     """Return the argument in parentheses, with the chance of an error or the gap."""
     if found.verdict == "undecided":
         return ""
-    means = f"chance of error below {found.bound}" if found.verdict == "probable" else f"gap {found.bound}"
-    where = (
-        "" if found.about == "everywhere" else f", near the {'witness' if found.about == 'component' else found.about}"
+    means = (
+        f"chance of error below {found.bound}" if found.verdict == "probable" else _gap(found.bound or "inf", method)
     )
+    where = _NEAR.get(found.about, "")
     return f" ({found.argument}; {means}{where})"

@@ -6,6 +6,7 @@ import re
 import sysconfig
 import traceback
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -29,7 +30,10 @@ _UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u
 def complaint(file: str, faults: tuple[Fault, ...], document: Document | None, coloured: bool = False) -> str:
     """Every fault of ``file``, with the line that it is on where ``document`` knows it."""
     paint = _painted if coloured else _plain
-    blocks = [_block(file, fault, document, paint) for fault in faults[:MOST_SHOWN]]
+    blocks, seen = [], set[str | None]()
+    for fault in faults[:MOST_SHOWN]:
+        blocks.append(_block(file, fault if fault.see not in seen else replace(fault, see=None), document, paint))
+        seen.add(fault.see)
     more = len(faults) - MOST_SHOWN
     if more > 0:
         blocks.append(f"... and {more} more in {safe(file)}")
@@ -52,6 +56,8 @@ def _fault_lines(fault: Fault) -> Iterator[str]:
     yield safe(f"{fault.location}: {fault.message}" if fault.location else fault.message)
     if fault.hint:
         yield f"    hint: {safe(fault.hint)}"
+    if fault.see:
+        yield f"    see: dofkit explain {fault.see}"
 
 
 def _plain(text: str, style: Style) -> str:
@@ -70,6 +76,8 @@ def _block(file: str, fault: Fault, document: Document | None, paint: Callable[[
         lines += _marked_line(document.line(fault.line), fault.line, fault.column or 1, paint)
     if fault.hint:
         lines.append(f"    {paint('hint', 'hint')}: {safe(fault.hint)}")
+    if fault.see:
+        lines.append(f"    {paint('see', 'hint')}: dofkit explain {fault.see}")
     return "\n".join(lines)
 
 

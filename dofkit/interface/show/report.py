@@ -63,7 +63,7 @@ def _sections(report: Report, how: bool) -> Iterator[SheetSection]:
     yield _listed("Special cases", [_special(case) for case in report.special_cases])
     yield _listed("Redundancy", list(_redundancy(report)))
     yield _listed("Forces", [Remark(force.name, force.reason) for force in report.forces])
-    yield _listed("Warnings", [Remark("!", warning) for warning in report.warnings])
+    yield _listed("Warnings", [Remark("!", _sentence(warning)) for warning in report.warnings])
     if how:
         yield SheetSection("How", how_sure(report))
         yield SheetSection("Not proved", not_proved(report))
@@ -72,6 +72,10 @@ def _sections(report: Report, how: bool) -> Iterator[SheetSection]:
 def _listed(heading: str, remarks: Sequence[Remark]) -> SheetSection:
     """Return a section with the first remarks, and the number of the rest."""
     return SheetSection(heading, remarks[:MOST_ROWS], _more(len(remarks)))
+
+
+def _sentence(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:]}{'' if text.endswith(('.', ':', '?')) else '.'}"
 
 
 def _more(number: int) -> str:
@@ -94,7 +98,7 @@ def _facts(report: Report) -> Iterator[Fact]:
             yield Fact("why the count is off", report.count.errs, tone="care")
     yield from _numbers(report)
     yield from _other_counts(report)
-    yield Fact("system", system_labels(report, _by_inequalities(report)))
+    yield Fact("system", system_labels(report, _non_holonomic(report)))
     yield from _inequalities(report)
     if report.generalized_coordinates:
         yield Fact("generalized coordinates", f"{names_of(report.generalized_coordinates)}  (a local chart)")
@@ -106,7 +110,7 @@ def _facts(report: Report) -> Iterator[Fact]:
         yield Fact("growth vector", f"{dimensions}  of (q, t)" if timed else dimensions)
     part = report.integrable_part
     if part is not None and part.rank and part.basis:
-        yield Fact("integrable part", f"{', '.join(part.basis)}  (besides the geometric equations)")
+        yield Fact("integrable part", f"{', '.join(part.basis)}  (in addition to the geometric equations)")
     if model_lacks := left_out(report):
         yield Fact("not modelled", model_lacks, tone="care")
     yield Fact("verdict", report.verdict, reservation(report), TONES[report.verdict])
@@ -182,11 +186,12 @@ def system_labels(report: Report, reason: str = "") -> str:
     return f"{_label(report.holonomic, 'holonomic')}{reason}, {_label(report.scleronomic, 'scleronomic')}"
 
 
-def _by_inequalities(report: Report) -> str:
-    """Return which inequalities alone make the system non-holonomic, in parentheses."""
-    names = [entry.name for entry in report.constraints if entry.holonomic is False]
-    alone = all(entry.form == "inequality" for entry in report.constraints if entry.holonomic is False)
-    return f" (by {names_of(names)})" if names and alone and report.holonomic is False else ""
+def _non_holonomic(report: Report) -> str:
+    """Return in parentheses which constraint, or which inequalities, alone make the system non-holonomic."""
+    guilty = [entry for entry in report.constraints if entry.holonomic is False]
+    inequalities = bool(guilty) and all(entry.form == "inequality" for entry in guilty)
+    alone = inequalities or len(guilty) == 1 < len(report.constraints)
+    return f" (by {names_of([e.name for e in guilty])})" if alone and report.holonomic is False else ""
 
 
 def _label(value: bool | None, word: str) -> str:
@@ -233,7 +238,9 @@ def _integrals(entries: Iterable[ConstraintEntry]) -> list[Remark]:
 
 def _special(case: SpecialCase) -> Remark:
     sure = "" if case.verdict == "proved" else f" [{case.verdict}]"
-    return Remark(Formula(case.where), f"{case.what} ({names_of(case.constraints)}){sure}")
+    names = [name for name in case.constraints if not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", case.what)]
+    concerned = f" ({names_of(names)})" if names else ""
+    return Remark(Formula(case.where), f"{case.what}{concerned}{sure}")
 
 
 def _redundancy(report: Report) -> Iterator[Remark]:

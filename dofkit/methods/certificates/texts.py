@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 
 from dofkit.checker.trees import Tree
@@ -46,8 +45,3 @@ def _applied(tree: Tree) -> str:
         for _ in range(order):
             called = f"diff({called}, {text_of(argument)})"
     return called
-
-
-def product_text(parts: Sequence[str]) -> str:
-    """A product of texts."""
-    return "*".join(f"({part})" for part in parts) if parts else "1"

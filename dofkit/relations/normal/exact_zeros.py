@@ -24,7 +24,8 @@ from dofkit.relations.normal.semidefinite import Signs, weak_sign
 from dofkit.relations.normal.zero_set import never_vanishes
 
 SOLE_NOTE = (
-    "it holds at one value only, where its gradient may vanish: that the coordinate has this value is the equation"
+    "it is satisfied at one value only, where its gradient may vanish: it is replaced by the equation that "
+    "the coordinate has this value"
 )
 #: Functions beside which an equation of one coordinate is no polynomial.
 TRANSCENDENTAL = ENTIRE | {"atan"}

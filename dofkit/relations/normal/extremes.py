@@ -15,7 +15,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 
 EXTREME_NOTE = (
-    "a sine or cosine takes its largest or smallest value only: that is written by half the angle, "
+    "a sine or cosine takes its largest or smallest value only: this is written in terms of half the angle, "
     "because its own gradient vanishes there"
 )
 

@@ -77,14 +77,14 @@ def _completed(
     common = slope.gcd(root)
     left, under = lowest_terms(lead, common * common)
     linear, single = divided(slope, common), divided(root, common)
-    shown = [canon.to_expr(p) for p in (linear, radicand, single, left, under)]
-    if any(_has(u, velocities) for u in (shown[1], *shown[3:])) or any(
-        _has(diff(shown[2], v), velocities) for v in velocities
-    ):
+    square = _Square(
+        *map(canon.to_expr, (linear, radicand, single)), weak_sign(canon, Signs(canon, positive), radicand)
+    )
+    factors = [canon.to_expr(left), canon.to_expr(under)]
+    slopes = [diff(square.root, v) for v in velocities]
+    if any(_has(u, velocities) for u in (square.radicand, *factors, *slopes)):
         return None
-    if not all(_vanishes_nowhere(u, positive) for u in shown[3:]):
-        return None
-    return _Square(*shown[:3], weak_sign(canon, Signs(canon, positive), radicand))
+    return square if all(_vanishes_nowhere(u, positive) for u in factors) else None
 
 
 def _branches(square: _Square, positive: frozenset[Expr]) -> list[LinearBranch]:
@@ -100,11 +100,8 @@ def _branches(square: _Square, positive: frozenset[Expr]) -> list[LinearBranch]:
         return [*both, *edges]
     inside = DomainCondition(radicand, ">" if edges else ">=", bool(edges))
     outside = DomainCondition(-radicand, ">")
-    return [
-        *(b._replace(conditions=(inside,)) for b in lines),
-        *(b._replace(conditions=(outside,)) for b in both),
-        *edges,
-    ]
+    within = [b._replace(conditions=(inside,)) for b in lines]
+    return [*within, *(b._replace(conditions=(outside,)) for b in both), *edges]
 
 
 def squares_compared(e: Expr, velocities: Sequence[Expr], positive: frozenset[Expr]) -> Expr | None:

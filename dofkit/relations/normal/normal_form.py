@@ -68,7 +68,9 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     Raises TextError for accelerations (they are integrated before) and for sums of differentials with finite terms.
     """
     if accelerations_of(e):
-        raise TextError("a second derivative is no constraint on positions or velocities", hint=SOLVE_FOR_IT)
+        raise TextError(
+            "an equation with a second derivative is not a constraint on positions or velocities", hint=SOLVE_FOR_IT
+        )
     fewer = combined(e) if written else Combined(e, {})
     found = _normalised(fewer.expr, positive, written)
     if not fewer.sums:

@@ -25,13 +25,17 @@ MAX_BRANCHES = 16
 Conjunction = tuple[Expr, ...]
 Zeros = tuple[tuple[Conjunction, ...], tuple[str, ...]]
 
-POWER_NOTE = "a power is zero where its base is: the base is used, because the power's gradient vanishes there"
-SQUARES_NOTE = "a sum of squares is zero over the reals only where every term is: each term is one equation"
-PRODUCT_NOTE = "a product is zero on several branches; each is looked at, and the largest one counts"
+POWER_NOTE = (
+    "a power is zero where its base is zero: the base is used, because the gradient of the power vanishes there"
+)
+SQUARES_NOTE = "a sum of squares is zero over the real numbers only where every term is zero: each term is one equation"
+PRODUCT_NOTE = "a product is zero on several branches; all are considered, and the one of largest dimension counts"
 EMPTY_NOTE = "no real configuration satisfies it: every term has the same sign and one never vanishes"
-POLE_NOTE = "where a denominator vanishes it says nothing: such zeros of the numerator are left out"
+POLE_NOTE = "it has no value where a denominator vanishes: such zeros of the numerator are left out"
 FACTOR_NOTE = "a factor that never vanishes was taken out"
-EXPONENT_NOTE = "two exponentials are equal over the reals only where their exponents are: those are compared"
+EXPONENT_NOTE = (
+    "two exponentials are equal over the real numbers only where their exponents are equal: the exponents are compared"
+)
 
 
 class TooManyBranchesError(Exception):

@@ -81,6 +81,11 @@ class ConstraintBase(WrittenModel):
         del names, known
         yield from ()
 
+    @classmethod
+    def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
+        """Return a faulty entry with what several wrong keys state together under the right one."""
+        return dict(entry)
+
     def written(self) -> dict[str, Any]:
         """Its fields as they are written."""
         return self.model_dump(mode="json", exclude_none=True)
@@ -110,8 +115,8 @@ def meet(world: World, first: Placed, second: Placed, *where: str | int) -> None
     if not world.any_differs(gap):
         return
     told = f"{figures(first.reference)} and {figures(second.reference)}"
-    message = f"the drawing puts {first.label} and {second.label} apart, at {told}"
-    hint = "give them the same place, or set `tolerance` if it is measured"
+    message = f"in the reference configuration {first.label} and {second.label} are apart, at {told}"
+    hint = "give them the same position, or set `tolerance` if it is measured"
     world.misfit(root(square(gap)), message, *where, hint=hint)
 
 

@@ -42,7 +42,7 @@ class Cam(ConstraintBase):
     examples: ClassVar[Mapping[int, str]] = {2: '{type: cam, point: A, body: crank, curve: "x^2 + y^2 = 4"}'}
     point: Point = Field(description="the follower's point, or a particle")
     body: str = Field(description="the cam, or ground")
-    curve: Text = Field(description="the profile: an equation in x and y, the body's own coordinates; may hold t")
+    curve: Text = Field(description="the profile: an equation in x and y, the body's own coordinates; may contain t")
 
     dimensions: ClassVar[tuple[int, ...]] = (2,)
     facts: ClassVar[TypeFacts] = TypeFacts(
@@ -79,7 +79,7 @@ class Cam(ConstraintBase):
         if len(world.faults) > before:
             return None
         if [relation.sense for relation in found] != ["="] or not used:
-            hint = "such as x^2 + y^2 = 4; an inequality or a chain is no profile"
+            hint = "write one such as x^2 + y^2 = 4; an inequality or a chain is not a profile"
             world.fault("a profile is one equation in x and y", "curve", hint=hint)
             return None
         return found[0].expr
@@ -90,11 +90,13 @@ class Cam(ConstraintBase):
         place = point.label if point.frame else f"{point.label} at {figures(point.reference)}"
         hint = "move the point or the body, or set `tolerance` if they are measured"
         if drawn.gap is None:
-            told = f"the drawing puts {place}, where `{self.curve}` has no value"
+            told = f"the reference configuration has {place}, where `{self.curve}` has no value"
             world.misfit(None, told, "point", hint=hint, body=body)
         elif world.differs(drawn.gap, body):
             gap, steepness = approximate(drawn.gap), root(square(drawn.slope))
-            told = f"the drawing puts {place}, off the profile of {frame.name}: there `{self.curve}` fails"
+            told = (
+                f"the reference configuration has {place}, off the profile of {frame.name}: there `{self.curve}` fails"
+            )
             told = told if gap is None else f"{told} by {abs(gap):.6g}"
             world.misfit(None if gap is None or not steepness else gap / steepness, told, "point", hint=hint, body=body)
 

@@ -76,10 +76,10 @@ class Coupling(ConstraintBase):
     understood: ClassVar[tuple[str, ...]] = ("mimic", "differential", "timing_belt", "transmission", "bevel", "coupled")
     other_keys: ClassVar[Mapping[str, str]] = {"between": "joints"}
     joints: Joints = Field(
-        description="names of joints, or a mapping letter -> joint; of one that both turns and slides, `JOINT.angle` "
+        description="names of joints, or a mapping letter -> joint; for one that both turns and slides, `JOINT.angle` "
         "or `JOINT.displacement`"
     )
-    text: Text = Field(description="the relation, such as `elbow = 2 shoulder`; may hold t")
+    text: Text = Field(description="the relation, such as `elbow = 2 shoulder`; may contain t")
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
     facts: ClassVar[TypeFacts] = TypeFacts(_coupling_rows)
     symbol: ClassVar[Symbol] = Symbol(run="locus")
@@ -101,7 +101,7 @@ class Coupling(ConstraintBase):
         senses = {relation.sense for relation in found}
         if "=" in senses and len(found) > 1:
             world.fault(
-                "a coupling is one equation, or bounds", "text", hint="write another coupling for the other one"
+                "a coupling is either one equation or bounds", "text", hint="write a second coupling for the other one"
             )
             return
         if "=" not in senses and not self._within_half_turns(world, [relation.expr for relation in found], measured):
@@ -116,18 +116,21 @@ class Coupling(ConstraintBase):
 
         Beyond that they would hold nowhere, and a hinge does turn there.
         """
-        told = "an angle of space is counted from the drawing, between -pi and pi, and these bounds lie beyond"
+        told = (
+            "an angle in space is measured from the reference configuration, between -pi and pi, and these bounds lie "
+            "beyond"
+        )
         if any(_most(e, measured) < 0 for e in bounds):
-            world.fault(told, "text", hint="draw the joints nearer to the middle of their ranges")
+            world.fault(told, "text", hint="choose a reference configuration nearer to the middle of their ranges")
             return False
         for letter, joint in measured.items():
             low, high = _bounds_of(letter, bounds) if joint.axis is not None and joint.measure.turns else (-inf, inf)
             if _told_by_arcs(low, high):
                 continue
-            hint = "draw the joint nearer to the middle of its range"
+            hint = "choose a reference configuration nearer to the middle of its range"
             turns = 2 * pi * round((low + high) / (4 * pi)) if isfinite(low + high) else 0.0
             if turns and _told_by_arcs(low - turns, high - turns):
-                hint = f"less whole turns: `{low - turns:.6g} <= {letter.args[1]} <= {high - turns:.6g}`"
+                hint = f"subtract whole turns: `{low - turns:.6g} <= {letter.args[1]} <= {high - turns:.6g}`"
             world.fault(told, "text", hint=hint)
             return False
         return True
@@ -154,7 +157,7 @@ class Coupling(ConstraintBase):
         if not isinstance(joint, Axial) or (not what and len(measures) != 1) or (what and what not in measures):
             told = " or ".join(f"`{name}.{key}`" for key in measures)
             hint = f"write {told}" if told else "name a revolute, prismatic, cylindrical or screw joint"
-            world.fault(f"'{written}' tells no angle or displacement of a joint", "joints", letter, hint=hint)
+            world.fault(f"'{written}' is not an angle or a displacement of a joint", "joints", letter, hint=hint)
             return None
         what = what or next(iter(measures))
         found = self._located(world, letter, joint, measures[what])
@@ -167,7 +170,7 @@ class Coupling(ConstraintBase):
             return None
         if (joint.axis is None and not planar) or (joint.at is None and measure.placed):
             hint = "give the joint its `at` and `axis`"
-            world.fault("a joint in general position has no angle that can be told", "joints", letter, hint=hint)
+            world.fault("a joint in general position has no angle that a coupling can use", "joints", letter, hint=hint)
             return None
         axis = None if planar else world.drawn_direction(joint.axis)
         place = world.drawn_vector(joint.at)
@@ -184,16 +187,16 @@ class Coupling(ConstraintBase):
             gap = substitute(e, at)
             slopes = {letter: substitute(diff(e, letter), at) for letter in measured}
         except NoValueError:
-            world.fault("the relation has no value at the drawing, where every joint stands at 0", "text")
+            world.fault("the relation has no value in the reference configuration, where every joint is at 0", "text")
             return False
         for letter, joint in measured.items():
             if not slopes[letter].is_zero:
                 world.mentioned.rates.append(joint.rate(slopes[letter]))
         if world.differs(gap):
             off, steep = approximate(gap), root(dot(tuple(slopes.values()), tuple(slopes.values())))
-            message = "the drawing, where every joint stands at 0, contradicts the relation"
+            message = "the reference configuration, where every joint is at 0, contradicts the relation"
             message += "" if off is None else f" by {abs(off):.6g}"
-            hint = "angles and displacements count from the drawing"
+            hint = "angles and displacements are measured from the reference configuration"
             world.misfit(None if off is None or not steep else off / steep, message, "text", hint=hint)
         return True
 

@@ -46,7 +46,7 @@ class Link(ConstraintBase):
     understood: ClassVar[tuple[str, ...]] = ("bar", "strut", "stick", "edge")
     other_keys: ClassVar[Mapping[str, str]] = {"distance": "length"}
     between: Ends = Field(description="the two points")
-    length: Value | None = Field(None, description="their distance; may hold t; by default that of the drawing")
+    length: Value | None = Field(None, description="their distance; may contain t; default: the reference distance")
     facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, surface=True)
     symbol: ClassVar[Symbol] = Symbol(run="bar")
     variation: ClassVar[TypeVariation] = TypeVariation(places=("between",), lengths=("length",))
@@ -117,7 +117,7 @@ def _hung_on_what_moves(link: Link, names: NamesAtHand) -> Replacement | None:
     whole = length if length.isalnum() else f"({length})"
     fields = {"type": "equation", "text": f"{' + '.join(f'{s}^2' for s in squares)} = {whole}^2"}
     fields |= {} if link.name is None else {"name": link.name}
-    told = f"it hangs on a support that moves by {reach} cos({rate} t)"
+    told = f"its support moves by {reach} cos({rate} t)"
     return Replacement("supports", fields, {reach: "positive", rate: "positive"}, told)
 
 
@@ -139,7 +139,7 @@ def _told_to_move(link: Link, world: World) -> bool:
         squared = f"({length})^2" if any(sign in length for sign in "+-*/ ") else f"{length}^2"
         hint = f'write its equation: `"{" + ".join(gaps)} = {squared}"`'
     world.fault(
-        "an end of a link is a point that does not move by itself, and time stands here",
+        "the end of a link cannot depend on time",
         "between",
         moving[0],
         hint=hint,
@@ -173,8 +173,8 @@ def distance(world: World, first: Placed, second: Placed, given: Expr | None) ->
         squared = power(given, TWO)
         if squared.is_zero:
             world.warnings.append(
-                f"the link {first.label}-{second.label} has length 0: one equation that holds only where "
-                "all coordinates agree; `coincident` says the same regularly"
+                f"the link {first.label}-{second.label} has length 0: one equation that is satisfied only "
+                "where all coordinates agree; `coincident` states the same with regular equations"
             )
     elif drawn is not None:
         squared = drawn
@@ -215,9 +215,10 @@ def _check_length(world: World, first: Placed, second: Placed, given: Expr, *whe
     if not world.differs(difference(power(start, TWO), drawn)):
         return
     measured = root(drawn)
-    message = f"the length {_figure(shown)} contradicts the drawing, where {first.label} and {second.label} are "
-    hint = f"write `length: {_figure(measured)}`, or leave it out: the drawing's; set `tolerance` if it is measured"
-    world.misfit(_less(shown, measured), f"{message}{_figure(measured)} apart", *where, hint=hint)
+    apart = f"{first.label} and {second.label} are {_figure(measured)} apart"
+    message = f"the length {_figure(shown)} contradicts the reference configuration, where {apart}"
+    hint = f"write `length: {_figure(measured)}` or leave it out; set `tolerance` if it is measured"
+    world.misfit(_less(shown, measured), message, *where, hint=hint)
 
 
 def _less(a: float | None, b: float | None) -> float | None:
@@ -259,7 +260,7 @@ class Rigid(ConstraintBase):
         yield (
             f"Of the N(N-1)/2 = {links} links among N = {n} particles only N d - d(d+1)/2 = {n * d} - {freedom} = "
             f"{n * d - freedom} are independent (in general position): once d+1 = {d + 1} of the particles are rigid, "
-            f"{many(d, 'link')} {verb(d, 'fixes', 'fix')} each further one and its other links follow. "
+            f"{many(d, 'link')} {verb(d, 'fixes', 'fix')} each further one, and its other links are redundant. "
             "Counting every link fails for N > d+1."
         )
 
@@ -283,7 +284,7 @@ class String(ConstraintBase):
     understood: ClassVar[tuple[str, ...]] = ("rope", "cable", "cord", "pulley", "belt")
     other_keys: ClassVar[Mapping[str, str]] = {"between": "along"}
     along: Annotated[tuple[Point, ...], Field(min_length=2)] = Field(description="the points it runs along, in order")
-    length: Value | None = Field(None, description="its length; may hold t; by default that of the drawing")
+    length: Value | None = Field(None, description="its length; may contain t; default: the reference length")
     facts: ClassVar[TypeFacts] = TypeFacts(string=True)
     symbol: ClassVar[Symbol] = Symbol(run="rope")
     variation: ClassVar[TypeVariation] = TypeVariation(places=("along",), lengths=("length",))
@@ -320,6 +321,16 @@ class String(ConstraintBase):
         if found is not None:
             yield found
 
+    @classmethod
+    def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
+        """Return a faulty entry with pulleys that are given by `over` between the two ends."""
+        over, keys = entry.get("over"), ("along", "members", "points", "over")
+        ends: Any = next((entry[key] for key in keys[:-1] if key in entry), ())
+        over = [over] if isinstance(over, str) else over
+        if not isinstance(ends, (list, tuple)) or not isinstance(over, (list, tuple)):
+            return dict(entry)
+        return {k: part for k, part in entry.items() if k not in keys} | {"along": [*ends[:1], *over, *ends[1:]]}
+
     @property
     def in_words(self) -> str:
         run = "-".join(show_point(point) for point in self.along)
@@ -335,5 +346,5 @@ def _check_string(world: World, given: Expr, drawn: Expr) -> None:
     if not world.differs(gap):
         return
     a, b = approximate(substitute(given, {TIME: ZERO})), approximate(drawn)
-    message = f"the length {_figure(a)} contradicts the drawing, where the string is {_figure(b)} long"
-    world.misfit(_less(a, b), message, "length", hint="leave `length` out to take the drawing's")
+    message = f"the length {_figure(a)} contradicts the reference configuration, where the string is {_figure(b)} long"
+    world.misfit(_less(a, b), message, "length", hint="leave `length` out to take that length")

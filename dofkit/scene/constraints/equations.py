@@ -101,7 +101,11 @@ class On(ConstraintBase):
     def relations(self, world: World) -> Iterator[Relation]:
         if (self.surface is None) == (self.curve is None):
             hint = "`surface` is one text, `curve` a list of texts"
-            world.fault("either `surface` or `curve` is needed", *(() if self.curve is None else ("curve",)), hint=hint)
+            world.fault(
+                "one of `surface` and `curve` is needed, and not both",
+                *(() if self.curve is None else ("curve",)),
+                hint=hint,
+            )
         letters = LETTERS[: world.dimension]
         names = within_member(world.names, letters)
         read = [

@@ -120,7 +120,7 @@ class Joint(ConstraintBase):
 class LocatedJoint(Joint):
     """A joint with a place."""
 
-    at: Vector | None = Field(None, description="the joint's place in the reference configuration")
+    at: Vector | None = Field(None, description="the joint's position in the reference configuration")
 
 
 class Axial(LocatedJoint):
@@ -132,7 +132,7 @@ class Axial(LocatedJoint):
         """The axis; one that is left out where the place is given is a fault."""
         if self.axis is None and self.at is not None:
             world.fault(
-                f"this {self.kind()} joint has a place (`at`) but no `axis`",
+                f"this {self.kind()} joint has a position (`at`) but no `axis`",
                 hint=f"add `axis: {_UP[world.dimension]}`, or leave both out for a joint in general position",
             )
         return world.direction(self.axis, "axis")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from pydantic import Field
 
@@ -43,7 +43,7 @@ class Fixed(ConstraintBase):
 
     def relations(self, world: World) -> Iterator[Relation]:
         if (self.point is None) == (self.body is None):
-            world.fault("either `point` or `body` is needed", hint="`point: A`, or `body: B`")
+            world.fault("one of `point` and `body` is needed, and not both", hint="`point: A`, or `body: B`")
         elif self.point is not None:
             yield from self._hold_point(world, self.point)
         elif self.body == GROUND:
@@ -86,7 +86,7 @@ def _coincident_rows(at: Kinematics) -> Iterator[VelocityRow]:
 class Coincident(ConstraintBase):
     """A - B = 0: d relations."""
 
-    type: Literal["coincident"] = Field(description="two points that stay together")
+    type: Literal["coincident"] = Field(description="two points that coincide")
     examples: ClassVar[Mapping[int, str]] = {0: "{type: coincident, between: [A, B]}"}
     between: Ends = Field(description="the two points")
     facts: ClassVar[TypeFacts] = TypeFacts(_coincident_rows, joint=True, merged=True)
@@ -155,6 +155,14 @@ class Slot(ConstraintBase):
         for u in axis.across:
             yield Relation(along(frame, point, place, u), part="across", vector=u)
 
+    @classmethod
+    def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
+        """Return a faulty entry with `between: [point, body]` as the two fields."""
+        given = dict(entry)
+        if isinstance(given.get("between"), (list, tuple)) and len(given["between"]) == 2:
+            given["point"], given["body"] = given.pop("between")
+        return given
+
     @property
     def in_words(self) -> str:
         told = f"slot {show_point(self.point)} on {self.body}"
@@ -177,7 +185,9 @@ def _check_on_line(world: World, point: Placed, place: Vec, axis: Direction) -> 
     offsets = [dot(u, minus(stands, place)) for u in axis.across]
     if not world.any_differs(offsets):
         return
-    message = f"the drawing puts {point.label} at {figures(stands)}, off the line through {figures(place)}"
+    message = (
+        f"in the reference configuration {point.label} is at {figures(stands)}, off the line through {figures(place)}"
+    )
     hint = "move the point or the line, or set `tolerance` if it is measured"
     world.misfit(_apart(minus(stands, place), axis.vector), message, "point", hint=hint)
 

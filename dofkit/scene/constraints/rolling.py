@@ -51,8 +51,8 @@ class Roll(ConstraintBase):
         if world.is_drawn(frame) and world.differs(difference(frame.start[-1], radius)):
             height = world.table.bodies[frame.name][world.dimension - 1]
             world.warnings.append(
-                f"{frame.name} rolls at {height} = {as_written(self.radius)} but is drawn at {height} = "
-                f"{approximate(frame.start[-1]):g}; `configuration` can place its centre"
+                f"{frame.name} rolls at {height} = {as_written(self.radius)} but its reference configuration has "
+                f"{height} = {approximate(frame.start[-1]):g}; `configuration` can place its centre"
             )
         yield Relation(difference(frame.position[-1], radius), part="contact")
         yield from _no_slip(frame, radius)

@@ -179,7 +179,7 @@ class Universal(LocatedJoint):
         if self.axes is None:
             if self.at is not None:
                 hint = "add `axes: [[1, 0, 0], [0, 1, 0]]`, or leave both out for a joint in general position"
-                world.fault("this universal joint has a place (`at`) but no `axes`", hint=hint)
+                world.fault("this universal joint has a position (`at`) but no `axes`", hint=hint)
             one = world.direction(None)
             return one, Direction(plus(one.across[0], scaled(world.fresh(), one.across[1])), ())
         one, other = (world.direction(axis, "axes", i) for i, axis in enumerate(self.axes))
@@ -208,7 +208,7 @@ class Spherical(LocatedJoint):
     examples: ClassVar[Mapping[int, str]] = {3: "{type: spherical, between: [crank, rod], at: [0, 0, 0]}"}
     synonyms: ClassVar[tuple[str, ...]] = ("ball",)
     understood: ClassVar[tuple[str, ...]] = ("socket", "ball-socket", "ball_and_socket")
-    axis: Vector | None = Field(None, description="not needed: the joint turns every way")
+    axis: Vector | None = Field(None, description="not needed: the joint allows every rotation")
     dimensions: ClassVar[tuple[int, ...]] = (3,)
     facts: ClassVar[TypeFacts] = TypeFacts(
         _spherical_rows, half_turns=True, joint=True, freedoms=("rotation_1", "rotation_2", "rotation_3")

@@ -24,7 +24,7 @@ from dofkit.homework.result import Result
 def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
     """A folder of pages; by class where a ``roster`` tells them. Raises FormatError for what is no folder."""
     if not isinstance(target, Path) or (target.exists() and not target.is_dir()):
-        raise FormatError("the format html writes a folder: name one with --out")
+        raise FormatError("the format html writes a folder: give its name with --out")
     folder = target / "students"
     folder.mkdir(parents=True, exist_ok=True)
     names, overview = FileNames(), Overview(prepared, roster)

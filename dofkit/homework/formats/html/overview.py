@@ -94,7 +94,7 @@ class Question(NamedTuple):
         """What to ask of a question whose answers often could not be read; empty where they could."""
         if self.unread < FEWEST_UNREAD or self.unread < LEAST_UNREAD * self.given:
             return ""
-        return f"{self.unread} of {self.given} could not be read here: is the question clear?"
+        return f"{self.unread} of {self.given} answers could not be read: is the question clear?"
 
 
 class Overview:

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.formats.wording import number, open_points, plain
+from dofkit.homework.formats.wording import STATUSES, number, open_points, plain
 from dofkit.homework.own_sheets import NobodysSheetError, own
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, Result, Status
+from dofkit.homework.sentences.said import Language, in_language
 
 
 class Badge(NamedTuple):
@@ -22,12 +23,12 @@ class Badge(NamedTuple):
 
 
 BADGES: dict[Status, Badge] = {
-    "right": Badge("✓", "right"),
-    "partly": Badge("◐", "partly right"),
-    "wrong": Badge("✗", "wrong"),
-    "unreadable": Badge("?", "not readable"),
-    "missing": Badge("–", "no answer"),
-    "needs_review": Badge("…", "in review"),
+    "right": Badge("✓", STATUSES["right"]),
+    "partly": Badge("◐", STATUSES["partly"]),
+    "wrong": Badge("✗", STATUSES["wrong"]),
+    "unreadable": Badge("?", STATUSES["unreadable"]),
+    "missing": Badge("–", STATUSES["missing"]),
+    "needs_review": Badge("…", STATUSES["needs_review"]),
 }
 
 
@@ -59,6 +60,11 @@ class StudentPage:
     title: str
     result: Result
     sections: list[Section]
+    language: Language
+
+    def told(self, sentence: str, **values: object) -> str:
+        """Return a sentence in the page's language."""
+        return in_language(self.language, sentence, **values)
 
     @property
     def open_points(self) -> float:
@@ -84,18 +90,19 @@ def student_page(result: Result, prepared: Prepared) -> StudentPage:
         with suppress(NobodysSheetError):  # each student's may have another name
             prepared = own(prepared, result.student)
     found = {(item.problem, item.question): item for item in result.items}
-    sections = []
+    sections, language = [], prepared.assignment.language
     for problem in prepared.assignment.problems:
         rows = [
-            AnswerRow(found.pop((problem.id, q.id)), question_text(q))
+            AnswerRow(found.pop((problem.id, q.id)), plain(q.asked(", ".join(q.about)).told(language)))
             for q in problem.questions
             if (problem.id, q.id) in found
         ]
         if rows:
             sections.append(Section(problem_title(problem), rows))
     if found:
-        sections.append(Section("Answers to questions that were not asked", [AnswerRow(i, "") for i in found.values()]))
-    return StudentPage(prepared.assignment.title, result, sections)
+        unasked = in_language(language, "Answers to questions that were not asked")
+        sections.append(Section(unasked, [AnswerRow(item, "") for item in found.values()]))
+    return StudentPage(prepared.assignment.title, result, sections, language)
 
 
 def problem_title(problem: Problem) -> str:
