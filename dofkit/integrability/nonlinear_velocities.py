@@ -114,8 +114,8 @@ def _moves_at_reference(block: Block, setting: Setting, result: Answer, moving: 
         return True
     try:
         rows = _rows_at_reference(block, setting, result)
-        if rows is None:
-            return True
+        if not rows:
+            return rows is None
         there = States(block.coordinates, rows, (), replace(setting, reference=None))
     except NoValueError:
         return False

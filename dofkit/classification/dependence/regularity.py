@@ -97,10 +97,10 @@ def _lost(normals: Sequence[Normal]) -> bool:
 
 
 def _is_flat(r: Reduced, choice: Sequence[Sequence[Piece]], positive: frozenset[Expr]) -> bool:
-    """Was a relation rewritten whose slopes by all velocities are 0, as a square's are, or have no value, on forms?"""
+    """Return whether the slopes of a relation by all velocities are 0 on forms, as a square's are, or have no value."""
     written = [in_velocities(e.expr)[0] for e in r.constraint.relations]
     slopes = [diff(e, v) for e in written for v in velocities_of(e)]
-    if not slopes or not any(n.notes for n in r.normals):
+    if not slopes:
         return False
     try:
         forms = [form_rate(p) for branch in choice for p in branch if isinstance(p, Pfaffian)]

@@ -77,9 +77,8 @@ def _completed(
     common = slope.gcd(root)
     left, under = lowest_terms(lead, common * common)
     linear, single = divided(slope, common), divided(root, common)
-    square = _Square(
-        *map(canon.to_expr, (linear, radicand, single)), weak_sign(canon, Signs(canon, positive), radicand)
-    )
+    sign = weak_sign(canon, Signs(canon, positive), radicand)
+    square = _Square(canon.to_expr(linear), canon.to_expr(radicand), canon.to_expr(single), sign)
     factors = [canon.to_expr(left), canon.to_expr(under)]
     slopes = [diff(square.root, v) for v in velocities]
     if any(_has(u, velocities) for u in (square.radicand, *factors, *slopes)):
@@ -109,8 +108,11 @@ def squares_compared(e: Expr, velocities: Sequence[Expr], positive: frozenset[Ex
     terms = e.args if e.op == "add" else ()
     if len(terms) != 2 or {sign_as_written(term, positive) for term in terms} != {1, -1}:
         return None
-    rooted = any(_is_rooted(f) and _has(f, velocities) for t in terms for f in (t.args if t.op == "mul" else (t,)))
-    if not rooted or any(_has(c.expr, velocities) for c in conditions_of(e, positive)):
+    moving = [t for t in terms if _has(t, velocities)]
+    if not any(_is_rooted(f) and _has(f, velocities) for t in moving for f in _factors(t)):
+        return None
+    implied = _radicand(moving[0], positive) if len(moving) == 1 else None
+    if any(_has(c.expr, velocities) and c.expr != implied for c in conditions_of(e, positive)):
         return None
     difference = terms[0] * terms[0] - terms[1] * terms[1]
     ring = Ring([difference], positive)
@@ -133,6 +135,17 @@ def without_arctangent(
     w = (terms[0] - e) / number
     within = DomainCondition(ex.PI * ex.PI / 4 - w * w, ">")
     return inner.args[1] - ex.fn("tan", w), (within, *conditions_of(w, positive))
+
+
+def _radicand(term: Expr, positive: frozenset[Expr]) -> Expr | None:
+    """Return u of k sqrt(u) with a positive constant k: k^2 u = g^2 implies u >= 0."""
+    roots = [f for f in _factors(term) if f.op != "num" and f.op != "const" and f not in positive]
+    only = roots[0] if len(roots) == 1 else None
+    return only.args[0] if only is not None and only.op == "pow" and only.args[1] == ex.HALF else None
+
+
+def _factors(term: Expr) -> Sequence[Expr]:
+    return term.args if term.op == "mul" else (term,)
 
 
 def _is_rooted(e: Expr) -> bool:

@@ -56,7 +56,9 @@ class Inequality:
     strict: bool = False
 
 
+#: What a branch of an equation consists of, and what a constraint may say besides.
 Piece = Finite | Pfaffian | Nonlinear | DomainCondition
+Statement = Piece | Inequality
 #: All pieces of a branch hold together; one of the branches holds. No branch: nothing satisfies it.
 Branches = tuple[tuple[Piece, ...], ...]
 
