@@ -27,9 +27,7 @@ from typing import Any, NamedTuple
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-import bench
-import bench_forms
-import bench_linkage
+from shared import speed_scenes
 from shared.lecture_scenes import written_copies
 from shared.speed_table import DATA, PAGE, Goal, Measured, Ran, SpeedRow, SpeedRun, with_table
 from shared.trees import tree_with_loops
@@ -37,8 +35,8 @@ from shared.trees import tree_with_loops
 import dofkit
 from dofkit.benchmark.command import machine
 
-#: Seconds that a row may take by the clock, what it needs included; and that a rival is waited for.
-PATIENCE, RIVAL_PATIENCE = 60.0, 30.0
+#: Seconds that a row may take by the clock, what it needs included.
+PATIENCE = 60.0
 #: So many functions enter every form; a longer text than theirs is not read.
 ALL_USED = 4
 #: Scenes that are classified by workers, and those that the goal is about.
@@ -66,7 +64,7 @@ def times(value: float) -> Goal:
 
 def median(work: Callable[[], object], rounds: int) -> float:
     """Seconds by the clock, the median; the first does not count."""
-    taken = [bench.seconds(work) for _ in range(rounds + 1)]
+    taken = [speed_scenes.seconds(work) for _ in range(rounds + 1)]
     return statistics.median(taken[1:])
 
 
@@ -81,7 +79,7 @@ def of_scene(scene: Mapping[str, Any], dof: int, rounds: int) -> Measured:
         right.append(dofkit.classify(dofkit.load(dict(scene))).dof == dof)
 
     dofkit.classify(tree_with_loops(5, 1, 0)[0])
-    taken = [bench.seconds(work) for _ in range(rounds)]
+    taken = [speed_scenes.seconds(work) for _ in range(rounds)]
     return Measured(statistics.median(taken), right=all(right))
 
 
@@ -101,7 +99,7 @@ def model(wheel: str, name: str, rounds: int = 3) -> Measured:
     left = compiled(ModelFile(path.read_bytes(), path.stem, path)).told["left"]
     scene, told = dofkit.load(path), []
     dofkit.classify(tree_with_loops(5, 1, 0)[0])
-    taken = [bench.seconds(lambda: told.append(dofkit.classify(scene))) for _ in range(rounds)]
+    taken = [speed_scenes.seconds(lambda: told.append(dofkit.classify(scene))) for _ in range(rounds)]
     return Measured(statistics.median(taken), right=all(report.instantaneous_dof == left for report in told))
 
 
@@ -109,8 +107,8 @@ def delta() -> Measured:
     """A delta robot told in fifty ways: the slowest against the fastest."""
     spent = []
     for seed in range(50):
-        scene = dofkit.load(bench.turned(seed))
-        spent.append(min(bench.seconds(partial(dofkit.classify, scene)) for _ in range(3)))
+        scene = dofkit.load(speed_scenes.turned(seed))
+        spent.append(min(speed_scenes.seconds(partial(dofkit.classify, scene)) for _ in range(3)))
     return Measured(statistics.median(spent), fold=max(spent) / min(spent))
 
 
@@ -119,18 +117,18 @@ def delta() -> Measured:
 
 def discs(number: int, rounds: int) -> Measured:
     """Equal discs that roll apart from each other."""
-    return of_scene(bench.discs(number), 4 * number, rounds)
+    return of_scene(speed_scenes.discs(number), 4 * number, rounds)
 
 
-def links(made: Callable[[int], bench_linkage.Links], number: int, dof: int) -> Measured:
+def links(made: Callable[[int], speed_scenes.Links], number: int, dof: int) -> Measured:
     """As many links of the plane as one scene."""
-    return of_scene(bench_linkage.linked(made(number)), dof, 1)
+    return of_scene(speed_scenes.linked(made(number)), dof, 1)
 
 
 def wide(constraints: int) -> Measured:
     """A chain of hinges, discs that roll, and equations, a third each, all in one scene."""
     n = constraints // 3
-    rolling = bench.discs(n // 2)
+    rolling = speed_scenes.discs(n // 2)
     more = [f"s{k}" for k in range(n + 1)]
     scene = {
         **rolling,
@@ -203,30 +201,24 @@ def sympy_dense(forms: int, n: int) -> list[bool]:
 
     q = list(sympy.symbols(f"q0:{n}"))
     rows = integrable(forms, n, Letters(q, sympy.sin, sympy.cos, lambda *parts: sympy.prod(parts), sum))
-    return bench_forms.frobenius(rows, q)
+    return speed_scenes.frobenius(rows, q)
 
 
 def forms(scene: Mapping[str, Any], dof: int, rounds: int, rival: tuple[Any, ...] = ()) -> Measured:
     """The whole report of a scene that was read."""
-    loaded, right = bench_forms.loaded(scene), []
+    loaded, right = dofkit.load(dict(scene)), []
     ours = median(lambda: right.append(dofkit.classify(loaded).dof == dof), rounds)
-    return Measured(ours, patiently(*rival) if rival else None, right=all(right))
+    return Measured(ours, speed_scenes.patiently(*rival) if rival else None, right=all(right))
 
 
 def asked(scene: Mapping[str, Any], rounds: int, rival: tuple[Any, ...]) -> Measured:
     """One question: does everything integrate?"""
-    loaded, right = bench_forms.loaded(scene), []
+    loaded, right = dofkit.load(dict(scene)), []
 
     def ask() -> None:
         right.append(all((dofkit.ask(loaded, "integrability").value or {"": None}).values()))
 
-    return Measured(median(ask, rounds), patiently(*rival), right=all(right))
-
-
-def patiently(*rival: Any) -> float | None:
-    """The rival's seconds, in a process of its own."""
-    bench_forms.PATIENCE = RIVAL_PATIENCE
-    return bench_forms.patiently(*rival)
+    return Measured(median(ask, rounds), speed_scenes.patiently(*rival), right=all(right))
 
 
 # graphs of links
@@ -234,10 +226,10 @@ def patiently(*rival: Any) -> float | None:
 
 def against_pyrigi() -> Measured:
     """1 000 joints in the plane and a tenth more links than they need, in pure Python."""
-    links = bench_linkage.rigid(1000, 2, 100)
-    theirs = bench_linkage.seconds(partial(bench_linkage.by_pyrigi, links), 1)
-    with bench_linkage.plain():
-        return Measured(bench_linkage.seconds(bench_linkage.redundant(links, 2), 5), theirs)
+    links = speed_scenes.rigid(1000, 2, 100)
+    theirs = speed_scenes.least_seconds(partial(speed_scenes.by_pyrigi, links), 1)
+    with speed_scenes.plain():
+        return Measured(speed_scenes.least_seconds(speed_scenes.redundant(links, 2), 5), theirs)
 
 
 def complete(n: int) -> list[tuple[int, int]]:
@@ -250,8 +242,8 @@ def growth(make: Callable[[int], list[tuple[int, int]]]) -> Measured:
     each = {}
     for n, rounds in ((1000, 20), (100_000, 1)):
         links = make(n)
-        with bench_linkage.plain():
-            each[n] = bench_linkage.seconds(bench_linkage.redundant(links, 2), rounds) / (1 + max(map(max, links)))
+        with speed_scenes.plain():
+            each[n] = speed_scenes.least_seconds(speed_scenes.redundant(links, 2), rounds) / (1 + max(map(max, links)))
     return Measured(each[100_000] * 1e5, fold=each[100_000] / each[1000])
 
 
@@ -260,7 +252,9 @@ def growth(make: Callable[[int], list[tuple[int, int]]]) -> Measured:
 
 def cold(*arguments: str) -> Measured:
     """A fresh Python, against one that imports SymPy."""
-    ours, theirs = bench.medians(bench.python("-m", "dofkit", *arguments), bench.python("-c", "import sympy"), rounds=9)
+    ours, theirs = speed_scenes.medians(
+        speed_scenes.python("-m", "dofkit", *arguments), speed_scenes.python("-c", "import sympy"), rounds=9
+    )
     return Measured(ours, theirs)
 
 
@@ -298,19 +292,19 @@ ROWS = {
     "dense-4-8": Row("four in 8", seconds(0.15), partial(forms, dense(4, 8), 4, 5)),
     "dense-8-16": Row("eight in 16", seconds(0.5), partial(forms, dense(8, 16), 8, 3)),
     "trailers-6": Row("a car with 6 trailers", times(40),
-                      partial(forms, bench_forms.car(6), 10, 5, (bench_forms.sympy_car, 6)), WEDGE),
-    "trailers-20": Row("a car with 20 trailers", seconds(0.4), partial(forms, bench_forms.car(20), 24, 3)),
+                      partial(forms, speed_scenes.car(6), 10, 5, (speed_scenes.sympy_car, 6)), WEDGE),
+    "trailers-20": Row("a car with 20 trailers", seconds(0.4), partial(forms, speed_scenes.car(20), 24, 3)),
     "truss": Row("10^5 constraints in one scene: a truss of links", seconds(10),
-                 partial(links, bench_linkage.truss, 100_000, 4)),
+                 partial(links, speed_scenes.truss, 100_000, 4)),
     "apart": Row("the same: triangles of links", seconds(10),
-                 partial(links, bench_linkage.apart_triangles, 99_999, 99_999)),
+                 partial(links, speed_scenes.apart_triangles, 99_999, 99_999)),
     "wide": Row("the same: hinges, rolling discs and equations, a third each", seconds(10), partial(wide, 100_000)),
     "links": Row("1 000 joints in the plane, pure Python", times(100), against_pyrigi, "PyRigi"),
     "growth-k": Row("K(4, n), 10^3 to 10^5 joints: time for a joint", Goal("fold", 1.3), partial(growth, complete)),
     "growth-triangles": Row("triangulated squares, the same", Goal("fold", 1.3),
-                            partial(growth, bench_linkage.triangles)),
+                            partial(growth, speed_scenes.triangles)),
     "growth-kagome": Row("kagome, braced, the same", Goal("fold", 1.3),
-                         partial(growth, partial(bench_linkage.kagome, braced=True))),
+                         partial(growth, partial(speed_scenes.kagome, braced=True))),
     "cold": Row("`dofkit classify disc-rolling-on-plane`, cold", Goal("share", 1.0),
                 partial(cold, "classify", "disc-rolling-on-plane"), SYMPY),
     "many": Row("10^5 lecture scenes by a worker for each core (6 000, scaled)", seconds(240), many_scenes),

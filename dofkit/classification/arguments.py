@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from dofkit.base.verdicts import ArgumentKey
-from dofkit.configuration.local.criteria import CRITERIA
+from dofkit.configuration.local.criteria import CONCLUSIONS, CRITERIA
 
 
 class Argument(NamedTuple):
@@ -42,7 +42,7 @@ _OWN: dict[ArgumentKey, Argument] = {
     "one relation": Argument(
         "the configuration space has dimension n - 1, and no component is larger",
         "ImplicitFunctions",
-        "one equation, not identically zero, with a certified regular zero",
+        "there is one equation, which is not identically zero and has a certified regular zero",
         "dofkit.configuration.components.of_largest_part",
         _POINT,
     ),
@@ -80,21 +80,21 @@ _OWN: dict[ArgumentKey, Argument] = {
     "isolated zeros": Argument(
         "some coordinates have isolated values; the others are free or determined by them",
         "IsolatedZeros",
-        "equations in one coordinate each, analytic everywhere and not identically zero, with an exact common zero",
+        "each equation has one coordinate, is analytic everywhere and not identically zero, with a known common zero",
         "dofkit.configuration.isolated_zeros.isolated",
         "the zeros",
     ),
     "singular values": Argument(
         "the rank of measured geometry",
         "",
-        "a gap between singular values",
+        "the singular values are separated by a gap",
         "dofkit.configuration.drawing.measured.measure",
         "the singular values",
     ),
     "links in general position": Argument(
         "the rank of generic links",
         "PollaczekGeiringer1927",
-        "only links, each with a length that occurs nowhere else",
+        "all constraints are links, each with a length that occurs nowhere else",
         "dofkit.mobility.frameworks.framework_answer",
         "an orientation, or a minor at random whole numbers",
     ),
@@ -150,14 +150,14 @@ _OWN: dict[ArgumentKey, Argument] = {
     "generic points": Argument(
         "an identity at random points holds on the configuration space",
         "SchwartzZippel",
-        "points over GF(p) drawn on the set",
+        "random points over GF(p) satisfy the equations",
         "dofkit.configuration.generic_dimension.variety_at",
         "the points",
     ),
     "Lie algebra, certified": Argument(
         "the degrees of freedom are n minus the rank of the largest integrable subsystem",
         "HermannNagano",
-        "Lie brackets proved to be independent that leave nothing undetermined, or as many rows that "
+        "the Lie brackets are proved to be independent and leave nothing undetermined, or as many rows "
         "integrate on their own",
         "dofkit.integrability.labels_by_field.certificate",
         "Lie brackets and one of their minors",
@@ -185,51 +185,55 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the state",
     ),
     "finite relation": Argument(
-        "holonomic",
+        "the constraint is holonomic",
         "",
         "it relates coordinates and time only",
         "dofkit.classification.labels.entry.entry",
         "the text",
     ),
     "inequality": Argument(
-        "not holonomic", "", "it is an inequality", "dofkit.classification.labels.entry.entry", "the text"
+        "the constraint is not holonomic",
+        "",
+        "it is an inequality",
+        "dofkit.classification.labels.entry.entry",
+        "the text",
     ),
     "curved velocities": Argument(
-        "not holonomic",
+        "the constraint is not holonomic",
         "",
         "the velocities that it allows span the affine space that the linear equations leave",
         "dofkit.integrability.nonlinear_velocities.set_velocity_freedom",
         "the state and the curves",
     ),
     "line field": Argument(
-        "holonomic",
+        "the constraint is holonomic",
         "Frobenius1877",
         "the constraints leave one direction",
         "dofkit.integrability.labels_by_field.field_labels",
         "a minor",
     ),
     "form by itself": Argument(
-        "holonomic",
+        "the constraint is holonomic",
         "Frobenius1877",
-        "closed, in two variables, d(omega) ^ omega = 0 in the canonical ring, or a verified integral",
+        "the form is closed, has two variables, satisfies d(omega) ^ omega = 0, or has a verified integral",
         "dofkit.integrability.single_form.proof",
         "the integral and its factor",
     ),
     "in the integrable part": Argument(
-        "holonomic",
+        "the constraint is holonomic",
         "HermannNagano",
         "the form annihilates the Lie algebra at random points over GF(p)",
         "dofkit.integrability.labels_by_field.field_labels",
         "structure functions",
     ),
     "outside the integrable part": Argument(
-        "not holonomic",
+        "the constraint is not holonomic",
         "HermannNagano",
         "the pairing of the form with a Lie bracket is proved to be nonzero",
         "dofkit.integrability.labels_by_field.certificate",
         "the bracket as a word in the fields",
     ),
-    "as written": Argument("a label", "", "it is read off the text", "dofkit.integrability.traits.traits", "the text"),
+    "as written": Argument("a label", "", "it is read from the text", "dofkit.integrability.traits.traits", "the text"),
     "identity": Argument(
         "an expression is 0",
         "",
@@ -240,7 +244,7 @@ _OWN: dict[ArgumentKey, Argument] = {
     "zero with another derivative": Argument(
         "an expression is nonzero where another is zero",
         "KrawczykNewton",
-        "a certified zero of the other at which its enclosure excludes zero",
+        "the other has a certified zero, at which the enclosure of the expression excludes zero",
         "dofkit.integrability.traits.traits",
         _POINT,
     ),
@@ -262,7 +266,7 @@ _OWN: dict[ArgumentKey, Argument] = {
     "free Lie algebra": Argument(
         "dimensions of brackets",
         "Witt1937",
-        "they attain the largest possible ranks, and what is nonzero over GF(p) is nonzero",
+        "they attain the largest possible ranks, and a number that is nonzero over GF(p) is nonzero",
         "dofkit.integrability.growth_vector.is_free",
         "words and a minor",
     ),
@@ -307,7 +311,7 @@ _OWN: dict[ArgumentKey, Argument] = {
     "met at a point": Argument(
         "all inequalities can be satisfied",
         "KrawczykNewton",
-        "a certified point of the constraints that satisfies each of them",
+        "a certified configuration of the constraints satisfies each of them",
         "dofkit.classification.feasibility.feasibility.feasibility",
         _POINT,
     ),
@@ -331,11 +335,8 @@ _OWN: dict[ArgumentKey, Argument] = {
 def _rows() -> Iterator[tuple[ArgumentKey, Argument]]:
     yield from _OWN.items()
     for row in CRITERIA:
-        check = f"{row.applies.__module__}.{row.applies.__name__}"
-        yield (
-            row.key,
-            Argument(row.concludes, row.theorem, row.hypotheses, check, "the reference, and what the criterion saw"),
-        )
+        check, claims = f"{row.applies.__module__}.{row.applies.__name__}", CONCLUSIONS[row.concludes]
+        yield row.key, Argument(claims, row.theorem, row.hypotheses, check, "the reference, and what the criterion saw")
 
 
 TABLE: Mapping[ArgumentKey, Argument] = dict(_rows())

@@ -8,6 +8,7 @@ from typing import Any
 
 from dofkit.base.errors import Fault
 from dofkit.expressions.text.typesetting import typeset
+from dofkit.homework.sentences.said import Language, described
 from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.fields import as_written, suggestion
 from dofkit.scene.names import coordinate_table
@@ -35,29 +36,31 @@ def words_of(text: str) -> set[str]:
     return {*found, *(part for word in found for part in word.split("_"))} - {""}
 
 
-def filled(text: str, scene: Scene, hidden: Collection[str] = ()) -> str:
+def filled(text: str, scene: Scene, hidden: Collection[str] = (), language: Language = "en") -> str:
     """The text with what the scene says in its places; a place that stands for nothing stays.
 
     ``hidden``: constraints whose equations are not told.
     """
 
     def place(match: re.Match[str]) -> str:
-        told = _told(match[1], match[2], scene, hidden) or match[0]
+        told = _told(match[1], match[2], scene, hidden, language) or match[0]
         return f"\n\n{told}\n\n" if (match[1], match[2]) == (ALL, None) else told  # a list begins on its own line
 
     return _PLACE.sub(place, text)
 
 
-def _told(name: str, field: str | None, scene: Scene, hidden: Collection[str] = ()) -> str | None:
+def _told(
+    name: str, field: str | None, scene: Scene, hidden: Collection[str] = (), language: Language = "en"
+) -> str | None:
     constraints = named(scene)
     secret = {each for each in hidden if each in constraints and constraints[each].facts.written}
     if name == ALL and field is None:
-        listed = [(each, "" if each in secret else f": {shown(one)}") for each, one in constraints.items()]
+        listed = [(each, "" if each in secret else f": {shown(one, language)}") for each, one in constraints.items()]
         return "\n".join(f"- `{each}`{told}" for each, told in listed)
     if name in secret:
         return f"`{name}`"
     if name in constraints and field is None:
-        return shown(constraints[name])
+        return shown(constraints[name], language)
     if field is not None:
         value = getattr(constraints.get(name), field, None)
         return None if value is None else _value(value)
@@ -75,12 +78,12 @@ def _value(value: Any) -> str:
     return f"${as_written(value)}$" if not isinstance(value, str) or typeset(value) else f"`{value}`"
 
 
-def shown(constraint: ConstraintBase) -> str:
+def shown(constraint: ConstraintBase, language: Language = "en") -> str:
     """A constraint as a sheet tells it: its equations as formulas, else its words."""
     texts = list(constraint.texts()) if constraint.facts.written and not constraint.facts.lettered else []
     if texts and all(typeset(text) for text in texts):
         return ", ".join(f"${text}$" for text in texts)
-    return marked(constraint.in_words)
+    return marked(described(constraint.in_words, language))
 
 
 def marked(text: str) -> str:

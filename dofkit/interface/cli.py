@@ -185,7 +185,7 @@ def explain(
         typer.Argument(
             metavar="WORD",
             show_default=False,
-            help="A feedback code, report field, verdict, argument, theorem or constraint type.",
+            help="A feedback code, report field, verdict, argument, theorem, constraint type or section of a scene.",
             autocompletion=options.explained,
         ),
     ] = None,

@@ -1,4 +1,4 @@
-"""The meaning of words: codes of feedback, fields, verdicts, arguments, theorems, types and labels."""
+"""The meaning of words: codes of feedback, fields, verdicts, arguments, theorems, sections, types and labels."""
 
 from __future__ import annotations
 

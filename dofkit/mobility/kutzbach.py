@@ -141,7 +141,7 @@ def _of_screws(system: System, joints: Sequence[CountedJoint], freedom: int, dra
         numbers = f"{span}({bodies + 1} - 1 - {len(joints)}) + {total}{f' - {driven}' if driven else ''} = {count}"
         return (
             f"the joint screws form a {span}-system, not a {whole}-system; "
-            f"with {span} for {whole} the count is {numbers}"
+            f"with {span} in place of {whole} the count is {numbers}"
         )
     told = []
     loops = _loops(joints)

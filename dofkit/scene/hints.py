@@ -77,10 +77,10 @@ def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fa
         for fault in faults
         if not (fault.where and "needs" in fault.message and (fault.where[:-1], fault.where[-1]) in meant)
     ]
-    refused = {_name_at(value, fault.where) for fault in kept if fault.message.startswith("the name h")}
-    kept = [
-        fault for fault in kept if not (match := _MEANT_NAME.fullmatch(fault.hint or "")) or match[1] not in refused
-    ]
+    refused = tuple(
+        _name_at(value, fault.where) for fault in kept if re.match("the name h|.* cannot be the name of", fault.message)
+    )
+    kept = [f for f in kept if not ((match := _MEANT_NAME.fullmatch(f.hint or "")) and match[1].endswith(refused))]
     kept = _undeclared_at_once(kept, value)
     first: dict[Path, Fault] = {}
     for fault in sorted(kept, key=lambda fault: not fault.message.startswith(UNKNOWN_KEY)):
@@ -93,10 +93,15 @@ def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fa
 
 
 def _name_at(value: Any, where: Path) -> str:
-    """Return the name at a path, which is a key or a text."""
-    for key in where[:-1]:
-        value = value[key] if isinstance(value, (Mapping, list, tuple)) else None
-    return str(value[where[-1]] if isinstance(value, (list, tuple)) and isinstance(where[-1], int) else where[-1])
+    """Return the name that a path leads to, which is a key or a text; a name stands for its owner."""
+    found: Any = value
+    for key in where:
+        if isinstance(found, Mapping):
+            part = found.get(key)
+            found = part if key == "name" or isinstance(part, (Mapping, list, tuple)) else key
+        elif isinstance(found, (list, tuple)) and isinstance(key, int):
+            found = found[key]
+    return str(found)
 
 
 def _undeclared_at_once(faults: list[Fault], value: Mapping[str, Any]) -> list[Fault]:

@@ -5,11 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import dofkit
-from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock
-from dofkit.expressions.tree import coordinate
-from dofkit.relations.answer import Answer, AnsweredPart
-from dofkit.relations.blocks import Block, Row
-from dofkit.relations.normal.pieces import Finite
 
 
 def told(coordinates: str, *constraints: str, **more: Any) -> dofkit.Report:
@@ -79,19 +74,3 @@ def test_a_fault_of_a_text_like_others_is_told_at_its_place() -> None:
         faults = [(f.where[1], f.column, f.message) for f in error.faults]
     assert [(place, column) for place, column, _ in faults] == [(2, 15), (3, None)]
     assert "`dq`" in faults[0][2]
-
-
-def test_a_twin_is_told_its_own_names_rows_and_constraints() -> None:
-    """What was answered of x, y by the constraints 3 and 5, told of v, u by 8 and 7."""
-    first, second = Row(3, Finite(coordinate("x") - 1)), Row(5, Finite(coordinate("y") - coordinate("x")))
-    third, fourth = Row(8, Finite(coordinate("v") - 1)), Row(7, Finite(coordinate("u") - coordinate("v")))
-    part = AnsweredPart(Block(("y",), (second,)), Answer(witness={coordinate("y"): "1"}))
-    whole = Answer(hidden=[coordinate("x") + 2], dependent=("x", "y"), conflict=(3, 5), parts=(part,))
-    told = AnsweredBlock(Block(("x", "y"), (first, second)), ("x", "y"), whole).told_of(
-        Block(("v", "u"), (third, fourth)), ("v", "u")
-    )
-    assert (told.hidden, told.dependent, told.conflict) == ([coordinate("v") + 2], ("v", "u"), (7, 8))
-    assert told.parts is not None
-    assert told.parts[0].block == Block(("u",), (fourth,))
-    assert told.parts[0].block.rows[0] is fourth
-    assert told.parts[0].answer.witness == {coordinate("u"): "1"}

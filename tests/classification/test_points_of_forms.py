@@ -3,30 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 
 import dofkit
-from dofkit.classification.freedom import block
-from dofkit.configuration.variety import Variety
-from dofkit.integrability.pfaffian_system import Codistribution
-from dofkit.relations.setting import Setting
-
-
-@pytest.mark.parametrize("there", [True, False])
-def test_a_real_point_that_is_not_certified_decides_nothing(there: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    points = block._points
-
-    def uncertain(forms: Codistribution, setting: Setting) -> Variety:
-        found = points(forms, setting)
-        assert found.real is not None
-        return replace(found, samples=[], real=replace(found.real, certified=False) if there else None)
-
-    monkeypatch.setattr(block, "_points", uncertain)
-    report = dofkit.classify({"coordinates": ["x", "y", "z"], "constraints": ["x^2 + y^2 = 1", "zdot = y xdot"]})
-    assert (report.dof, report.verdict) == (None, "undecided")
 
 
 @pytest.mark.parametrize(

@@ -8,10 +8,10 @@ import random
 import pytest
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.renaming import Renaming, Template, coordinates_in, kinds_in, order_of, renamed, shape_of
+from dofkit.expressions.renaming import Renaming, Template, shape_of
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.text.patterns import pattern_of
-from dofkit.expressions.tree import TIME, Expr, coordinate, differential, fn, parameter, velocity
+from dofkit.expressions.tree import Expr, coordinate, fn, parameter, velocity
 
 NAMES = Names(
     coordinates=frozenset({"x", "y", "z", "u", "v", "w", "d", "e5", "x1", "theta", "phi", "x0"}),
@@ -26,36 +26,10 @@ def read(text: str) -> list[Expr]:
     return [side for c in parse_relations(text, NAMES) for side in (c.left, c.right)]
 
 
-def test_a_shape_has_the_names_in_the_order_in_which_they_occur() -> None:
-    x, y = coordinate("x"), coordinate("y")
-    shape = shape_of(velocity("y") + parameter("R") * fn("cos", x) + y)
-    assert (shape.names, shape.kept) == (("y", "x"), ("R",))
-    assert shape.order == ("R", 1, 0)
-
-
 def test_a_coordinate_that_occurs_twice_is_no_two_coordinates() -> None:
     twice = shape_of(fn("sin", coordinate("x")) + coordinate("x")).skeleton
     once = shape_of(fn("sin", coordinate("x")) + coordinate("y")).skeleton
     assert twice != once
-
-
-def test_geometry_left_out_is_a_name_and_a_parameter_is_none() -> None:
-    x = coordinate("x")
-    assert shape_of(x * parameter("_L3")).skeleton == shape_of(x * parameter("_L17")).skeleton
-    assert shape_of(x * parameter("_L3")).skeleton != shape_of(x * parameter("_a3")).skeleton
-    assert shape_of(x * parameter("R")).skeleton != shape_of(x * parameter("a")).skeleton
-
-
-def test_the_order_tells_where_names_that_are_kept_stand() -> None:
-    assert order_of(("b", "c"), ("a",)) != order_of(("b", "c"), ("bb",))
-
-
-def test_renaming_keeps_shapes() -> None:
-    e = coordinate("x") * fn("sin", velocity("y") + 1)
-    shape_of(e)
-    made = renamed(e, {"x": "u", "y": "v"})
-    assert made == coordinate("u") * fn("sin", velocity("v") + 1)
-    assert made.shape.names == ("u", "v")
 
 
 def test_a_template_tells_what_is_asked_before_it_is_looked_into() -> None:
@@ -71,22 +45,6 @@ def test_a_template_tells_what_is_asked_before_it_is_looked_into() -> None:
     assert made - written == template.with_symbols([u, v]) * 0
     assert pickle.loads(pickle.dumps(template.of(("u", "v")))) == written
     assert template.of(("v", "u")) != written
-
-
-def test_what_occurs_is_told_by_the_shape_too() -> None:
-    """Of the names _s and x are those of coordinates, whose value or rate occurs; z occurs as a differential only."""
-    e = coordinate("_s") * velocity("x") + differential("z") * parameter("_L1") + TIME * parameter("R")
-    kinds = {"coordinate", "velocity", "differential", "parameter", "time"}
-    assert (coordinates_in(e), kinds_in(e)) == ({"_s", "x"}, kinds)
-    shape_of(e)
-    assert (coordinates_in(e), kinds_in(e)) == ({"_s", "x"}, kinds)
-    made = Template(e).of(["u", "v", "w", "_L7"] if e.shape.names[3] == "_L1" else ["u", "v", "_L7", "w"])
-    assert (coordinates_in(made), kinds_in(made)) == ({"u", "v"}, kinds)
-
-
-def test_a_template_of_one_symbol_is_that_symbol() -> None:
-    assert Template(velocity("x")).of(("u",)) == velocity("u")
-    assert Template(parameter("R")).of(()) == parameter("R")
 
 
 #: Texts that are the same up to names.

@@ -305,7 +305,7 @@ def test_results_within_the_folder_are_no_submissions(
         ("native", "g.html", "the endings are .jsonl"),
         ("canvas", "g.json", "--format canvas does not write"),
         ("moodle", "grades", "has no ending: name a file that ends in .csv"),
-        ("html", "g.html", "name one without an ending"),
+        ("html", "g.html", "give a name without an ending"),
     ],
 )
 def test_an_ending_that_does_not_fit_is_an_error(

@@ -169,3 +169,21 @@ def test_angles_are_proposed_for_points_on_circles_and_spheres(key: Key, angles:
 
 def test_a_first_assignment_offers_the_angle_of_a_pendulum() -> None:
     assert "also:\n    theta: atan2(x_P, -y_P)" in starting(["simple-pendulum-link"])
+
+
+def test_a_correct_answer_is_told_in_the_offered_coordinates() -> None:
+    problem = {"id": "p", "scene": SCENE, "also": ANGLE, "questions": [{"id": "q", "ask": "motion"}]}
+    prepared = load_assignment({"title": "One", "feedback": "full", "problems": [problem]})
+    told = item(prepared, "thetaddot = g/l sin(theta)").feedback
+    assert told.startswith("This equation is not satisfied by the motion. A correct answer is")
+    assert "thetaddot" in told
+    assert "x" not in re.findall(r"\w+", told.partition("A correct answer is")[2])
+
+
+def test_what_can_be_read_in_two_ways_keeps_its_latex_commands_whole() -> None:
+    scene = {"coordinates": ["x", "theta", "phi"], "parameters": {"R": "positive"}}
+    wheel = {**scene, "constraints": [{"name": "c", "type": "equation", "text": "x = R phi cos(theta)"}]}
+    problem = {"id": "p", "scene": wheel, "questions": [{"id": "q", "ask": "equation", "constraint": "c"}]}
+    found = item(load_assignment({"title": "One", "problems": [problem]}), r"x = R\cos\theta\,\varphi")
+    assert found.read_as == "x = R*cos(theta*phi) or x = R*cos(theta)*phi"
+    assert [way.score for way in found.readings] == [0.0, 1.0]

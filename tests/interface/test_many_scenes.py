@@ -100,7 +100,8 @@ def test_what_cannot_be_read_and_what_is_otherwise_than_expected_is_counted(
     assert "right by their own answers: 1 of 2\n  otherwise than they expect: wrong\n" in out
     assert "there is no file 'nonsense'" in err
     assert (
-        "Otherwise than the scene expects\n  ! dof: 2 expected, 1 told\n" in called(capsys, "classify", str(wrong))[1]
+        "Differs from what the scene expects\n  ! dof: 2 expected, but the report has 1\n"
+        in called(capsys, "classify", str(wrong))[1]
     )
 
 

@@ -76,7 +76,7 @@ def test_why_kutzbach_errs_is_the_span_of_the_screws(name: str, span: int) -> No
     assert found is not None
     assert found.differs is not None
     assert f"the joint screws form a {span}-system" in found.differs
-    assert f"with {span} for 6" in found.differs
+    assert f"with {span} in place of 6" in found.differs
 
 
 def test_what_is_counted_besides_joints_is_said() -> None:
@@ -463,7 +463,7 @@ def test_a_driven_count_adds_up() -> None:
 def test_both_counts_and_why_they_err_are_shown() -> None:
     text = " ".join(as_text(sheet_of_report(told("sarrus-linkage")), Screen(200)).split())
     assert "Gruebler-Kutzbach M = 6(N - 1 - j) + sum f = 6(6 - 1 - 6) + 6 = 0" in text
-    assert "with 5 for 6 the count is 5(6 - 1 - 6) + 6 = 1" in text
+    assert "with 5 in place of 6 the count is 5(6 - 1 - 6) + 6 = 1" in text
     assert "generic mobility 0 " in text
     assert "1 of its 5 equations is implied by the preceding ones: no rotation about (0, 0, 1)" in text
 

@@ -157,7 +157,10 @@ SHOWN: dict[str, tuple[str, str]] = {
     "bodies of a joint": ("bodies: [a, b]\nconstraints: [{type: weld, bodies: [a, b]}]", "between: [a, b]}`"),
     "members held": ("particles: [A]\nconstraints: [{type: fixed, members: [A]}]", "`{type: fixed, point: A}`"),
     "a key in capitals": ("particles: [A, B]\nconstraints: [{Type: link, between: [A, B]}]", "`{type: link, between"),
-    "a type that is a list": ("particles: [A, B]\nconstraints: [{type: [link], length: 2, between: [A, B]}]", "length: 2,"),
+    "a type that is a list": (
+        "particles: [A, B]\nconstraints: [{type: [link], length: 2, between: [A, B]}]",
+        "length: 2,",
+    ),
     "a mass that is no unit": ("coordinates: [x]\nenergies: {kinetic: 1/2 m xdot^2}", "declare `parameters: [m]`"),
     "an undeclared name": ("coordinates: [x]\nconstraints: [Q = x]", "`coordinates: [Q]`, or `parameters: [Q]`"),
     "a unit": ("parameters: {l: 50 cm}", "`50`"),

@@ -157,15 +157,22 @@ def test_the_hunt_counts_what_it_looks_at() -> None:
     assert "linear/positions" in hunt.summary()
 
 
+#: Forms that integrate or do not, with others or alone.
+FORMS = ("charts/mixed forms", "charts/chained forms", "charts/forms together")
+
+
 def short() -> list[Any]:
     """Two of every kind that is not open: as it is made, and in a disguise (most of these in the sweep, as those of
-    the charts' families, of which tests/benchmark asks)."""
+    the charts' families, of which tests/benchmark asks, but for forms)."""
     worn = list(DISGUISES)
     kinds = [(k, kind) for k, kind in enumerate(KINDS) if kind not in OPEN]
     plainly = [(Trial(kind, 1, 0), k % 2) for k, kind in kinds]
     disguised = [(Trial(kind, 2, 0, ((worn[k % len(worn)], k),)), k % 4) for k, kind in kinds]
     trials = [*plainly, *disguised]
-    return [swept(trial) if rare or trial.kind.startswith("charts") else trial for trial, rare in trials]
+    return [
+        swept(trial) if rare or (trial.kind.startswith("charts") and "forms" not in trial.kind) else trial
+        for trial, rare in trials
+    ] + [Trial(kind, seed, 2, (("moved", seed), ("sheared", seed))) for kind in FORMS for seed in range(4)]
 
 
 @pytest.mark.parametrize("trial", short(), ids=str)

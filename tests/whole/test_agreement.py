@@ -3,57 +3,37 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Callable
 
 import pytest
+from shared.known_scenes import swept
 
 import dofkit
-from dofkit.benchmark.trials.frameworks import Framework
 from dofkit.benchmark.trials.random_systems import RandomBodies, coarse, dependent, graph, loop, tree
 from dofkit.methods.names import MethodName
 from dofkit.methods.table import METHODS
 from dofkit.report import Report
 
 DIMENSIONS = (1, 2, 3)
+Draw = Callable[[random.Random, int, int], RandomBodies]
 #: dofkit's own engines, together and alone.
 BY_ENGINES = tuple(name for name, method in METHODS.items() if method.engines)
-GRAPHS, CLASSIFIED, BODIES = 700, 14, 12
+#: How many are drawn, and in the sweep.
+FEW, MANY = 8, 60
+every_dimension = pytest.mark.parametrize(
+    ("dimension", "many"), [case for d in DIMENSIONS for case in ((d, FEW), swept(d, MANY))]
+)
 
 
 def classified(scene: dict[str, object], method: MethodName = "auto") -> Report:
     return dofkit.classify(dofkit.load(dict(scene)), method=method)
 
 
-def redundant_bars(drawn: Framework) -> list[int]:
-    """By the graph alone; of two bars between one pair the later."""
-    left = [frozenset(link) for link in dofkit.redundant_links(drawn.bars, drawn.dimension)]
-    found = []
-    for i in range(len(drawn.bars) - 1, -1, -1):
-        pair = frozenset(drawn.bars[i])
-        if pair in left:
-            left.remove(pair)
-            found.append(i)
-    return sorted(found)
-
-
-@pytest.mark.sweep
-@pytest.mark.parametrize("dimension", DIMENSIONS)
-def test_the_graph_agrees_with_the_matrix_in_general_position(dimension: int) -> None:
-    """The same redundant bars by name, the same freedom by exact rank, by a random prime and by singular values."""
-    rng = random.Random(f"graphs {dimension}")
-    for _ in range(GRAPHS):
-        drawn = graph(rng, dimension, rng.randrange(2, 9), twice=True)
-        redundant = dependent(drawn)
-        assert redundant_bars(drawn) == redundant
-        assert drawn.by_graph() == drawn.by_rank() == drawn.coordinates - len(drawn.bars) + len(redundant)
-        assert drawn.by_prime(2**61 - 1) == drawn.by_svd() == drawn.by_rank()
-
-
-@pytest.mark.sweep
-@pytest.mark.parametrize("dimension", DIMENSIONS)
-def test_scenes_agree_with_the_graph_in_general_position(dimension: int) -> None:
+@every_dimension
+def test_scenes_agree_with_the_graph_in_general_position(dimension: int, many: int) -> None:
     """Without positions, and with random ones; by both engines and by each alone."""
     rng = random.Random(f"scenes {dimension}")
-    for _ in range(CLASSIFIED):
+    for _ in range(many):
         drawn = graph(rng, dimension, rng.randrange(2, 7))
         redundant = [f"bar{i}" for i in dependent(drawn)]
         dof = drawn.by_rank()
@@ -67,13 +47,12 @@ def test_scenes_agree_with_the_graph_in_general_position(dimension: int) -> None
         assert (report.instantaneous_dof, report.singular) == (dof, False)
 
 
-@pytest.mark.sweep
-@pytest.mark.parametrize("dimension", [*DIMENSIONS[:-1], pytest.param(DIMENSIONS[-1], marks=pytest.mark.sweep)])
-def test_special_positions(dimension: int) -> None:
+@pytest.mark.parametrize(("dimension", "many"), [(1, FEW), (2, FEW), *(swept(d, MANY) for d in DIMENSIONS)])
+def test_special_positions(dimension: int, many: int) -> None:
     """On a small grid: velocities by the exact rank; freedom between that and the count, by each engine."""
     rng = random.Random(f"grid {dimension}")
     undecided = 0
-    for _ in range(CLASSIFIED):
+    for _ in range(many):
         drawn = coarse(rng, graph(rng, dimension, rng.randrange(3, 7)))
         first = drawn.by_rank()
         reports = [classified(drawn.scene(), method) for method in BY_ENGINES]
@@ -85,7 +64,7 @@ def test_special_positions(dimension: int) -> None:
         for dof in known:
             assert max(drawn.by_count(), 0) <= dof <= first
             assert dof == first or dependent(drawn)
-    assert undecided <= CLASSIFIED // 6
+    assert undecided <= many // 6
 
 
 def agrees(bodies: RandomBodies) -> None:
@@ -101,15 +80,9 @@ def agrees(bodies: RandomBodies) -> None:
 
 
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_trees_of_bodies(dimension: int) -> None:
-    rng = random.Random(f"trees {dimension}")
-    for _ in range(BODIES):
-        agrees(tree(rng, dimension, rng.randrange(1, 8)))
-
-
-@pytest.mark.sweep
-@pytest.mark.parametrize("dimension", [2, 3])
-def test_loops_of_bodies(dimension: int) -> None:
-    rng = random.Random(f"loops {dimension}")
-    for _ in range(BODIES):
-        agrees(loop(rng, dimension, rng.randrange(1, 7)))
+@pytest.mark.parametrize("make", [tree, loop])
+@pytest.mark.parametrize("many", [FEW, swept(MANY)])
+def test_trees_and_loops_of_bodies(make: Draw, dimension: int, many: int) -> None:
+    rng = random.Random(f"{make.__name__} {dimension}")
+    for _ in range(many):
+        agrees(make(rng, dimension, rng.randrange(1, 7)))

@@ -155,11 +155,9 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
     names = [in_words(written[k], r.constraint.text) for k in sorted(following)]
     reason = made.reason
     if names and made.equations > 1:
-        implied = f"{len(names)} of its" if made.independent else "All of its"
+        few = f"{len(names)} of its {made.equations}" if made.independent else f"All {made.equations} of its"
         number = len(names) if made.independent else made.equations
-        reason += (
-            f" {implied} {made.equations} equations {verb(number)} implied by the preceding ones: {'; '.join(names)}."
-        )
+        reason += f" {few} equations {verb(number)} implied by the preceding ones: {'; '.join(names)}."
     return made.model_copy(update={"redundant_equations": names, "reason": reason})
 
 

@@ -39,6 +39,12 @@ class Criterion:
     decide: Callable[[Germ], Conclusion | None]
 
 
+#: What each conclusion means.
+CONCLUSIONS = {
+    "motion": "infinitesimal motions extend to finite motions",
+    "rigidity": "there is no finite motion but the rigid motions of the system",
+    "nothing": "no conclusion",
+}
 CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "independent relations",

@@ -1,10 +1,12 @@
-"""Several expressions as one program over boxes: bounds of all values, forward and backward, and of derivatives.
+"""Several expressions as one program over boxes: bounds of all values, forward and backward.
 
-Running it backward narrows the arguments of every step to those for which it can have its result (hull consistency).
+What running it forward leaves out of a box is proved to be no value there [Moore1966]. Running it backward narrows the
+arguments of every step to those for which it can have its result (hull consistency).
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -16,7 +18,8 @@ from dofkit.exact.errors import raising_no_value
 from dofkit.expressions.tree import Expr
 
 HALF_TURNS: Interval = (-3.1415926535897936, 3.1415926535897936)
-
+#: Sweeps over one box, and the share of some width that a sweep has to remove for another to follow.
+SWEEPS, WORTH = 12, 0.05
 
 Box = list[Interval]
 
@@ -44,7 +47,6 @@ class BoxProgram:
         self.roots = [(self._node(e), interval) for e, interval in wanted]
         self.place = {self.nodes[i].data: i for i in range(len(self.nodes)) if self.nodes[i].op == "var"}
         self.var_nodes = [self.place[k] for k in range(len(self.variables))]
-        self.equations = [node for node, interval in self.roots if interval == (0.0, 0.0)]
         self.work = 0
 
     # -- the program ----------------------------------------------------------------------------
@@ -167,40 +169,20 @@ class BoxProgram:
         """Is every step defined for all arguments in the box?"""
         return all(_defined(node, at[node.args[0]]) for node in self.nodes if len(node.args) == 1)
 
-    # -- derivatives ----------------------------------------------------------------------------------
+    @raising_no_value
+    def contract(self, box: Box) -> Box:
+        """Return the part of the box that running forward and backward leaves. Raises EmptyError where that is nothing.
 
-    def gradient(self, root: int, at: list[Interval]) -> list[Interval]:
-        """Bounds of the derivatives of one root by every variable over the box."""
-        bars: dict[int, Interval] = {root: (1.0, 1.0)}
-        found: list[Interval] = [(0.0, 0.0)] * len(self.variables)
-        for i in range(root, -1, -1):
-            bar = bars.pop(i, None)
-            if bar is None:
-                continue
-            node = self.nodes[i]
-            if node.op == "var":
-                found[node.data] = bar
-            for j, slope in self._slopes(node, at, i):
-                part = iv.mul(bar, slope)
-                bars[j] = iv.add(bars[j], part) if j in bars else part
-        return found
-
-    def _slopes(self, node: Node, at: list[Interval], i: int) -> list[tuple[int, Interval]]:
-        op, args = node.op, node.args
-        if op == "add":
-            return [(j, (1.0, 1.0)) for j in args]
-        if op == "mul":
-            found = []
-            for k, j in enumerate(args):
-                others: Interval = (1.0, 1.0)
-                for other, m in enumerate(args):
-                    if other != k:
-                        others = iv.mul(others, at[m])
-                found.append((j, others))
-            return found
-        if op == "atan2":
-            return [(j, iv.WHOLE) for j in args]
-        return [(args[0], _slope(node, at[args[0]], at[i]))] if args else []
+        Every solution in the box is in what is returned, so that EmptyError is a proof that there is none.
+        """
+        for _ in range(SWEEPS):
+            at = self.forward(box)
+            self.backward(at)
+            narrower = [at[i] for i in self.var_nodes]
+            if not _is_worth_another(box, narrower):
+                break
+            box = narrower
+        return narrower
 
 
 def _of_one(node: Node, x: Interval) -> Interval:
@@ -224,43 +206,11 @@ def _defined(node: Node, x: Interval) -> bool:
     return node.op != "fn" or node.data != "log" or x[0] > 0.0
 
 
-def _slope(node: Node, x: Interval, value: Interval) -> Interval:
-    """Bounds of the derivative of a step with one argument."""
-    if node.op == "pow":
-        power = iv.integer_power(x, node.data - 1) if node.data > 1 else (1.0, 1.0)
-        return iv.mul((float(node.data), float(node.data)), power)
-    if node.op == "inverse":
-        return iv.negative(iv.integer_power(value, 2))
-    if node.op == "root":
-        below = iv.mul((float(node.data), float(node.data)), iv.integer_power(value, node.data - 1))
-        return _inverse(below)
-    return _function_slope(node.data, x, value)
-
-
-def _inverse(a: Interval) -> Interval:
-    parts = iv.inverse(a)
-    return iv.hull(parts) if parts and not a[0] < 0.0 < a[1] else iv.WHOLE
-
-
-def _function_slope(name: str, x: Interval, value: Interval) -> Interval:
-    square = iv.integer_power(x, 2)
-    if name == "exp":
-        return value
-    if name in ("sin", "cos"):
-        other = functions.function("cos" if name == "sin" else "sin", x)
-        return other if name == "sin" else iv.negative(other)
-    if name in ("sinh", "cosh"):
-        return functions.function("cosh" if name == "sinh" else "sinh", x)
-    if name == "tan":
-        return iv.add((1.0, 1.0), iv.integer_power(value, 2))
-    if name == "tanh":
-        return iv.meet(iv.minus((1.0, 1.0), iv.integer_power(value, 2)), (0.0, 1.0))
-    if name == "log":
-        return _inverse(x)
-    if name == "atan":
-        return _inverse(iv.add((1.0, 1.0), square))
-    if name in ("asin", "acos"):
-        inside = iv.minus((1.0, 1.0), square)
-        slope = _inverse(iv.root((max(inside[0], 0.0), max(inside[1], 0.0)), 2))
-        return slope if name == "asin" else iv.negative(slope)
-    return ((1.0, 1.0) if x[0] > 0 else (-1.0, -1.0) if x[1] < 0 else (-1.0, 1.0)) if name == "abs" else iv.WHOLE
+def _is_worth_another(old: Box, new: Box) -> bool:
+    """Return whether some interval lost a share of its width, or became finite."""
+    for (a, b), (c, d) in zip(old, new, strict=True):
+        if (a == -math.inf and c > a) or (b == math.inf and d < b):
+            return True
+        if b - a < math.inf and d - c < (1 - WORTH) * (b - a):
+            return True
+    return False

@@ -129,7 +129,7 @@ def ask_extent(parser: TextReader, token: Token, first: Token) -> NoReturn:
     follows = parser.text[beyond.end : beyond.end + 1]
     plain = parser.tokens[parser.at - 1].kind != ")" and beyond.kind in ("value", "number")
     closed = plain and (not follows or follows in " +-,=<>)]}")
-    span = (parser.columns[token.start], parser.columns[beyond.end - 1] + 1)
+    span = (parser.columns[token.start], parser.columns[beyond.end])
     told = f"it is not clear how far the argument of `{name}` reaches"
     raise AmbiguousError(told, parser.columns[after.start], hint, ways if closed else (), span)
 

@@ -149,7 +149,7 @@ class Parser(PrimaryReader):
         whole = self.source(first.start, self.last.end)
         readings = (f"({above}/{below})*{beside}", f"{above}/({below}*{beside})")
         hint = f"write `{readings[0]}` or `{readings[1]}`"
-        start, end = self.columns[first.start], self.columns[self.last.end - 1] + 1
+        start, end = self.columns[first.start], self.columns[self.last.end]
         column = self.columns[token.start]
         raise AmbiguousError(f"`{whole}` can be read in two ways", column, hint, readings, (start, end))
 

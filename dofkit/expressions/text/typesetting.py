@@ -132,8 +132,11 @@ def _one(mathml: str) -> str:
 
 
 def _in_parentheses(inner: Typeset) -> Typeset:
-    mathml = f"<mrow><mo>(</mo>{inner.mathml}<mo>)</mo></mrow>"
-    return Typeset(rf"\left({inner.latex}\right)", mathml, (inner.latex, inner.mathml))
+    if "<mfrac>" in inner.mathml:
+        mathml = f"<mrow><mo>(</mo>{inner.mathml}<mo>)</mo></mrow>"
+        return Typeset(rf"\left({inner.latex}\right)", mathml, (inner.latex, inner.mathml))
+    mathml = f'<mrow><mo stretchy="false">(</mo>{inner.mathml}<mo stretchy="false">)</mo></mrow>'
+    return Typeset(f"({inner.latex})", mathml, (inner.latex, inner.mathml))
 
 
 def _operator(latex: str, shown: str) -> Typeset:

@@ -235,7 +235,7 @@ def _is_remark(text: str) -> bool:
 
 
 def _refused(script: Script) -> Fraction | None:
-    raise TextError("this is no number", script.columns[0], _HINT)
+    raise TextError("this is not a number", script.columns[0], _HINT)
 
 
 def _counted(match: re.Match[str], leads: bool) -> str:
@@ -259,5 +259,5 @@ def _arithmetic(script: Script) -> Fraction:
         raise script.moved(TextError(error.message, error.column, _HINT)) from None
     value = found[0].left
     if len(found) > 1 or value.op != "num" or not isinstance(value.args[0], Fraction):
-        raise TextError("this is no number", script.columns[0], _HINT)
+        raise TextError("this is not a number", script.columns[0], _HINT)
     return value.args[0]

@@ -167,7 +167,7 @@ def read_labels(answer: Given) -> Labels:
     if found and negated:
         raise DoubtError("it is not clear what is negated.", given[-1].column, _HINT)
     if unread is not None or not found:
-        told = f"'{unread.text[:40]}' is no label" if unread is not None else "there is no label in this answer"
+        told = f"'{unread.text[:40]}' is not a label" if unread is not None else "there is no label in this answer"
         raise TextError(told, unread.column if unread is not None else 1, _HINT)
     return found
 

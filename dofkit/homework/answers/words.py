@@ -50,7 +50,7 @@ def _number_text(answer: float | Fraction) -> str:
     try:
         return as_written(exact(answer))
     except (PydanticCustomError, ArithmeticError, ValueError):
-        raise TextError(f"'{str(answer)[:40]}' is no number", 1, "write a number such as 3") from None
+        raise TextError(f"'{str(answer)[:40]}' is not a number", 1, "write a number such as 3") from None
 
 
 @dataclass(frozen=True)

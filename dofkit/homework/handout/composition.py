@@ -18,7 +18,7 @@ from dofkit.homework.key.key import Key
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.questions.equations import EquationQuestion
-from dofkit.homework.sentences.said import Language, say
+from dofkit.homework.sentences.said import Language, described, say
 from dofkit.homework.statement import ALL, filled, marked, places, shown
 from dofkit.scene.fields import as_written
 from dofkit.scene.names import coordinate_table
@@ -70,7 +70,7 @@ class SheetComposer:
         whole = sum((q.points for q in problem.questions), Fraction(0))
         yield f"## {n}. {marked(problem.title or problem.id)} ({self._points(whole)})"
         if problem.text is not None:
-            yield filled(problem.text, key.scene, asked_equations(problem)).strip()
+            yield filled(problem.text, key.scene, asked_equations(problem), self.language).strip()
         figure = self.figures.get(problem.id)
         if figure is not None:
             caption = self.told("Figure {number}", number=n)
@@ -110,7 +110,7 @@ class SheetComposer:
             yield self.told("{names}: unknown smooth function.", names=f"${name}({', '.join(arguments)})$")
         if (ALL, None) not in places(problem.text or ""):
             yield from self._constraints(key, asked_equations(problem))
-            yield from map(_of_force, key.scene.forces)
+            yield from map(self._force, key.scene.forces)
         yield from self._further(problem, key)
 
     def _constraints(self, key: Key, hidden: set[str]) -> Iterator[str]:
@@ -118,7 +118,20 @@ class SheetComposer:
             if constraint.facts.written and name in hidden:
                 yield self.told("{names}: constraint.", names=f"`{name}`")
             else:
-                yield f"`{name}`: {shown(constraint)}"
+                yield f"`{name}`: {shown(constraint, self.language)}"
+
+    def _force(self, force: Force) -> str:
+        if force.type == "gravity" and isinstance(force.acceleration, str):
+            return self.told(
+                "Gravity acts on all masses, with the acceleration {value}.", value=f"${force.acceleration}$"
+            )
+        if force.type == "gravity":
+            return self.told("Gravity acts on all masses.")
+        ends = [*(force.between or ()), *([] if force.point is None else [force.point])]
+        where = "-".join(show_point(end) for end in ends) or force.body or ""
+        sizes = {"stiffness": force.stiffness, "rest length": force.rest_length, "damping": force.damping}
+        known = "".join(f", {word} {as_written(value)}" for word, value in sizes.items() if value is not None)
+        return marked(described(f"{force.type} {where}{known}".strip(), self.language))
 
     def _further(self, problem: Problem, key: Key) -> Iterator[str]:
         for name, text in problem.also.items():
@@ -136,7 +149,8 @@ class SheetComposer:
         for cls in kinds.values():
             example = safe_example(self.prepared, cls)
             lead = self.told("Example (for a different system):")
-            yield self.told(cls.how) + (f" {lead} `{example}`" if example is not None else "")
+            shown = "" if example is None else f" {lead} `{self.told('{text}', text=example)}`"
+            yield self.told(cls.how) + shown
         yield self.told("Greek letters may be typed directly or as words such as theta and omega. LaTeX is accepted.")
         yield self.told(
             "Decimals are written with a point or a comma; exact numbers such as 1/3 or sqrt(2) are preferred."
@@ -156,9 +170,3 @@ def safe_example(prepared: Prepared, kind: type[QuestionBase]) -> str | None:
         if not any(q.reveals(grader.judge(f"{p.id} {q.id} {example}", p, q, example, {})[0]) for p, q in places):
             return example
     return None
-
-
-def _of_force(force: Force) -> str:
-    ends = [*(force.between or ()), *([] if force.point is None else [force.point])]
-    where = ", ".join(show_point(end) for end in ends) or force.body or ""
-    return marked(f"{force.type} {where}".strip())

@@ -10,7 +10,7 @@ _OF_LABELS = {
     "RHEO_MISSED": "Time occurs explicitly in the constraint or in its integral, so it is rheonomic; it was called "
     "scleronomic.",
     "RHEO_NH": "A constraint on velocities was called rheonomic, but time does not occur in it explicitly.",
-    "RHEO_MOVES": "The support of the constraint moves, but time does not occur explicitly: it is scleronomic.",
+    "RHEO_MOVES": "A constraint in which time does not occur explicitly was called rheonomic.",
     "EQ_AS_INEQ": "An equation, which is bilateral, was called unilateral.",
     "HOLONOMIC_MISSED": "A relation between coordinates (and possibly time) was called non-holonomic.",
     "NH_MISSED": "A constraint on velocities that is not integrable was called holonomic.",
@@ -51,6 +51,7 @@ _OF_MOTION = {
     "WRONG_MOMENTUM": "Not the derivative of the Lagrangian with respect to that velocity.",
     "WRONG_FORCE": "Not the derivative of the Lagrangian with respect to that coordinate plus non-potential forces.",
     "WRONG_MOTION": "An equation that is not satisfied by the motion.",
+    "SMALL_ANGLES": "The equations of motion linearized for small oscillations.",
     "NO_ACCELERATION": "A correct equation that does not determine the acceleration.",
     "INEQUALITY": "An inequality was given instead of an equation of motion.",
     "OTHER_COORDINATE": "The equation of motion of another coordinate.",

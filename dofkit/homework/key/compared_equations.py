@@ -128,7 +128,7 @@ class EquationComparison:
 
     def _declared(self, way: AnswerReading, shown: str = "") -> Judgement:
         if not way.on_coordinates and any(e.symbols for c in way.relations for e in (c.left, c.right)):
-            raise TextError("it says nothing of the coordinates", 1, "write an equation between the coordinates")
+            raise TextError("the answer contains no coordinates", 1, "write an equation between the coordinates")
         if any(s.args[0] == "acceleration" for c in way.relations for e in (c.left, c.right) for s in e.symbols):
             return self._accelerated(way)
         return self._told(way.read(), shown or way.shown)

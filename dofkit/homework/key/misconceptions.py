@@ -53,6 +53,9 @@ def _rod_three(f: SceneCounts) -> Numbers:
 def _plane_forgotten(f: SceneCounts) -> Numbers:
     if f.surfaces.planes and f.d == 3:
         yield f.dof + f.surfaces.planes
+
+
+def _in_space(f: SceneCounts) -> Numbers:
     if f.d == 2 and f.particles:
         yield f.dof + f.particles
 
@@ -102,84 +105,157 @@ def _spatial_grubler(f: SceneCounts) -> Numbers:
         yield 6 * f.bodies - 5 * f.joints
 
 
+_IN_PLANE = "The motion stays in a plane: this is a constraint too."
 #: In the order in which they are likely where several give the same number.
 ERRORS: tuple[Misconception, ...] = (
-    Misconception("ALL_LINKS", (
-        "The distances between more than d + 1 particles in d dimensions are not all independent."
-    ), _all_links),
-    Misconception("ROD_3", (
-        "The masses stay on one straight line: this takes more equations than the distances alone suggest."
-    ), _rod_three),
-    Misconception("NH_SUBTRACT", (
+    Misconception(
+        "ALL_LINKS",
+        "The distances between more than d + 1 particles in d dimensions are not all independent.",
+        _all_links,
+    ),
+    Misconception(
+        "ROD_3",
+        "The masses stay on one straight line: this takes more equations than the distances alone suggest.",
+        _rod_three,
+    ),
+    Misconception(
+        "NH_SUBTRACT",
         "A non-holonomic constraint restricts the velocities only; it does not reduce the dimension of the "
-        "configuration space."
+        "configuration space.",
+        _less(lambda f: f.nonholonomic),
     ),
-                  _less(lambda f: f.nonholonomic)),
-    Misconception("NH_HALF", "A non-holonomic constraint does not remove half a degree of freedom.",
-                  _less(lambda f: Fraction(f.nonholonomic, 2)), True),
-    Misconception("ROLL_NH", (
-        "A differential constraint of this system is integrable: it reduces the number of degrees of freedom."
+    Misconception(
+        "NH_HALF",
+        "A non-holonomic constraint does not remove half a degree of freedom.",
+        _less(lambda f: Fraction(f.nonholonomic, 2)),
+        True,
     ),
-                  _more(lambda f: f.integrable)),
-    Misconception("INEQ_SUBTRACT", (
-        "An inequality bounds the motion but does not reduce the number of degrees of freedom."
+    Misconception(
+        "ROLL_NH",
+        "A differential constraint of this system is integrable: it reduces the number of degrees of freedom.",
+        _more(lambda f: f.integrable),
     ),
-                  _less(lambda f: f.walls)),
-    Misconception("INEQ_AS_EQ", "An inequality is not an equation: within its bound the system moves freely.",
-                  _less(lambda f: f.walls)),
-    Misconception("SPRING", "A spring is not a rod: it exerts a force and is not a constraint.",
-                  _less(lambda f: f.forces.count("spring"))),
-    Misconception("DRIVEN", "A prescribed motion is not a degree of freedom: it is a given function of time.",
-                  _more(lambda f: f.drives)),
-    Misconception("PULLEY", (
+    Misconception(
+        "INEQ_SUBTRACT",
+        "An inequality bounds the motion but does not reduce the number of degrees of freedom.",
+        _less(lambda f: f.walls),
+    ),
+    Misconception(
+        "INEQ_AS_EQ",
+        "An inequality is not an equation: within its bound the system moves freely.",
+        _less(lambda f: f.walls),
+    ),
+    Misconception(
+        "SPRING",
+        "A spring is not a rod: it exerts a force and is not a constraint.",
+        _less(lambda f: f.forces.count("spring")),
+    ),
+    Misconception(
+        "DRIVEN",
+        "A prescribed motion is not a degree of freedom: it is a given function of time.",
+        _more(lambda f: f.drives),
+    ),
+    Misconception(
+        "PULLEY",
         "Check the pulleys and the strings: each inextensible string gives one equation, and each movable "
-        "pulley has its own coordinate."
-    ), _pulley),
-    Misconception("CART_FIXED", "The support moves freely along its guide: its motion is not prescribed.",
-                  _less(lambda f: f.guides if f.dof > 1 else 0)),
-    Misconception("ROD_SPIN", (
-        "Two particles on a rod are not a rigid body: a rotation about the rod's axis changes nothing."
-    ), _more(lambda f: f.bars.rods if f.d == 3 else 0)),
-    Misconception("NO_SPIN", "A rigid body can also rotate about its own axis.",
-                  _less(lambda f: f.bodies + f.bars.clusters if f.d == 3 else 0)),
-    Misconception("PLANE_FORGOT", "The motion stays in a plane: this is a constraint too.", _plane_forgotten),
-    Misconception("CURVE_ONE", "A curve in space is the intersection of two surfaces: it takes two equations.",
-                  _more(lambda f: f.surfaces.surplus)),
-    Misconception("SUM_SQ", "A vanishing sum of squares stands for several equations: each square vanishes.",
-                  _sum_of_squares),
-    Misconception("GROUND", "The ground is a fixed link: it must be counted as a link, but it has no freedom.",
-                  _ground),
-    Misconception("SPATIAL_GRUBLER", (
-        "In the plane a body has three degrees of freedom and a revolute joint removes two."
+        "pulley has its own coordinate.",
+        _pulley,
     ),
-                  _spatial_grubler),
-    Misconception("PLANE_TWICE", "With two coordinates for each particle, the plane is already taken into account.",
-                  _less(lambda f: f.particles if f.d == 2 else 0)),
-    Misconception("BAR_TWO", "A rod between two particles removes one degree of freedom, not two.",
-                  _less(lambda f: f.bars.links)),
-    Misconception("BAR_POINT", "Two particles joined by a rod are not one particle: the rod can rotate.",
-                  _less(lambda f: (f.d - 1) * f.bars.links)),
-    Misconception("PARAM_COUNT", "A parametric curve adds its parameter as one more unknown.",
-                  _less(lambda f: f.surfaces.on_curves)),
-    Misconception("MOTION", (
-        "The trajectory is determined by the forces and the initial conditions: it is not a constraint."
+    Misconception(
+        "CART_FIXED",
+        "The support moves freely along its guide: its motion is not prescribed.",
+        _less(lambda f: f.guides if f.dof > 1 else 0),
     ),
-                  _trajectory),
-    Misconception("CONSERVATION", (
-        "Conservation of energy is a consequence of the equations of motion: it is not a constraint."
+    Misconception(
+        "ROD_SPIN",
+        "Two particles on a rod are not a rigid body: a rotation about the rod's axis changes nothing.",
+        _more(lambda f: f.bars.rods if f.d == 3 else 0),
     ),
-                  _conservation),
-    Misconception("POINT_6", "A particle has no rotational degrees of freedom.",
-                  _more(lambda f: f.particles * (f.body_freedom - f.d))),
-    Misconception("ALL_COUNTED", (
+    Misconception(
+        "NO_SPIN",
+        "A rigid body can also rotate about its own axis.",
+        _less(lambda f: f.bodies + f.bars.clusters if f.d == 3 else 0),
+    ),
+    Misconception("PLANE_FORGOT", _IN_PLANE, _plane_forgotten),
+    Misconception(
+        "CURVE_ONE",
+        "A curve in space is the intersection of two surfaces: it takes two equations.",
+        _more(lambda f: f.surfaces.surplus),
+    ),
+    Misconception(
+        "SUM_SQ", "A vanishing sum of squares stands for several equations: each square vanishes.", _sum_of_squares
+    ),
+    Misconception(
+        "GROUND", "The ground is a fixed link: it must be counted as a link, but it has no freedom.", _ground
+    ),
+    Misconception(
+        "SPATIAL_GRUBLER",
+        "In the plane a body has three degrees of freedom and a revolute joint removes two.",
+        _spatial_grubler,
+    ),
+    Misconception(
+        "PLANE_TWICE",
+        "With two coordinates for each particle, the plane is already taken into account.",
+        _less(lambda f: f.particles if f.d == 2 else 0),
+    ),
+    Misconception(
+        "BAR_TWO", "A rod between two particles removes one degree of freedom, not two.", _less(lambda f: f.bars.links)
+    ),
+    Misconception(
+        "BAR_POINT",
+        "Two particles joined by a rod are not one particle: the rod can rotate.",
+        _less(lambda f: (f.d - 1) * f.bars.links),
+    ),
+    Misconception(
+        "MOTION",
+        "The trajectory is determined by the forces and the initial conditions: it is not a constraint.",
+        _trajectory,
+    ),
+    Misconception(
+        "CONSERVATION",
+        "Conservation of energy is a consequence of the equations of motion: it is not a constraint.",
+        _conservation,
+        alone=True,
+    ),
+    Misconception(
+        "PARAM_COUNT",
+        "A parametric curve adds its parameter as one more unknown.",
+        _less(lambda f: f.surfaces.on_curves),
+        alone=True,
+    ),
+    Misconception(
+        "ALL_COUNTED",
         "Not all of these equations are independent; a dependent equation does not reduce the number of "
-        "degrees of freedom."
-    ), _all_equations, alone=True),
-    Misconception("FIXED_FORGOT", "An equation that fixes one coordinate is a constraint too.",
-                  _more(lambda f: f.surfaces.fixed), alone=True),
-    Misconception("NOT_SUBTRACTED", "This is the number of coordinates: the constraints were not subtracted.",
-                  _no_constraint, True, alone=True),
-)  # fmt: skip
+        "degrees of freedom.",
+        _all_equations,
+        alone=True,
+    ),
+    Misconception(
+        "FIXED_FORGOT",
+        "An equation that fixes one coordinate is a constraint too.",
+        _more(lambda f: f.surfaces.fixed),
+        alone=True,
+    ),
+    Misconception(
+        "NOT_SUBTRACTED",
+        "This is the number of coordinates: the constraints were not subtracted.",
+        _no_constraint,
+        True,
+        alone=True,
+    ),
+    Misconception(
+        "POINT_6",
+        "A particle has no rotational degrees of freedom.",
+        _more(lambda f: f.particles * (f.body_freedom - f.d)),
+        alone=True,
+    ),
+    Misconception(
+        "PLANE_FORGOT",
+        _IN_PLANE,
+        _in_space,
+        alone=True,
+    ),
+)
 
 
 def explain(given: Fraction, ask: str, key: Key) -> tuple[tuple[str, ...], str]:
@@ -190,7 +266,8 @@ def explain(given: Fraction, ask: str, key: Key) -> tuple[tuple[str, ...], str]:
     facts = SceneCounts(key)
     right = report.dof
     wanted = len(key.coordinates) - given if ask == "k" else given
-    if ask == "velocity_dof" or (ask == "dof" and key.convention == "velocity"):
+    by_velocities = ask == "velocity_dof" or (ask == "dof" and key.convention == "velocity")
+    if by_velocities:
         wanted += facts.nonholonomic
     if wanted == right or (ask == "k" and given < 0):
         return (), ""
@@ -216,7 +293,9 @@ def explain_label(part: str, entry: ConstraintEntry, key: Key) -> tuple[str, str
             )
         if entry.form in ("pfaffian", "nonlinear"):
             return "RHEO_NH", "A constraint on velocities is rheonomic only if t occurs explicitly."
-        return "RHEO_MOVES", "It does not matter that the support moves: time does not occur explicitly."
+        return "RHEO_MOVES", (
+            "Time does not occur explicitly in it, so it is scleronomic; that something moves does not matter."
+        )
     if part == "bilateral":
         if entry.bilateral:
             return "EQ_AS_INEQ", "It is an equation, so it is bilateral."

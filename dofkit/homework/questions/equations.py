@@ -93,7 +93,7 @@ class IntegralQuestion(QuestionBase):
     def solution(self, key: Key) -> Sentence:
         entry = key.constraints[self.constraint]
         if entry.holonomic is False:
-            return say("It is not integrable: {reason}", reason=entry.reason)
+            return say("It is not integrable. {reason}", reason=entry.reason)
         return "" if entry.integral is None else say("A correct answer is {text}.", text=entry.integral)
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:

@@ -64,7 +64,7 @@ class LabelQuestion(QuestionBase):
         truth = truths(key.constraints[self.constraint])
         known = [word_of(p, holds) for p in self.parts if (holds := truth[p]) is not None]
         reason = key.constraints[self.constraint].reason
-        return say("The constraint is {labels}: {reason}", labels=", ".join(known), reason=reason) if known else ""
+        return say("The constraint is {labels}. {reason}", labels=", ".join(known), reason=reason) if known else ""
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
         del earlier

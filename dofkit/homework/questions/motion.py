@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import ClassVar, Literal
 
@@ -15,6 +16,7 @@ from dofkit.homework.judgement import HALF, Given, Judgement, Sentence, agreed, 
 from dofkit.homework.key.compared_motion import AnsweredMotion, Followed, same_lagrangian
 from dofkit.homework.key.compared_motion import MotionSameness as Found
 from dofkit.homework.key.key import Key
+from dofkit.homework.key.own_coordinates import offered
 from dofkit.homework.key.posed_motion import PosedMotion, posed_motions
 from dofkit.homework.key.right_motion import RightMotion, is_zero
 from dofkit.homework.questions.base import Earlier, QuestionBase
@@ -59,6 +61,11 @@ class _MotionQuestion(QuestionBase):
         raise NotImplementedError
 
     def solution(self, key: Key) -> Sentence:
+        """Return a correct answer, in the coordinates that the assignment offers where that is possible."""
+        if key.also and getattr(self, "coordinate", None) is None:
+            motion = offered(key, sorted(key.also)).motion
+            if not isinstance(motion, DofkitError) and set(motion.names) <= set(key.also):
+                return self._solution(motion)
         return "" if isinstance(key.motion, DofkitError) else self._solution(key.motion)
 
     def _solution(self, known: RightMotion) -> Sentence:
@@ -217,9 +224,10 @@ class MotionQuestion(_MotionQuestion):
             return needs_review(shown, "it could not be decided whether these are the equations of motion.")
         if found.contradictory:
             return needs_review(shown, "the answer contradicts itself.")
-        if self.coordinate is not None and self.coordinate in known.names:
-            return self._one(answered, found.told, known, shown)
-        return _all(found, known, shown)
+        one = self.coordinate is not None and self.coordinate in known.names
+        if Found.NOT in found.told and _are_linearized(answered, None if one else len(known.names)):
+            return wrong(shown, _LINEARIZED, "SMALL_ANGLES")
+        return self._one(answered, found.told, known, shown) if one else _all(found, known, shown)
 
     def _one(self, answered: AnsweredMotion, told: Sequence[Found], known: RightMotion, shown: str) -> Judgement:
         """One coordinate's equation: it holds that coordinate's acceleration, and is not the equation of another."""
@@ -250,6 +258,16 @@ class MotionQuestion(_MotionQuestion):
         return say("A correct answer is {text}.", text="; ".join(f"{to_text(e)} = 0" for e in chosen))
 
 
+_LINEARIZED = "This is the approximation for small oscillations (small angles); the exact equations are asked for."
+
+
+def _are_linearized(answered: AnsweredMotion, rank: int | None) -> bool:
+    """Return whether all equations are implied by the linearized ones, and determine ``rank`` accelerations."""
+    linearized = answered.known.linearized()
+    found = None if linearized is None else replace(answered, known=linearized).follow()
+    return found is not None and all(t is Found.FOLLOWS for t in found.told) and rank in (None, found.rank)
+
+
 def _all(found: Followed, known: RightMotion, shown: str) -> Judgement:
     """All equations: as many points as accelerations are fixed by those that follow."""
     told, rank = found.told, found.rank
@@ -267,7 +285,9 @@ def _all(found: Followed, known: RightMotion, shown: str) -> Judgement:
         return partly(share, shown, told_why, "WEAKER")
     share = Fraction(max(0, min(rank, wanted - 1)), wanted) if wanted > 1 else (HALF if rank else Fraction(0))
     number = sum(t is Found.NOT for t in told)
-    told_why = say("{number} of the {all} equations are not satisfied by the motion.", number=number, all=len(told))
+    if len(told) == 1:
+        return partly(share, shown, "This equation is not satisfied by the motion.", Found.NOT.value)
+    told_why = say("Equations that are not satisfied by the motion: {number} of {all}.", number=number, all=len(told))
     return partly(share, shown, told_why, Found.NOT.value)
 
 

@@ -68,8 +68,8 @@ class GradingOptions:
         others = [name for name, form in FORMATS.items() if ending in form.endings]
         if others and self.form not in others:
             raise FormatError(
-                f"'{self.out}' ends in .{ending}, which --format {self.form} does not write: name a folder without an "
-                f"ending, or choose --format {' or '.join(others)}"
+                f"'{self.out}' ends in .{ending}, which --format {self.form} does not write: "
+                f"choose --format {' or '.join(others)}"
             )
         return FORMATS[self.form]
 
@@ -107,12 +107,12 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
 
     Raises AssignmentError, FormatError, OSError for what cannot be written, and StoppedError.
     """
+    prepared = load_assignment(assignment)
+    roster = None if options.roster is None else load_roster(options.roster)
     form = options.format
     for path in options.written:
         if path.resolve() in [Path(given).resolve() for given in (assignment, *sources, options.roster or "")]:
             raise FormatError(f"--out would overwrite the input file {path}")
-    prepared = load_assignment(assignment)
-    roster = None if options.roster is None else load_roster(options.roster)
     review = RunReview.read(prepared, options.reviewed, options.review)
     prepared = review.applied(with_names(prepared, roster))
     people = people_of(prepared, roster)

@@ -51,6 +51,25 @@ def stopped(text: str, language: Language) -> str:
     return text
 
 
+@cache
+def _scene_words(language: Language) -> dict[str, str]:
+    data = files("dofkit.homework.sentences").joinpath("scene_words.yaml").read_bytes()
+    rows: list[dict[str, str]] = read_document(data, "scene_words").value
+    return {row["en"]: row[language] for row in rows}
+
+
+def described(text: str, language: Language) -> str:
+    """Return the description of a constraint or a force in a language.
+
+    >>> described("link (0, 0)-A, length l", "de")
+    'Stab (0, 0)-A, Länge l'
+    """
+    words = _scene_words(language)
+    types = "|".join(re.escape(word) for word in words if not word.endswith(" "))
+    joining = "|".join(re.escape(word) for word in words if word.endswith(" "))
+    return re.sub(rf"\A(?:{types})\b|{joining}", lambda match: words[match[0]], text)
+
+
 #: The places of a sentence in which it stands why reading stopped.
 FAULTS = frozenset({"fault", "hint"})
 

@@ -151,5 +151,5 @@ def _because(found: FieldVerdict, method: str) -> str:
     means = (
         f"chance of error below {found.bound}" if found.verdict == "probable" else _gap(found.bound or "inf", method)
     )
-    where = _NEAR.get(found.about, "")
+    where = _NEAR.get(found.about or "", "")
     return f" ({found.argument}; {means}{where})"

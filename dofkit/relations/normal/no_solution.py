@@ -20,7 +20,6 @@ from flint import ctx, fmpq_mat, fmpz_poly
 
 from dofkit.base.deadline import check
 from dofkit.exact.boxes.box_program import Box, BoxProgram
-from dofkit.exact.boxes.contraction import contract
 from dofkit.exact.boxes.functions import constant
 from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval, middle
 from dofkit.exact.errors import NoValueError
@@ -94,7 +93,7 @@ def _excluded(wanted: Sequence[Wanted], ranges: Mapping[Expr, Interval], steps: 
     """Branch and prune: is every box of the whole excluded within the bounds? False: one shrinks to a point."""
     try:
         relations = BoxProgram(wanted)
-        boxes: list[Box] = [contract(relations, [ranges.get(v, WHOLE) for v in relations.variables])]
+        boxes: list[Box] = [relations.contract([ranges.get(v, WHOLE) for v in relations.variables])]
     except EmptyError:
         return True
     while relations.work < steps:
@@ -108,7 +107,7 @@ def _excluded(wanted: Sequence[Wanted], ranges: Mapping[Expr, Interval], steps: 
         cut = middle(box[k])
         for part in ((box[k][0], cut), (cut, box[k][1])):
             try:
-                boxes.append(contract(relations, [*box[:k], part, *box[k + 1 :]]))
+                boxes.append(relations.contract([*box[:k], part, *box[k + 1 :]]))
             except EmptyError:
                 continue
     return None
