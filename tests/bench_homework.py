@@ -16,9 +16,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 import dofkit
+from dofkit.base.documents import read_document
 from dofkit.homework.answers.submission import of_value
 from dofkit.homework.grading import Grader
 
@@ -142,7 +141,7 @@ def natural() -> None:
     """Answers a second of one core, as students write them: solved, on another branch, rewritten, with remarks."""
     took, count = {True: 0.0, False: 0.0}, {True: 0, False: 0}
     for path in sorted(NATURAL.glob("*.yaml")):
-        given = yaml.safe_load(path.read_text(encoding="utf-8"))
+        given = read_document(path.read_bytes(), path.name).value
         prepared = dofkit.load_assignment(given.pop("assignment"))
         kinds = {(problem.id, question.id): question.kind() for problem, question in prepared.questions()}
         grader = Grader(prepared)

@@ -6,6 +6,7 @@ import json
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from dofkit.base.documents import Document
 from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
 from dofkit.base.surface import handed_on
 from dofkit.base.workers import Json
-from dofkit.classification.undecided import undecided
+from dofkit.classification.undecided import sketch, undecided
 from dofkit.interface import show
 from dofkit.interface.outcome import outcome_of
 from dofkit.interface.show.sheet import SheetSection
@@ -45,13 +46,8 @@ def _used(name: str) -> Any:
 
 
 def report_lines(given: Given) -> Iterator[Json]:
-    """What is printed of the report on a file; before that a sketch of it as a ``report``."""
-    return answer_lines(given, _report_stages)
-
-
-def lines_after_reading(given: Given) -> Iterator[Json]:
-    """The same where nobody would be told of a sketch: before it ``None``, as soon as the file is read."""
-    return answer_lines(given, _report_after_reading)
+    """What is printed of the report on a file; before that an empty mapping, as soon as the file is read."""
+    return answer_lines(given, _report)
 
 
 def motion_lines(given: Given) -> Iterator[Json]:
@@ -61,9 +57,9 @@ def motion_lines(given: Given) -> Iterator[Json]:
 
 def cut_lines(cut: Cut) -> Json:
     """What is printed where `report_lines` was cut short: of a scene that was read, that nothing was decided."""
-    if cut.value is not None and "report" in cut.value:
-        report = undecided(Report.model_validate(cut.value["report"]), cut.reason)
-        return streams(_report_text(report, cut.value["title"], cut.given), outcome=outcome_of(report))
+    if cut.is_read:
+        *_, printed = answer_lines(cut.given, partial(_undecided, cut.reason))
+        return printed
     fault = Fault(f"it could not be read: {cut.reason}", hint="make the scene smaller, or split it")
     return _fault_streams(cut.given, cut.given.name, (fault,), None)
 
@@ -92,23 +88,21 @@ def _place(file: str) -> Path | None:
     return Path(file) if file != "-" and os.path.isfile(file) else None
 
 
-def _report_stages(scene: Scene, given: Given) -> Iterator[Json]:
-    start = time.perf_counter()
-    part = _part_of(scene, given)
-    reports = stages(part, given.budget, given.method)
-    first = next(reports)
-    yield {"report": first.model_dump(mode="json"), "title": scene.title}
-    yield _told(scene, part, next(reports, first), given, start)
-
-
-def _report_after_reading(scene: Scene, given: Given) -> Iterator[Json]:
+def _report(scene: Scene, given: Given) -> Iterator[Json]:
     start = time.perf_counter()
     part = _part_of(scene, given)
     system = lowered(part, given.budget)
-    yield None
+    yield {}
     left = given.budget - (time.perf_counter() - start)
     report = system if isinstance(system, Report) else classified(system, left, given.method)
     yield _told(scene, part, report, given, start)
+
+
+def _undecided(reason: str, scene: Scene, given: Given) -> Iterator[Json]:
+    """The report on a scene of which nothing could be decided, for that reason."""
+    system = lowered(_part_of(scene, given), given.budget)
+    report = undecided(system if isinstance(system, Report) else sketch(system, reason), reason)
+    yield streams(_report_text(report, scene.title, given), outcome=outcome_of(report))
 
 
 def _part_of(scene: Scene, given: Given) -> Scene:

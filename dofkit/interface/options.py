@@ -221,9 +221,7 @@ CertificatePath = Annotated[
 ]
 CertificateFiles = Annotated[
     list[str],
-    typer.Argument(
-        metavar="[SCENE] CERT", help="A scene and its certificate, or a certificate that contains its scene."
-    ),
+    typer.Argument(metavar="[SCENE] CERT", help="A scene and its certificate, or a certificate that holds its scene."),
 ]
 CertificateFolder = Annotated[
     Path | None,

@@ -185,6 +185,9 @@ def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
     name = undeclared[1] if undeclared else ""
     if undeclared and undeclared[2]:
         return f"for a unit, {hint}; for a quantity, declare `parameters: [{name}]`"
+    rate = re.fullmatch(r"d([a-zA-Z](?:_\w+)?)|(\w+?)d{0,2}dot", name)
+    if rate and hint:
+        return f"declare the coordinate: `coordinates: [{rate[1] or rate[2]}]`; {hint}"
     if undeclared and hint and re.match("the declared|no names", hint):
         return f"declare it: `coordinates: [{name}]`, or `parameters: [{name}]` for a constant; {hint}"
     if hint is not None and _ENOUGH.search(hint):

@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
+
+from dofkit.base.documents import read_document
 
 NATURAL = Path(__file__).parent / "natural"
 STUDENTS, WORKERS, SECONDS = 1000, 2, 90.0
@@ -27,7 +28,7 @@ def sheet_and_pools() -> tuple[dict[str, Any], dict[str, list[str]]]:
     """An assignment of the problems that are asked of, and what students answer by column."""
     problems, pools = [], {}
     for name, places in ASKED.items():
-        given = yaml.safe_load((NATURAL / f"{name}.yaml").read_text(encoding="utf-8"))
+        given = read_document((NATURAL / f"{name}.yaml").read_bytes(), name).value
         known = {problem["id"]: problem for problem in given["assignment"]["problems"]}
         for place in places:
             texts = [

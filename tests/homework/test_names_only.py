@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
 
+from dofkit.base.documents import read_document
 from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.echo import echo
@@ -21,7 +21,7 @@ FOLDER = Path(__file__).parent / "natural"
 @pytest.mark.sweep
 @pytest.mark.parametrize("name", sorted(path.stem for path in FOLDER.glob("*.yaml")))
 def test_natural_answers_read_as_they_do_with_the_key(name: str, tmp_path: Path) -> None:
-    document: Any = yaml.safe_load((FOLDER / f"{name}.yaml").read_text(encoding="utf-8"))
+    document: Any = read_document((FOLDER / f"{name}.yaml").read_bytes(), name).value
     prepared = load_assignment(document.pop("assignment"))
     names = tmp_path / "names.json"
     names.write_text(json.dumps(names_only(prepared)))

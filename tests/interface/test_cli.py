@@ -112,12 +112,12 @@ def test_standard_input_is_a_file() -> None:
 
 FAILING = """
 import sys, dofkit.interface.one_file as telling, dofkit.interface.cli
-real = telling.stages
+real = telling.lowered
 def failing(scene, *others):
     if scene.name == "good":
         raise {error}
     return real(scene, *others)
-telling.stages = failing
+telling.lowered = failing
 sys.argv = ["dofkit", "classify", "--json", *sys.argv[1:]]
 dofkit.interface.cli.main()
 """
