@@ -26,12 +26,12 @@ from dofkit.integrability.traits import Traits
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.pieces import (
+    Clause,
     Finite,
     Inequality,
     Nonlinear,
     Normal,
     Pfaffian,
-    Statement,
     Still,
     with_constants,
 )
@@ -53,7 +53,7 @@ class LabelledRow(NamedTuple):
     reduced: bool = False
 
 
-def form_of(piece: Statement) -> Form:
+def form_of(piece: Clause) -> Form:
     """The report's word for a piece."""
     if isinstance(piece, Finite):
         return "finite"
@@ -76,7 +76,7 @@ class Evidence:
     independent: int | None
     circuit: list[str] | None
     constants: Mapping[str, Expr]
-    traits_of: Callable[[Statement], Traits]
+    traits_of: Callable[[Clause], Traits]
     companions_of: Callable[[bool], Others]
     copied: bool = False
 
@@ -84,7 +84,7 @@ class Evidence:
 def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bool | None) -> ConstraintEntry:
     """Everything that is told of one constraint."""
     constraint, normals = reduced.constraint, reduced.normals
-    pieces: list[Statement] = [p for normal in normals for p in normal.pieces] + list(reduced.inequalities)
+    pieces: list[Clause] = [p for normal in normals for p in normal.pieces] + list(reduced.inequalities)
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
     forms = _integrable_forms(normals, evidence.rows)
     own_constants = {c: evidence.constants.get(c, ex.parameter(c)) for c in reduced.constants}
@@ -125,7 +125,7 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
 
 
 def _traits_of(
-    pieces: Sequence[Statement], shown: Sequence[Statement], normals: Sequence[Normal], evidence: Evidence
+    pieces: Sequence[Clause], shown: Sequence[Clause], normals: Sequence[Normal], evidence: Evidence
 ) -> list[Traits]:
     """Return the traits of the equations of a constraint, without those that only declare an unknown function."""
     generic = declared_functions(normals)
@@ -150,7 +150,7 @@ def _integrable_forms(normals: Sequence[Normal], rows: Sequence[LabelledRow]) ->
     return [f for k, f in enumerate(chosen) if f not in chosen[:k]]
 
 
-def _forms(branches: Sequence[Sequence[Statement]]) -> list[Pfaffian]:
+def _forms(branches: Sequence[Sequence[Clause]]) -> list[Pfaffian]:
     return [p for b in branches for p in b if isinstance(p, Pfaffian)]
 
 
@@ -247,7 +247,7 @@ def _once(normals: Sequence[Normal]) -> str:
 def unfinished(reduced: Reduced, why: str) -> ConstraintEntry:
     """An entry without labels: there was no time for them."""
     constraint = reduced.constraint
-    pieces: list[Statement] = [p for normal in reduced.normals for p in normal.pieces] + list(reduced.inequalities)
+    pieces: list[Clause] = [p for normal in reduced.normals for p in normal.pieces] + list(reduced.inequalities)
     return ConstraintEntry(
         name=constraint.name,
         type=constraint.type,

@@ -56,9 +56,9 @@ class Inequality:
     strict: bool = False
 
 
-#: What a branch of an equation consists of, and what a constraint may say besides.
+#: What a branch of an equation consists of; with inequalities, what a constraint consists of.
 Piece = Finite | Pfaffian | Nonlinear | DomainCondition
-Statement = Piece | Inequality
+Clause = Piece | Inequality
 #: All pieces of a branch hold together; one of the branches holds. No branch: nothing satisfies it.
 Branches = tuple[tuple[Piece, ...], ...]
 
