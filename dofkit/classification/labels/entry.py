@@ -25,16 +25,7 @@ from dofkit.integrability.single_form import Integrability, integrability
 from dofkit.integrability.traits import Traits
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
-from dofkit.relations.normal.pieces import (
-    Clause,
-    Finite,
-    Inequality,
-    Nonlinear,
-    Normal,
-    Pfaffian,
-    Still,
-    with_constants,
-)
+from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Normal, Pfaffian, Still, with_constants
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import FORMS, ConstraintEntry, FieldVerdict, Form
@@ -88,7 +79,7 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
     forms = _integrable_forms(normals, evidence.rows)
     own_constants = {c: evidence.constants.get(c, ex.parameter(c)) for c in reduced.constants}
-    shown = [p if isinstance(p, Inequality) else with_constants(p, own_constants) for p in pieces]
+    shown = [*(with_constants(p, own_constants) for n in normals for p in n.pieces), *reduced.inequalities]
     own_forms = [p for f in forms if isinstance(p := with_constants(f, own_constants), Pfaffian)]
     proofs = _proofs(form, own_forms, evidence.by_itself, setting)
     labels = _labels_of(reduced, evidence, form, proofs, forms, consistent)
@@ -295,7 +286,7 @@ def _labels(in_system: bool | None, own: bool | None, told: Sequence[LabelledRow
 
 def label_in_system(
     told: Sequence[LabelledRow],
-    inequalities: Sequence[Inequality],
+    inequalities: Sequence[Clause],
     proofs: Sequence[Integrability],
     forms: Sequence[Pfaffian],
 ) -> tuple[bool | None, Verdict]:
@@ -339,7 +330,7 @@ def _alone(
     by_itself: Answer | None,
     proofs: Sequence[Integrability],
     forms: Sequence[Pfaffian],
-    inequalities: Sequence[Inequality],
+    inequalities: Sequence[Clause],
 ) -> tuple[bool | None, Verdict]:
     if inequalities:
         return False, "proved"
