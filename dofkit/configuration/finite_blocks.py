@@ -178,12 +178,6 @@ def _measured_answer(chart: Chart, setting: Setting, drawing: Mapping[Expr, Expr
     return result
 
 
-def measured_place(chart: Chart, drawing: Mapping[Expr, Expr]) -> dict[Expr, float] | None:
-    """The drawing in floating point; None where it has no values."""
-    found = at_reference(chart, drawing, exact=False)
-    return None if found is None or found.ball is None else _floats(found)
-
-
 def _floats(found: AtReference) -> dict[Expr, float]:
     return {s: float(v.mid()) for s, v in found.ball.symbols.items()} if found.ball is not None else {}
 
