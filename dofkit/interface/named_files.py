@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterable, Iterator
 
 from dofkit.models.formats import LOOKED_AT, is_known_model
+from dofkit.scene.catalog import catalog_names
 
 #: How the files of scenes and models end; of those that end as the last do a folder holds many others.
 ENDINGS, OF_MANY_KINDS = (".json", ".mjcf", ".slvs", ".urdf", ".yaml", ".yml"), (".xml",)
@@ -31,8 +32,6 @@ def _named(argument: str) -> list[str]:
 
 def _is_catalogued(name: str) -> bool:
     """Is it a scene of the catalog, which has the same name as a folder here?"""
-    from dofkit.scene.catalog import catalog_names
-
     return name in catalog_names()
 
 

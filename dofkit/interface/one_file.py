@@ -22,9 +22,7 @@ from dofkit.interface.show.decimals import as_the_scene
 from dofkit.interface.show.sheet import SheetSection
 from dofkit.interface.show.terminal import Screen
 from dofkit.interface.supervised import STDIN, Cut, Given
-from dofkit.methods.classify import with_certificate
 from dofkit.methods.stages import classified, lowered, stages
-from dofkit.motion.lagrange.equations import lagrange
 from dofkit.report import Report
 from dofkit.scene.dropped import without
 from dofkit.scene.expectation import unmet
@@ -123,6 +121,8 @@ def _changes(scene: Scene, report: Report, given: Given) -> Sequence[SheetSectio
 
 def _written_certificate(scene: Scene, report: Report, path: str) -> Report:
     """The report with its certificate, which is written to a path; folders on the way are made."""
+    from dofkit.methods.classify import with_certificate  # few ask for one
+
     report = with_certificate(scene, report)
     _write(report.certificate, path)
     return report
@@ -138,6 +138,8 @@ def _write(certificate: dict[str, Any] | None, path: str) -> None:
 
 
 def _equations(scene: Scene, given: Given) -> Iterator[Json]:
+    from dofkit.motion.lagrange.equations import lagrange  # only the command `lagrange`
+
     report = lagrange(scene, given.linearize, given.budget)
     if given.certificate is not None:
         from dofkit.methods.certificates.motion_evidence import certificate_of_motion  # few ask for one
