@@ -12,8 +12,7 @@ from typing import Protocol
 
 from dofkit.base.workers import MEMORY, Job
 from dofkit.base.workers import JobOutcome as Ended
-from dofkit.base.workers.crews import Cluster, Crew, StoppedError, Threads
-from dofkit.base.workers.pool import Pool, cores
+from dofkit.base.workers.pool import Cluster, Crew, Pool, StoppedError
 from dofkit.benchmark.judging import outcome_of
 from dofkit.benchmark.record import Outcome, TrialLine
 from dofkit.benchmark.tasks import TrialTask
@@ -147,8 +146,7 @@ def local_bench(workers: int, limit: float, explain: Explain, memory: int = MEMO
     """Workers on this machine, copies of this process where it may be forked."""
     with Pool(workers, memory, MODULES) as pool:
         pool.fork()
-        with Threads(workers, pool.close) as threads:
-            yield Bench(threads, pool.run, limit, explain)
+        yield Bench(pool, pool.run, limit, explain)
 
 
 @contextmanager
@@ -165,4 +163,4 @@ def run_there(job: Job) -> Ended:
 
 @lru_cache(maxsize=1)
 def _pool() -> Pool:
-    return Pool(cores(), MEMORY, MODULES)
+    return Pool(modules=MODULES)

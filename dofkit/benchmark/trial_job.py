@@ -10,8 +10,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from dofkit.base.workers import Json
-from dofkit.base.workers.child import function_named
-from dofkit.base.workers.limits import LateError, interrupting
+from dofkit.base.workers.child import LateError, function_named, interrupting
 from dofkit.methods.shared.reply import Knobs, MethodReply
 
 #: What is shorter, in seconds, is done again, so many times, and the least is taken.

@@ -88,7 +88,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the rank of measured geometry",
         "",
         "the singular values are separated by a gap",
-        "dofkit.configuration.drawing.measured.measure",
+        "dofkit.configuration.measured.dimension.measured_freedom",
         "the singular values",
     ),
     "links in general position": Argument(
@@ -197,13 +197,6 @@ _OWN: dict[ArgumentKey, Argument] = {
         "it is an inequality",
         "dofkit.classification.labels.entry.entry",
         "the text",
-    ),
-    "one side": Argument(
-        "the constraint is not holonomic",
-        "",
-        "a certified state of motion satisfies the constraint's equation but not its half-space condition",
-        "dofkit.classification.labels.one_sided.with_sides",
-        "the state",
     ),
     "curved velocities": Argument(
         "the constraint is not holonomic",

@@ -13,8 +13,7 @@ from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.combinations import echelon_by_degree
-from dofkit.exact.solving.ideals import dimension_of
+from dofkit.exact.solving.ideals import dimension_of, echelon_by_degree
 from dofkit.exact.zero.analyticity import is_analytic
 from dofkit.exact.zero.independence import doubt
 from dofkit.expressions import tree as ex

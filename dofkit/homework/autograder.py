@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from dofkit.base.errors import DofkitError
-from dofkit.base.workers.crews import StoppedError
+from dofkit.base.workers.pool import Pool, StoppedError
 from dofkit.homework.answers.attribution import by_platform
 from dofkit.homework.answers.prairielearn import answers_of
 from dofkit.homework.answers.roster import Participant
@@ -34,7 +34,7 @@ from dofkit.homework.judgement import needs_review
 from dofkit.homework.own_sheets import NobodysSheetError, own_of
 from dofkit.homework.result import Item, Result
 from dofkit.homework.runs.batch import Orders
-from dofkit.homework.runs.keeper import Keeper
+from dofkit.homework.runs.keeper import MODULES, Keeper
 from dofkit.homework.runs.review_files import TABLE, RunReview
 from dofkit.homework.sentences.said import Language
 from dofkit.homework.stand_ins import list_open
@@ -208,12 +208,12 @@ def _result(one: Handed, prepared: Prepared, seconds: float, memory: int, studen
     orders = Orders.of(prepared)
     share = seconds / (2 * count + 2)
     orders = replace(orders, seconds=min(orders.seconds, share), hard=min(orders.hard, 2 * share))
-    with Keeper(orders, 1, memory) as keeper:
-        keeper.fork()
-        watch = threading.Timer(seconds, keeper.close)
+    with Pool(1, memory, MODULES) as pool:
+        pool.fork()
+        watch = threading.Timer(seconds, pool.close)
         watch.start()
         try:
-            lines = keeper.grade([one]).told[0]
+            lines = Keeper(orders, pool).grade(one)
         except StoppedError:
             return undecided(prepared, student, TOO_LONG)
         finally:

@@ -15,8 +15,7 @@ from itertools import permutations
 
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.frames import field_frame
-from dofkit.exact.ring.canonical import Canon, Poly, remainder
-from dofkit.exact.ring.minors import determinant, polynomials
+from dofkit.exact.ring.canonical import Canon, Poly, determinant, polynomials, remainder
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.ansatz import MAX_DEGREE, MAX_PRODUCTS, FormSample, IntegralSearch

@@ -22,9 +22,8 @@ from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.modular import rank_of
 from dofkit.exact.points.frames import FormRows
-from dofkit.exact.ring.canonical import Canon, divided
+from dofkit.exact.ring.canonical import Canon, determinant, divided, polynomials
 from dofkit.exact.ring.instructions import Point, Scalar
-from dofkit.exact.ring.minors import determinant, polynomials
 from dofkit.exact.ring.program import values
 from dofkit.exact.zero.analyticity import is_analytic
 from dofkit.expressions import tree as ex

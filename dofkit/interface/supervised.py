@@ -19,8 +19,7 @@ from typing import Any, NamedTuple, Protocol
 from dofkit.base.deadline import DEFAULT_SECONDS, limit
 from dofkit.base.documents.document import MOST_BYTES
 from dofkit.base.endings import is_folder_path
-from dofkit.base.workers import Job, JobOutcome, Json, Worker
-from dofkit.base.workers.processes import can_fork
+from dofkit.base.workers import Job, JobOutcome, Worker
 from dofkit.interface.presentation import Telling
 from dofkit.interface.streams import ascii_only
 from dofkit.methods.names import MethodName
@@ -82,12 +81,11 @@ class CertificateGiven:
     ascii_only: bool = False
 
 
-@dataclass(frozen=True)
-class Cut:
-    """A file whose telling was cut short: what was told last, and why there is no more."""
+class Cut(NamedTuple):
+    """A file whose answer was cut short: whether it had been read, and why there is no more."""
 
     given: Given
-    value: Json
+    is_read: bool
     reason: str
 
 
@@ -170,7 +168,7 @@ def pictures(files: Sequence[str], kind: str, out: Path | None, ending: str) -> 
     else:
         suffix = f"-{kind}" if kind in ("graph", "directions") else ""
         places = [str((out or Path()) / f"{name}{suffix}.{ending}") for name in _own_names(files)]
-    worker = Worker(modules=(ONE_PICTURE,), fork=can_fork())
+    worker = Worker(modules=(ONE_PICTURE,), fork=True)
     given = Given("", DEFAULT_SECONDS, "auto", Telling.here(False)._replace(ascii_only=ascii_only()))
     try:
         for file, place in zip(files, places, strict=True):
@@ -184,7 +182,7 @@ def pictures(files: Sequence[str], kind: str, out: Path | None, ending: str) -> 
 
 def verification(given: CertificateGiven) -> tuple[str, str, int]:
     """What is printed of a certificate, on standard output and on standard error, and the exit status."""
-    worker = Worker(modules=("dofkit.interface.one_certificate",), fork=can_fork())
+    worker = Worker(modules=("dofkit.interface.one_certificate",), fork=True)
     try:
         asked = replace(given, ascii_only=ascii_only())
         job = Job("dofkit.interface.one_certificate:verification_lines", asked, limit(DEFAULT_SECONDS))
@@ -205,7 +203,7 @@ def _answers(
     modules: Sequence[str],
     places: Sequence[str | None] = (),
 ) -> Generator[Printed]:
-    worker = Worker(modules=modules, fork=can_fork())
+    worker = Worker(modules=modules, fork=True)
     try:
         for file, place in zip(files, places or [None] * len(files), strict=True):
             yield ask(worker, replace(given, file=file, data=data_of(file), certificate=place))
@@ -224,7 +222,7 @@ def report_by(worker: Runner, given: Given) -> Printed:
     reading, seconds = limits_of(given)
     outcome = worker.run(Job("dofkit.interface.one_file:report_lines", given, seconds, reading))
     if not outcome.finished:
-        cut = Cut(given, outcome.value, outcome.reason)
+        cut = Cut(given, outcome.value is not None, outcome.reason)
         outcome = worker.run(Job("dofkit.interface.one_file:cut_lines", cut, TELLING_SECONDS))
         if not outcome.finished:
             return _plain(given, cut.reason)

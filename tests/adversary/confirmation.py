@@ -1,5 +1,4 @@
-"""A case's chart put into its equations: exact where all is rational, else with 60 digits. Nothing of dofkit is
-used."""
+"""A case's chart put into its equations, with 60 digits. Nothing of dofkit is used."""
 
 from __future__ import annotations
 
@@ -9,19 +8,18 @@ import random
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any, NamedTuple
 
 from mpmath import mp, mpf
 
 from dofkit.benchmark.trials.construction import KnownScene
 
-from .texts import texts, words
+from .draws import texts, words
 
 #: Digits, and what counts as 0 where a value is no fraction.
 DIGITS, ZERO = 60, mpf(10) ** -30
 DECIMAL = re.compile(r"(\d+)\.(\d+)")
-#: A Fraction, or mpf.
+#: An mpf, of which mpmath has no types.
 Number = Any
 OPERATORS: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
@@ -67,15 +65,9 @@ class Dual:
         return self.through(lambda v: v**other.value, lambda v: other.value * v ** (other.value - 1))
 
     def through(self, f: Callable[[Number], Number], slope: Callable[[Number], Number]) -> Dual:
-        """f of it, by the chain rule; a fraction raises `IrrationalError`."""
-        if isinstance(self.value, Fraction):
-            raise IrrationalError
+        """f of it, by the chain rule."""
         inner = slope(self.value)
         return Dual(f(self.value), tuple(inner * s for s in self.slope))
-
-
-class IrrationalError(Exception):
-    """A function has no fraction for its value."""
 
 
 Pair = tuple[Callable[[Number], Number], Callable[[Number], Number]]
@@ -100,9 +92,8 @@ FUNCTIONS: Mapping[str, Pair] = {
 
 
 def evaluated(text: str, known: Mapping[str, Dual]) -> Dual:
-    """A text in names, numbers, + - * / ^ and calls of `FUNCTIONS`; in fractions where ``known`` holds fractions."""
-    one = next(iter(known.values()))
-    kind, none = type(one.value), tuple(0 * s for s in one.slope)
+    """A text in names, numbers, + - * / ^ and calls of `FUNCTIONS`."""
+    none = tuple(0 * s for s in next(iter(known.values())).slope)
 
     def value(node: ast.expr) -> Dual:
         if isinstance(node, ast.BinOp):
@@ -111,10 +102,9 @@ def evaluated(text: str, known: Mapping[str, Dual]) -> Dual:
         if isinstance(node, ast.UnaryOp):
             return -value(node.operand)
         if isinstance(node, ast.Constant):
-            number = Fraction(int(str(node.value)))
-            return Dual(number if kind is Fraction else mpf(number.numerator) / number.denominator, none)
+            return Dual(mpf(int(str(node.value))), none)
         if isinstance(node, ast.Name) and node.id == "pi":
-            return Dual(one.value * 0, none).through(lambda v: v + mp.pi, lambda v: v)
+            return Dual(+mp.pi, none)
         if isinstance(node, ast.Name):
             return known[node.id]
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
@@ -132,14 +122,14 @@ def sides(text: str) -> str:
 
 
 def rank(rows: Sequence[Sequence[Number]]) -> int:
-    """By elimination with the largest pivots: exact for fractions."""
+    """By elimination with the largest pivots."""
     left, found = [list(row) for row in rows if row], 0
     while left:
         best, c = max(
             ((i, c) for i, row in enumerate(left) for c in range(len(row))), key=lambda p: abs(left[p[0]][p[1]])
         )
         pivot = left.pop(best)
-        if abs(pivot[c]) <= (0 if isinstance(pivot[c], Fraction) else ZERO):
+        if abs(pivot[c]) <= ZERO:
             return found
         left = [[v - row[c] / pivot[c] * q for v, q in zip(row, pivot, strict=True)] for row in left]
         found += 1
@@ -158,28 +148,23 @@ class Confirmation(NamedTuple):
 
     @property
     def holds(self) -> bool:
-        """Are the relations 0 on the chart: exactly, or to half of the digits?"""
-        return bool(self.residue == 0 if isinstance(self.residue, Fraction | int) else self.residue < ZERO)
+        """Are the relations 0 on the chart, to half of the digits?"""
+        return bool(self.residue < ZERO)
 
 
 def confirmed(case: KnownScene, seed: int = 1) -> Confirmation:
-    """The chart at a random rational point: in fractions, else with `DIGITS` digits."""
-    try:
-        return _confirmed(case, random.Random(seed), lambda number: number)
-    except IrrationalError:
-        with mp.workdps(DIGITS):
-            return _confirmed(case, random.Random(seed), lambda number: mpf(number.numerator) / number.denominator)
+    """The chart at a random point."""
+    with mp.workdps(DIGITS):
+        return _confirmed(case, random.Random(seed))
 
 
-def _confirmed(case: KnownScene, rng: random.Random, as_number: Callable[[Fraction], Number]) -> Confirmation:
+def _confirmed(case: KnownScene, rng: random.Random) -> Confirmation:
     assert case.chart is not None
     chart, names = case.chart, list(case.scene["coordinates"])
     many = max((int(k) + 1 for text in chart.values() for k in re.findall(r"\bp(\d+)\b", text)), default=0)
 
     def drawn(slope: Sequence[int]) -> Dual:
-        return Dual(
-            as_number(Fraction(rng.randint(20, 60), rng.randint(31, 67))), tuple(as_number(Fraction(s)) for s in slope)
-        )
+        return Dual(mpf(rng.randint(20, 60)) / rng.randint(31, 67), tuple(map(mpf, slope)))
 
     known = {f"p{k}": drawn([int(i == k) for i in range(many)]) for k in range(many)}
     known |= {name: drawn([0] * many) for name in ("t", *case.scene.get("parameters", ()))}
@@ -187,8 +172,8 @@ def _confirmed(case: KnownScene, rng: random.Random, as_number: Callable[[Fracti
         known[name] = evaluated(text, known)
     finite, forms = _split(case)
     residue = max((abs(evaluated(sides(text), known).value) for text in finite), default=0)
-    values = {name: Dual(dual.value, (as_number(Fraction(0)),) * len(names)) for name, dual in known.items()}
-    units = {c: tuple(as_number(Fraction(int(c == other))) for other in names) for c in names}
+    values = {name: Dual(dual.value, (mpf(0),) * len(names)) for name, dual in known.items()}
+    units = {c: tuple(mpf(c == other) for other in names) for c in names}
     values |= {c: Dual(known[c].value, units[c]) for c in names}
     regular = len(names) - rank([evaluated(sides(text), values).slope for text in finite])
     dimension = rank([known[c].slope for c in names])

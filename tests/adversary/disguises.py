@@ -14,8 +14,7 @@ from typing import Any
 
 from dofkit.benchmark.trials.construction import KnownScene
 
-from .draws import positive
-from .texts import substituted, texts, words
+from .draws import positive, substituted, texts, words
 
 Disguise = Callable[[random.Random, KnownScene], KnownScene | None]
 #: What depends on the order of the constraints: which of them are companions of another, so what it integrates to, too.

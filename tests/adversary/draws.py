@@ -1,11 +1,28 @@
-"""Random numbers, polynomials and functions, as text."""
+"""Random numbers, polynomials and functions as text; equations of a scene as text, and names within it."""
 
 from __future__ import annotations
 
 import random
+import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
+
+WORD = re.compile(r"[A-Za-z_]\w*")
+
+
+def texts(scene: Mapping[str, Any]) -> list[str]:
+    """The equations of a scene in which nothing else stands."""
+    return [c if isinstance(c, str) else c["text"] for c in scene["constraints"]]
+
+
+def substituted(text: str, table: Mapping[str, str]) -> str:
+    """With other words for those of the table."""
+    return WORD.sub(lambda found: table.get(found[0], found[0]), text)
+
+
+def words(text: str) -> set[str]:
+    return set(WORD.findall(text))
 
 
 def names(stem: str, many: int) -> list[str]:

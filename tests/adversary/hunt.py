@@ -11,8 +11,7 @@ from dataclasses import dataclass, field
 from .findings import fails_alike, faults, kept, outcome
 from .registry import KINDS, OPEN
 from .running import answered_apart
-from .shrinking import TRIES, length, shrunk
-from .trial import Trial, any_trial, made
+from .trial import TRIES, Trial, any_trial, length, made, shrunk
 
 #: Cases that are tried at most to shrink one whose time was overrun: each may take as long.
 LATE_TRIES = 6

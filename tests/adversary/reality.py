@@ -6,8 +6,7 @@ import random
 
 from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
 
-from .draws import at, names, nonzero, polynomial, positive, smooth
-from .texts import substituted
+from .draws import at, names, nonzero, polynomial, positive, smooth, substituted
 
 #: Equations that say a = b over the reals, and no more.
 SAME = (

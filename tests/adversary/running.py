@@ -15,7 +15,7 @@ from typing import Any, Literal, NamedTuple
 import dofkit
 from dofkit.base.deadline import by_processor
 
-from .certificates import Recheck, rechecked
+from .judgement import Recheck, rechecked
 
 #: Seconds of processor time for one scene; past them it has a quarter more, and then is ended. Bytes of memory.
 SECONDS, MEMORY = 60.0, 6 << 30

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
 from shared import worker_jobs
@@ -24,8 +24,8 @@ from shared.work import counted
 
 import dofkit
 from dofkit.base.workers import Job, Worker
-from dofkit.base.workers.limits import SPARE
-from dofkit.base.workers.pool import Pool
+from dofkit.base.workers.child import SPARE
+from dofkit.base.workers.pool import AHEAD, MOST_BYTES, Pool, StoppedError, in_order
 
 HERE = Path(__file__).parents[1]
 SMALL = 1 << 29
@@ -201,40 +201,58 @@ def test_threads_share_a_pool() -> None:
         assert list(found) == list(range(200))
 
 
-def test_a_stream_of_jobs_is_answered_as_they_finish(tmp_path: Path) -> None:
-    """The first job waits until eight others have been answered."""
-    path, asked = tmp_path / "go on", list[int]()
+class Number(NamedTuple):
+    """Something of a size."""
 
-    def jobs() -> Iterator[Job]:
-        for i in range(30):
-            asked.append(i)
-            yield Job(worker_jobs.same, i, LONG) if i else Job(worker_jobs.until, str(path), LONG)
+    value: int
+    size: int = 1
+
+
+def test_results_come_in_order_and_no_more_is_taken_than_is_needed_soon() -> None:
+    taken = list[int]()
+
+    def numbers() -> Iterator[Number]:
+        for i in range(500):
+            taken.append(i)
+            yield Number(i)
 
     with Pool(2) as pool:
-        stream = pool.map_unordered(jobs())
-        values = [next(stream)[1].value]
-        assert len(asked) <= 2 * 2
-        values += [next(stream)[1].value for _ in range(7)]
-        path.write_text("gone on")
-        values += [outcome.value for _, outcome in stream]
-    assert "gone on" not in values[:8]
-    assert Counter(values) == Counter(["gone on", *range(1, 30)])
+        stream = in_order(pool, lambda n: pool.run(Job(worker_jobs.same, n.value, LONG)).value, numbers())
+        assert next(stream) == (Number(0), 0)
+        assert len(taken) <= 2 * AHEAD
+        assert [value for _, value in stream] == list(range(1, 500))
+
+
+def test_few_large_things_wait() -> None:
+    taken = list[int]()
+
+    def numbers() -> Iterator[Number]:
+        for i in range(9):
+            taken.append(i)
+            yield Number(i, MOST_BYTES)
+
+    with Pool(1) as pool:
+        assert next(in_order(pool, lambda n: n.value, numbers()))[1] == 0
+    assert taken == [0]
 
 
 def test_bad_jobs_do_not_stop_the_others() -> None:
     jobs = [Job(f, p, 30) for f, p in [(worker_jobs.leave, 1), (worker_jobs.fail, ""), (worker_jobs.same, 1)] * 5]
     with Pool(2) as pool:
-        ended = Counter(outcome.ended for _, outcome in pool.map_unordered(jobs))
+        ended = Counter(call.result().ended for call in [pool.submit(pool.run, job) for job in jobs])
     assert ended == {"died": 5, "failed": 5, "done": 5}
 
 
 def test_whoever_stops_early_leaves_nothing_running(tmp_path: Path) -> None:
     path = tmp_path / "pid"
     with Pool(2) as pool:
-        stream = pool.map_unordered([Job(worker_jobs.busy, str(path), 1e6), Job(worker_jobs.until, str(path), LONG)])
-        assert next(stream)[1].value == path.read_text()
-        stream.close()
-        assert gone(written(path))
+        busy = pool.submit(pool.run, Job(worker_jobs.busy, str(path), 1e6))
+        pid = written(path)
+    assert gone(pid)
+    with pytest.raises(StoppedError):
+        busy.result(LONG)
+    with pytest.raises(StoppedError):
+        pool.run(Job(worker_jobs.same, 1, LONG))
 
 
 # -- what is left behind -----------------------------------------------------------------------------
@@ -247,7 +265,7 @@ from dofkit.base.workers.pool import Pool
 pool = Pool(2)
 worker = Worker()
 pids = [worker.run(Job(worker_jobs.process, None, 30)).value]
-pids += [outcome.value for _, outcome in pool.map_unordered([Job(worker_jobs.process, None, 30)] * 8)]
+pids += [pool.submit(pool.run, Job(worker_jobs.process, None, 30)).result().value for _ in range(8)]
 worker.run(Job(worker_jobs.leave, 1, 30))
 print(*set(pids), flush=True)
 """
@@ -421,14 +439,12 @@ from shared import worker_jobs
 from shared.late import let_time_run_out
 mark = sys.argv.pop(1)
 let_time_run_out(pytest.MonkeyPatch(), 1, Path(mark))
-real = telling.stages
-def stages(scene, *others):
-    told = real(scene, *others)
-    yield next(told)
+real = telling.classified
+def classified(scene, *others):
     if scene.name.startswith("stuck"):
         worker_jobs.stuck(mark)
-    yield from told
-telling.stages = stages
+    return real(scene, *others)
+telling.classified = classified
 sys.argv = ["dofkit", "classify", *sys.argv[1:]]
 dofkit.interface.cli.main()
 """

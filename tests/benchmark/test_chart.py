@@ -14,7 +14,6 @@ import pytest
 from shared import chart_methods
 from typer.testing import CliRunner
 
-from dofkit.base.workers.crews import Threads
 from dofkit.base.workers.pool import Pool
 from dofkit.benchmark import command, figures, runner, statistics, storing, table, tasks
 from dofkit.benchmark.judging import outcome_of
@@ -51,11 +50,8 @@ def said(method: str, question: str, traits: tuple[str, ...], outcome: str, reas
 
 def ran(methods: Sequence[str], limit: float = 0.3) -> list[TrialLine]:
     """The trials of the family by these methods, in two workers."""
-    with (
-        Pool(2, modules=("dofkit.benchmark.trial_job", "shared.chart_methods")) as pool,
-        Threads(2, pool.close) as threads,
-    ):
-        bench = runner.Bench(threads, pool.run, limit, said, "shared.chart_methods:answered")
+    with Pool(2, modules=("dofkit.benchmark.trial_job", "shared.chart_methods")) as pool:
+        bench = runner.Bench(pool, pool.run, limit, said, "shared.chart_methods:answered")
         return list(runner.run(tasks.trial_tasks(chart_methods.family(False), methods), bench))
 
 

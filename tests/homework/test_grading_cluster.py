@@ -5,18 +5,18 @@ from __future__ import annotations
 import json
 import os
 import signal
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import dofkit
-from dofkit.base.workers.batches import in_order
+from dofkit.base.workers.pool import Cluster, Pool, in_order
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.answers.submission import FilePlace
 from dofkit.homework.runs.batch import Orders
-from dofkit.homework.runs.crew import cluster_crew, local_crew
-from dofkit.homework.runs.keeper import Keeper
+from dofkit.homework.runs.keeper import Keeper, grade_there
 from dofkit.interface import cli
 
 pytestmark = pytest.mark.sweep
@@ -35,8 +35,8 @@ def handed(number: int) -> list[Handed]:
 
 def test_a_lost_worker_loses_no_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     made, given = Orders.of(dofkit.load_assignment(ASSIGNMENT)), handed(60)
-    with Keeper(made, 1) as keeper, local_crew(keeper, 1) as local:
-        one_by_one = [lines for _, lines in in_order(local, given)]
+    with Pool(1) as pool:
+        one_by_one = [lines for _, lines in in_order(pool, Keeper(made, pool).grade, given)]
     assert sum(json.loads(line.text)["items"][1]["status"] == "right" for (line,) in one_by_one) == 40
     silent = {"silence_logs": 50, "dashboard_address": None}
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, **silent) as machines:
@@ -44,8 +44,8 @@ def test_a_lost_worker_loses_no_result(tmp_path: Path, capsys: pytest.CaptureFix
             processes = sorted(client.run(os.getpid).values())
         assert len(processes) == 2
         told = []
-        with cluster_crew(machines.scheduler_address, made) as cluster:
-            for i, (_, lines) in enumerate(in_order(cluster, given)):
+        with Cluster(machines.scheduler_address) as cluster:
+            for i, (_, lines) in enumerate(in_order(cluster, partial(grade_there, made), given)):
                 told.append(lines)
                 if i == 3:
                     os.kill(processes[0], signal.SIGKILL)

@@ -27,7 +27,7 @@ from dofkit.homework.result import Item
 from dofkit.homework.review.filled_table import ReviewError, read_table
 from dofkit.homework.review.identity import answer_id, mark_of, question_mark
 from dofkit.homework.review.rows import Decision
-from dofkit.homework.runs.journal import fingerprint
+from dofkit.homework.runs.run import fingerprint
 
 ROD = {
     "dimension": 2,

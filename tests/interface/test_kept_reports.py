@@ -15,18 +15,15 @@ from shared.command_line import called
 from shared.late import LONG
 
 import dofkit
-from dofkit.base.line_journal import LineJournal
+from dofkit.base.journal import BusyError, Journal
 from dofkit.base.workers import Job, JobOutcome
-from dofkit.base.workers.crews import StoppedError
-from dofkit.interface.many.batch import SceneBatch, batch_reports
-from dofkit.interface.many.keeper import SceneKeeper
-from dofkit.interface.many.kept_reports import KeptReport, KeptReports
-from dofkit.interface.many.run import Helpers, kept_reports
+from dofkit.base.workers.pool import Pool
+from dofkit.interface.many.run import Helpers, answer, kept_reports
 from dofkit.interface.many.scene_files import SceneGiven
 from dofkit.interface.named_files import named_files
 from dofkit.interface.one_file import streams
 from dofkit.interface.presentation import Telling
-from dofkit.interface.supervised import Given, Printed
+from dofkit.interface.supervised import Cut, Given, Printed
 
 BAD = "coordinates: [theta]\nconstraints:\n- thta = 1\n"
 
@@ -125,12 +122,12 @@ class Counting:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.files: list[str] = []
-        monkeypatch.setattr(SceneKeeper, "_printed", self.answered)
-        monkeypatch.setattr(SceneKeeper, "fork", lambda keeper: None)
+        monkeypatch.setattr("dofkit.interface.many.run.answer", self.answered)
+        monkeypatch.setattr(Pool, "fork", lambda pool: None)
 
-    def answered(self, scenes: tuple[SceneGiven, ...]) -> list[Printed]:
-        self.files += [Path(one.file).stem for one in scenes]
-        return [Printed(f"{len(one.data or b'')}\n", "", 0, {"verdict": "proved", "is": []}) for one in scenes]
+    def answered(self, pool: Pool, asked: Given, scene: SceneGiven) -> Printed:
+        self.files.append(Path(scene.file).stem)
+        return Printed(f"{len(scene.data or b'')}\n", "", 0, {"verdict": "proved", "is": []})
 
     def run(self, out: Path, files: list[Path], stop: int | None = None, budget: float = 60.0) -> list[str]:
         """Which files are asked about by a run that is stopped after so many."""
@@ -185,35 +182,42 @@ def test_a_run_that_was_stopped_goes_on(counting: Counting, files: list[Path], t
     assert sorted(path.name for path in out.iterdir()) == ["reports.jsonl", "reports.jsonl.ledger"]
 
 
-def test_a_torn_line_is_dropped_and_done_again(counting: Counting, files: list[Path], tmp_path: Path) -> None:
+def test_a_torn_line_is_written_again(counting: Counting, files: list[Path], tmp_path: Path) -> None:
     out = tmp_path / "out"
     counting.run(out, files)
     whole = (out / "reports.jsonl").read_bytes()
     (out / "reports.jsonl").write_bytes(whole[:7])
-    assert (counting.run(out, files), lines(out)) == (list("def"), "123456")
-    ledger = out / "reports.jsonl.ledger"
-    ledger.write_bytes(ledger.read_bytes()[:-5])
-    assert (counting.run(out, files), lines(out)) == (["f"], "123456")
+    assert (counting.run(out, files), lines(out)) == ([], "123456")
+
+
+def test_a_damaged_journal_is_begun_anew(counting: Counting, files: list[Path], tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    for damaged in (b"", b"mark\n", b"SQLite format 3\0" + b"x" * 5000):
+        counting.run(out, files)
+        (out / "reports.jsonl.ledger").write_bytes(damaged)
+        assert (counting.run(out, files), lines(out)) == (list("abcdef"), "123456")
 
 
 def test_two_runs_do_not_write_to_one_folder(tmp_path: Path) -> None:
-    one = KeptReports(tmp_path, "m")
-    with pytest.raises(dofkit.DofkitError, match="another run is writing"):
-        KeptReports(tmp_path, "m")
+    one = Journal(tmp_path / "reports.jsonl.ledger", "m")
+    with pytest.raises(BusyError, match=r"another run is writing to .*reports\.jsonl$"):
+        Journal(tmp_path / "reports.jsonl.ledger", "m")
     one.close()
 
 
-def test_what_was_never_known_has_no_line(tmp_path: Path) -> None:
-    kept = KeptReports(tmp_path, "m")
-    kept.write_from_here()
-    assert not kept.knows("a")
-    with pytest.raises(KeyError):
-        kept.write_known("a")
-    kept.write("a", KeptReport("{}", None))
-    kept.close()
-    journal = LineJournal(tmp_path / "reports.jsonl", "m", ".ledger")
-    assert [(one.key, one.texts) for one in journal.following()] == [("a", [b"{}\n"])]
-    journal.close()
+def test_a_journal_keeps_what_is_written_again(tmp_path: Path) -> None:
+    path = tmp_path / "folder" / "results.unfinished"
+    nothing, a, b = [None, None], ["a", 1], {"b": None}
+    for mark, known in (("m", nothing), ("m", [a, b]), ("m", [a, None]), ("n", nothing)):
+        journal = Journal(path, mark)
+        assert [journal.result(key) for key in "ab"] == known
+        journal.write("a", ("a", 1))
+        if known == nothing:
+            journal.write("b", {"b": None})
+        journal.keep_written()
+        journal.close()
+    Journal(path, "n").remove()
+    assert not list(path.parent.iterdir())
 
 
 def test_a_model_is_another_where_a_part_of_it_is(tmp_path: Path, counting: Counting) -> None:
@@ -232,45 +236,19 @@ def test_a_model_is_another_where_a_part_of_it_is(tmp_path: Path, counting: Coun
 
 
 class Breaking:
-    """Workers that end where they are asked about the scene s3."""
-
-    def __init__(self) -> None:
-        self.asked: list[str] = []
+    """A pool whose workers end where they are asked about the scene s3."""
 
     def run(self, job: Job) -> JobOutcome:
-        names = [scene.file for scene in job.payload.scenes] if isinstance(job.payload, SceneBatch) else ["one"]
-        self.asked.append(" ".join(names))
-        if isinstance(job.payload, SceneBatch) and "s3" not in names:
-            return JobOutcome({"printed": [streams(f"{name}\n") for name in names]}, "done")
-        if isinstance(job.payload, Given) and job.payload.file != "s3":
-            return JobOutcome(streams(f"{job.payload.file}\n"), "done")
-        return JobOutcome({"next": names.index("s3")} if "s3" in names else None, "died", "it ended")
+        if (job.payload.given if isinstance(job.payload, Cut) else job.payload).file == "s3":
+            return JobOutcome(None, "died", "it ended")
+        return JobOutcome(streams(f"{job.payload.file}\n"), "done")
 
 
-def test_a_scene_that_ends_its_worker_ends_no_other(monkeypatch: pytest.MonkeyPatch) -> None:
-    keeper, pool = SceneKeeper(asked(), 1), Breaking()
-    monkeypatch.setattr(keeper, "_pool", pool)
-    found = keeper.answer([SceneGiven(f"s{k}", b"") for k in range(6)]).told
-    assert [one.out for one in found if not one.errors] == ["s0\n", "s1\n", "s2\n", "s4\n", "s5\n"]
-    assert "it could not be looked at: it ended" in found[3].out
-    assert pool.asked == ["s0 s1 s2 s3 s4 s5", "s0 s1 s2", "one", "one", "s4 s5"]
-
-
-def test_a_batch_in_a_worker_tells_which_scene_comes_next(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without its limits, which are those of the process."""
-    monkeypatch.setattr("dofkit.interface.many.batch.allow", lambda _: None)
-    given = (SceneGiven("a.yaml", b"coordinates: [x, y]"), SceneGiven("b.yaml", BAD.encode()))
-    *before, last = batch_reports(SceneBatch(asked(), given))
-    assert before == [{"next": 0}, {"next": 1}]
-    assert [one["errors"] for one in last["printed"]] == [0, 1]
-    assert json.loads(last["printed"][0]["out"])["dof"] == 2
-
-
-def test_what_was_closed_does_nothing_more() -> None:
-    keeper = SceneKeeper(asked(), 1)
-    keeper.close()
-    with pytest.raises(StoppedError):
-        keeper.answer([SceneGiven("a", b"")])
+def test_a_scene_that_ends_its_worker_ends_no_other() -> None:
+    pool: Any = Breaking()
+    printed = [answer(pool, asked(), SceneGiven(f"s{k}", b"")) for k in range(6)]
+    assert [one.out for one in printed if not one.errors] == ["s0\n", "s1\n", "s2\n", "s4\n", "s5\n"]
+    assert "it could not be looked at: it ended" in printed[3].out
 
 
 @pytest.mark.sweep

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from contextlib import suppress
 from pathlib import Path
-from queue import Empty
 from typing import Any
 
 import pytest
 
-from dofkit.base.workers.worker import STARTING, _Link
+from dofkit.base.workers.worker import STARTING, Worker
 
 #: Seconds that are never used up: whoever waits for something waits so long, and fails then.
 LONG = 300.0
@@ -21,25 +20,25 @@ def let_time_run_out(patch: pytest.MonkeyPatch, told: int = 0, mark: Path | None
 
     The limits to which the clock was set, one after the other; more come while jobs are done.
     """
-    real, limits = _Link.heard, list[float]()
+    real, limits = Worker._message, list[float]()
     so_far, late = 0, False
 
-    def heard(link: _Link, seconds: float) -> Any:
+    def message(worker: Worker, seconds: float) -> Any:
         nonlocal so_far, late
         if seconds == STARTING:
-            return real(link, seconds)
+            return real(worker, seconds)
         limits.append(seconds)
         for _ in range(int(LONG / _SHORT)):
             if not late and so_far >= told and (mark is None or left(mark)):
                 late = True
-                raise Empty
-            with suppress(Empty):
-                found = real(link, _SHORT)
-                so_far = so_far + 1 if found is not None and found[0] == "told" else 0
+                raise TimeoutError
+            with suppress(TimeoutError):
+                found = real(worker, _SHORT)
+                so_far = so_far + 1 if found is not None and found[0] == "value" else 0
                 return found
         raise AssertionError("nothing is told, and nothing hangs")
 
-    patch.setattr(_Link, "heard", heard)
+    patch.setattr(Worker, "_message", message)
     return limits
 
 

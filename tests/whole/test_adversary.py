@@ -19,8 +19,7 @@ from adversary.hunt import Hunt
 from adversary.judgement import judged, overall
 from adversary.registry import KINDS, OPEN
 from adversary.running import Answer, answered, answered_apart
-from adversary.shrinking import length, shrunk
-from adversary.trial import Trial, made
+from adversary.trial import Trial, length, made, shrunk
 from shared.known_scenes import swept
 
 import dofkit
@@ -178,7 +177,7 @@ def short() -> list[Any]:
 @pytest.mark.parametrize("trial", short(), ids=str)
 def test_nothing_is_answered_wrongly(trial: Trial) -> None:
     case = made(trial)
-    answer = answered(case.scene, SECONDS)
+    answer = answered(case.scene, SECONDS / 2)
     assert outcome(case, answer) in ("right", "undecided", "refused"), (case.scene, faults(case, answer), case.truth)
 
 

@@ -1,21 +1,42 @@
-"""Several workers at once: jobs from many threads, or a stream of jobs with the outcomes as they come."""
+"""Several workers at once, here or in a cluster, and many things to be worked on in their order."""
 
 from __future__ import annotations
 
+import atexit
 import os
-from collections.abc import Iterable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from functools import cache
-from itertools import islice
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor, wait
+from functools import cache, partial
 from queue import LifoQueue
 from types import TracebackType
+from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar
 
-from dofkit.base.workers.job import Job, JobOutcome
-from dofkit.base.workers.processes import can_fork
-from dofkit.base.workers.worker import MEMORY, Worker
+from dofkit.base.errors import DofkitError
+from dofkit.base.workers.worker import MEMORY, Job, JobOutcome, Worker, can_fork
 
-#: Jobs taken from a stream ahead of the workers, for each of them.
-AHEAD = 2
+if TYPE_CHECKING:
+    from dofkit.base.journal import Journal
+
+#: Calls under way for each worker, and the most bytes that wait for one.
+AHEAD, MOST_BYTES = 32, 4_000_000
+#: How often a call is given to another machine where the first is lost, and seconds to reach the scheduler.
+RETRIES, CONNECTING = 10, 10.0
+
+
+class StoppedError(DofkitError):
+    """Work was stopped, or nobody could be found to do it."""
+
+
+class Crew(Protocol):
+    """Who makes calls, ``width`` at a time."""
+
+    @property
+    def width(self) -> int:
+        """How many at a time."""
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        """Begin with a call."""
 
 
 class Pool:
@@ -23,61 +44,150 @@ class Pool:
 
     def __init__(self, workers: int | None = None, memory: int = MEMORY, modules: Sequence[str] = ()) -> None:
         self.workers = tuple(Worker(memory, modules) for _ in range(workers or cores()))
+        self.width = len(self.workers)
         self._free: LifoQueue[Worker] = LifoQueue()
         for worker in self.workers:
             self._free.put(worker)
+        self._threads = ThreadPoolExecutor(self.width)
+        self._calls: set[Future[Any]] = set()
+        self._closed = False
 
     def fork(self) -> None:
         """Start all workers as copies of this process, where that is safe: in milliseconds, with all it has imported.
 
-        Before any of them is used: their links are threads, beside which nothing is forked.
+        Before any of them is used: a call waits in a thread, beside which nothing is forked.
         """
         if can_fork():
             for worker in self.workers:
                 worker.fork()
 
     def run(self, job: Job) -> JobOutcome:
-        """Do one job, as soon as a worker is free: the one that was used last, which is warm."""
+        """Do one job, as soon as a worker is free: the one that was used last, which is warm.
+
+        Raises StoppedError where the pool was closed.
+        """
         worker = self._free.get()
         try:
-            return worker.run(job)
+            outcome = None if self._closed else worker.run(job)
         finally:
             self._free.put(worker)
+        if outcome is None or self._closed:
+            raise StoppedError("the run was stopped")
+        return outcome
 
-    def map_unordered(self, jobs: Iterable[Job]) -> Iterator[tuple[Job, JobOutcome]]:
-        """Every job with its outcome, as they finish; of ``jobs`` no more are taken than the workers can use soon.
-
-        Where the caller stops early, what still runs is killed.
-        """
-        stream = iter(jobs)
-        executor = ThreadPoolExecutor(len(self.workers))
-        running: dict[Future[JobOutcome], Job] = {}
-        try:
-            while True:
-                for job in islice(stream, AHEAD * len(self.workers) - len(running)):
-                    running[executor.submit(self.run, job)] = job
-                if not running:
-                    return
-                for future in wait(running, return_when=FIRST_COMPLETED).done:
-                    yield running.pop(future), future.result()
-        finally:
-            executor.shutdown(wait=False, cancel_futures=True)
-            while any(not future.done() for future in running):
-                self.close()
-                wait(running, timeout=0.05)
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        """Begin with a call, such as of `run`, in a thread of this process."""
+        call = self._threads.submit(function, *arguments)
+        self._calls.add(call)
+        call.add_done_callback(self._calls.discard)
+        return call
 
     def close(self) -> None:
-        """End all processes; a later job starts new ones."""
-        for worker in self.workers:
-            worker.kill()
+        """End all workers, whatever they do, and wait for the calls under way."""
+        self._closed = True
+        self._threads.shutdown(wait=False, cancel_futures=True)
+        while True:
+            for worker in self.workers:
+                worker.kill()
+            if not (running := [call for call in self._calls.copy() if not call.done()]):
+                return
+            wait(running, timeout=0.05)
 
-    def __enter__(self) -> Pool:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+
+
+class Cluster:
+    """The workers of a Dask scheduler. Raises StoppedError where `distributed` is missing or nobody answers."""
+
+    def __init__(self, address: str) -> None:
+        try:
+            import distributed  # optional: the extra `cluster`
+
+            library: Any = distributed
+            self._client = library.Client(address, timeout=CONNECTING, set_as_default=False)
+        except ImportError:
+            raise StoppedError("--scheduler needs distributed: pip install 'dofkit[cluster]'") from None
+        except (OSError, ValueError, TimeoutError) as error:
+            raise StoppedError(f"the scheduler at {address} does not answer ({type(error).__name__})") from None
+        self.width = max(1, sum(self._client.nthreads().values()))
+        self._executor = self._client.get_executor(pure=False, retries=RETRIES)
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        """Begin with a call, on any of the machines; its future raises StoppedError where none of them makes it."""
+        future: Future[Any] = Future()
+        self._executor.submit(function, *arguments).add_done_callback(partial(_settle, future))
+        return future
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._client.close()
+
+
+def _settle(future: Future[Any], ended: Future[Any]) -> None:
+    """Pass on the result of a call in the cluster, or that it was given up."""
+    error = CancelledError() if ended.cancelled() else ended.exception()
+    if error is None:
+        future.set_result(ended.result())
+        return
+    reason = " ".join(str(error).split())[:200]
+    future.set_exception(StoppedError(f"the cluster abandoned a task: {type(error).__name__}: {reason}"))
+
+
+class Keyed(Protocol):
+    """Something to be worked on."""
+
+    @property
+    def size(self) -> int:
+        """About how many bytes it holds."""
+
+    @property
+    def key(self) -> str:
+        """What tells it from others, and from itself when it was otherwise."""
+
+
+Item = TypeVar("Item", bound=Keyed)
+Result = TypeVar("Result")
+
+
+def in_order(
+    crew: Crew, work: Callable[[Item], Result], items: Iterable[Item], journal: Journal | None = None
+) -> Iterator[tuple[Item, Result]]:
+    """Everything with the result of ``work``, in order; no more is taken than the crew can use soon.
+
+    What the journal has is taken from it, as json reads it, and what it has not is written to it.
+    """
+    stream = iter(items)
+    calls: deque[tuple[Item, Future[Result]]] = deque()
+    while True:
+        while len(calls) < AHEAD * crew.width and sum(item.size for item, _ in calls) < MOST_BYTES * crew.width:
+            item = next(stream, None)
+            if item is None:
+                break
+            known = None if journal is None else journal.result(item.key)
+            calls.append((item, crew.submit(work, item) if known is None else _done(known)))
+        if not calls:
+            return
+        item, call = calls.popleft()
+        result = call.result()
+        if journal is not None:
+            journal.write(item.key, result)
+        yield item, result
+
+
+def _done(result: Any) -> Future[Any]:
+    call: Future[Any] = Future()
+    call.set_result(result)
+    return call
 
 
 def cores() -> int:
@@ -88,7 +198,9 @@ def cores() -> int:
 @cache
 def _shared(process: int, module: str) -> Pool:
     del process
-    return Pool(modules=(module,))
+    pool = Pool(modules=(module,))
+    atexit.register(pool.close)
+    return pool
 
 
 def shared(module: str) -> Pool:

@@ -1,4 +1,4 @@
-"""One worker: it takes a job at a time, and is killed and replaced where the job goes past its limits."""
+"""One worker: it does a job at a time, and is killed and replaced where the job goes past its limits."""
 
 from __future__ import annotations
 
@@ -6,23 +6,88 @@ import json
 import os
 import pickle
 import signal
+import subprocess
+import sys
 import threading
 import time
-import weakref
 from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
 from queue import Empty, SimpleQueue
+from typing import Any, BinaryIO, Literal, TypeAlias
 
-from dofkit.base.workers.job import Job, JobOutcome, Json
-from dofkit.base.workers.pipes import receive, send
-from dofkit.base.workers.processes import Forked, Process, Spawned
+from dofkit.base.workers.child import serve
 
 #: Bytes of address space that a worker may take.
 MEMORY = 4 << 30
 #: Seconds that a worker may take to start.
 STARTING = 60.0
-_JOINING = 2.0
+#: Seconds from the end of a process's pipe to its own.
+_ENDING = 2.0
+#: The folder that holds the package.
+_ROOT = str(Path(__file__).resolve().parents[3])
 #: What the system sends a process whose clock, or processor time, has run out.
 _LIMITS = {number for name in ("SIGALRM", "SIGPROF", "SIGXCPU") if (number := getattr(signal, name, None)) is not None}
+
+#: What json can write: the only thing that comes back from a worker.
+Json = Any
+#: A `subprocess.Popen` with both pipes, or a `_Fork`.
+_Process: TypeAlias = Any
+
+#: ``done``; ``failed``: it raised; ``overrun``: killed at its limit; ``memory``: it wanted more than it may take;
+#: ``died``: its process ended; ``absent``: none could be started.
+Ended = Literal["done", "failed", "overrun", "memory", "died", "absent"]
+
+
+@dataclass(frozen=True)
+class Job:
+    """A function to call with one argument in a worker, and how long that may take.
+
+    ``function``: one that the worker can import, or its name ``module:function``. It returns what json can write; or
+    it is a generator of such values, of which the last one stands where the job is cut short. ``payload`` is anything
+    that can be pickled. ``seconds``: how long it may work without yielding anything, in wall-clock time, before it is
+    killed; ``first``: the same until its first value, where that differs.
+    """
+
+    function: str | Callable[[Any], Any]
+    payload: Any
+    seconds: float
+    first: float | None = None
+
+    @property
+    def name(self) -> str:
+        """``module:function``. Raises ValueError for a function that no other process can import."""
+        if isinstance(self.function, str):
+            return self.function
+        module, name = self.function.__module__, self.function.__qualname__
+        if module == "__main__" or "<" in name:
+            raise ValueError(f"a worker cannot import {name!r} of {module!r}: put it into a module of its own")
+        return f"{module}:{name}"
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Seconds until the first value, and from each to the next."""
+        return self.seconds if self.first is None else self.first, self.seconds
+
+
+@dataclass(frozen=True)
+class JobOutcome:
+    """The last value of a job (None: there was none), how it ended, and why where that is not ``done``.
+
+    Of a ``failed`` job ``error`` is the name of the exception's type, and ``trace`` its traceback.
+    """
+
+    value: Json
+    ended: Ended
+    reason: str = ""
+    error: str = ""
+    trace: str = ""
+
+    @property
+    def finished(self) -> bool:
+        """Whether the value is the job's last one."""
+        return self.ended == "done"
 
 
 class Worker:
@@ -35,153 +100,193 @@ class Worker:
     def __init__(self, memory: int = MEMORY, modules: Sequence[str] = (), *, fork: bool = False) -> None:
         self.memory = memory
         self.modules = tuple(modules)
-        self._new: Callable[[int, Sequence[str]], Process] = Forked if fork else Spawned
+        self._fork = fork
+        self._forget()
+
+    def _forget(self) -> None:
+        """Begin without a process; one that was started by the process of which this is a fork is left to that."""
         self._owner = os.getpid()
         self._lock = threading.Lock()
-        self._link: _Link | None = None
-        self._begun: Process | None = None
+        self._process: _Process | None = None
+        self._lines: SimpleQueue[bytes] = SimpleQueue()
+        self._reader: threading.Thread | None = None
+        self._ready = False
 
     def fork(self) -> None:
         """Start now, as a copy of this process; what replaces it later is a fresh Python all the same."""
-        self._begun = Forked(self.memory, self.modules)
+        self._process = _Fork(self.memory, self.modules)
 
     def run(self, job: Job) -> JobOutcome:
         """Do one job; threads wait for each other. Never raises for what the job does; it is tried once."""
         if self._owner != os.getpid():
             self._forget()
+        request = pickle.dumps((job.name, job.payload, job.limits))
         with self._lock:
-            message = pickle.dumps((job.name, job.payload, job.limits))
-            link = self._open_link()
-            if isinstance(link, JobOutcome):
-                return link
+            if self._process is not None and self._process.poll() is not None:
+                self._drop()
             keep = False
             try:
-                outcome, keep = self._outcome_of(link, message, job)
+                outcome, keep = self._attempt(job, request)
                 return outcome
             finally:
                 if not keep:
-                    self.kill()
+                    self._drop()
 
     def kill(self) -> None:
         """End the process, whatever it does; the next job starts a new one."""
-        link, self._link = self._link, None
-        if link is not None:
-            link.end()
-        begun, self._begun = self._begun, None
-        if begun is not None:
-            begun.kill()
-            begun.close()
+        process = self._process
+        if process is not None and self._owner == os.getpid():
+            process.kill()
+            if self._lock.acquire(blocking=False):
+                self._drop()
+                self._lock.release()
 
-    def _forget(self) -> None:
-        """In a fork of the process that started it: that one's worker is left to it."""
-        self._owner, self._lock, self._link, self._begun = os.getpid(), threading.Lock(), None, None
+    def _drop(self) -> None:
+        process, self._process, self._ready = self._process, None, False
+        if process is not None:
+            process.kill()
+            process.wait()
+            reader, self._reader = self._reader, None
+            with suppress(OSError):
+                process.stdin.close()
+            if reader is not None:
+                reader.join(_ENDING)
+            if reader is None or not reader.is_alive():
+                process.stdout.close()
 
-    def _open_link(self) -> _Link | JobOutcome:
-        if self._link is not None and self._link.process.poll() is not None:
-            self.kill()
-        if self._link is None:
-            try:
-                begun, self._begun = self._begun, None
-                link = _Link(begun or self._new(self.memory, self.modules))
-            except OSError as error:
-                return JobOutcome(None, "absent", f"no worker process could be started ({error})")
-            self._link, link.finalizer = link, weakref.finalize(self, link.end)
-            why = link.failure_to_start()
-            if why:
-                self.kill()
-                return JobOutcome(None, "absent", f"the worker process {why} while it started")
-            return link
-        return self._link
-
-    def _outcome_of(self, link: _Link, message: bytes, job: Job) -> tuple[JobOutcome, bool]:
-        """The outcome, and whether the worker is good for another job."""
+    def _attempt(self, job: Job, request: bytes) -> tuple[JobOutcome, bool]:
+        """The outcome of a job, and whether the worker is good for another one."""
         value: Json = None
-        limit, following = job.limits
+        seconds, following = STARTING, job.limits[1]
         try:
-            send(link.process.down, message)
-            while True:
-                heard = link.heard(limit)
-                if heard is None:
-                    return link.outcome(value), False
-                kind, said = heard
-                if kind != "told":
-                    return self._final_outcome(value, kind, said)
-                value, limit = said, following
-        except Empty:
-            return JobOutcome(value, "overrun", f"the worker process was killed after {limit:.3g} s"), False
+            process = self._process = self._process or self._started()
+        except OSError as error:
+            return JobOutcome(None, "absent", f"no worker process could be started ({error})"), False
+        if self._reader is None:
+            self._lines = SimpleQueue()
+            self._reader = threading.Thread(target=_collect, args=(process.stdout, self._lines), daemon=True)
+            self._reader.start()
+        try:
+            if not self._ready and self._message(STARTING) is None:
+                raise OSError
+            self._ready = True
+            seconds = job.limits[0]
+            pickle.dump(request, process.stdin)
+            process.stdin.flush()
+            while (message := self._message(seconds)) is not None:
+                kind, content = message
+                if kind != "value":
+                    return self._outcome(value, kind, content)
+                value, seconds = content, following
+            reason = _reason_of_end(process)
+        except TimeoutError:
+            reason = f"was killed after {seconds:.3g} s"
+            if self._ready:
+                return JobOutcome(value, "overrun", f"the worker process {reason}"), False
         except OSError:
-            return link.outcome(value), False
+            reason = _reason_of_end(process)
+        if not self._ready:
+            return JobOutcome(None, "absent", f"the worker process {reason} while it started"), False
+        late = process.returncode is not None and -process.returncode in _LIMITS
+        return JobOutcome(value, "overrun" if late else "died", f"the worker process {reason}"), False
 
-    def _final_outcome(self, value: Json, kind: str, said: Json) -> tuple[JobOutcome, bool]:
+    def _message(self, seconds: float) -> tuple[str, Json] | None:
+        """The next message, None where the process has ended. Raises TimeoutError after so many seconds."""
+        try:
+            line = self._lines.get(timeout=min(seconds, threading.TIMEOUT_MAX))
+        except Empty:
+            raise TimeoutError from None
+        return tuple(json.loads(line)) if line.endswith(b"\n") else None
+
+    def _outcome(self, value: Json, kind: str, content: Json) -> tuple[JobOutcome, bool]:
+        """The outcome of a job that ended by itself, and whether the worker is good for another one."""
         if kind == "done":
-            return JobOutcome(value, "done"), not said
+            return JobOutcome(value, "done"), not content
         if kind == "memory":
             wanted = f"more than {self.memory / (1 << 30):.3g} GiB of memory would have been needed"
             return JobOutcome(value, "memory", wanted), False
-        error, told = str(said["type"]), " ".join(str(said["said"]).split())
-        return JobOutcome(value, "failed", f"{error}: {told}" if told else error, error, str(said["trace"])), True
+        error, message = str(content["type"]), " ".join(str(content["message"]).split())
+        reason = f"{error}: {message}" if message else error
+        return JobOutcome(value, "failed", reason, error, str(content["trace"])), True
+
+    def _started(self) -> _Process:
+        """A new process. A fresh Python runs nothing of ``__main__``, and shares two pipes with this process."""
+        if self._fork and can_fork():
+            return _Fork(self.memory, self.modules)
+        return subprocess.Popen(
+            [sys.executable, "-P", "-m", "dofkit.base.workers", str(self.memory), *self.modules],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(_search_path())},
+            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+        )
 
 
-class _Link:
-    """A process, and what it tells, which a thread of its own collects: waiting for it can be given up."""
-
-    def __init__(self, process: Process) -> None:
-        self.process = process
-        self.finalizer: weakref.finalize[[], Worker] | None = None
-        self._owner = os.getpid()
-        self._ending = threading.Lock()
-        self._messages: SimpleQueue[bytes | None] = SimpleQueue()
-        self._reader = threading.Thread(target=_collect, args=(process.up, self._messages), daemon=True)
-        self._reader.start()
-
-    def heard(self, seconds: float) -> tuple[str, Json] | None:
-        """The next thing that it tells; None where it tells no more. Raises Empty after so many seconds."""
-        message = self._messages.get(timeout=min(seconds, threading.TIMEOUT_MAX))
-        if message is None:
-            return None
-        kind, said = json.loads(message)
-        return str(kind), said
-
-    def failure_to_start(self) -> str | None:
-        """Wait until it is ready; why it is not."""
-        try:
-            return None if self.heard(STARTING) else self.how()
-        except Empty:
-            return f"was killed after {STARTING:.3g} s"
-
-    def outcome(self, value: Json) -> JobOutcome:
-        """Of a job in which the process ended: by a limit that it had set itself, or otherwise."""
-        reason = f"the worker process {self.how()}"
-        status = self.process.poll()
-        return JobOutcome(value, "overrun" if status is not None and -status in _LIMITS else "died", reason)
-
-    def how(self) -> str:
-        """How the process ended, as the end of a sentence."""
-        until = time.monotonic() + _JOINING
-        while (status := self.process.poll()) is None and time.monotonic() < until:
-            time.sleep(0.005)
-        if status is None:
-            return "stopped answering"
-        if status >= 0:
-            return f"ended with exit status {status}"
-        known = {number.value: number.name for number in signal.Signals}
-        return f"was ended by {known.get(-status, f'signal {-status}')}"
-
-    def end(self) -> None:
-        """Kill the process, if this one is its parent, and close the pipes."""
-        if self._owner != os.getpid():
-            return
-        with self._ending:
-            if self.finalizer is not None:
-                self.finalizer.detach()
-            self.process.kill()
-            if self._reader is not threading.current_thread():
-                self._reader.join(_JOINING)
-            if not self._reader.is_alive():
-                self.process.close()
+def can_fork() -> bool:
+    """Whether this process may be forked: no other thread may hold locks, and libraries must not forbid it."""
+    return hasattr(os, "fork") and sys.platform != "darwin" and threading.active_count() == 1
 
 
-def _collect(up: int, messages: SimpleQueue[bytes | None]) -> None:
-    while (message := receive(up)) is not None:
-        messages.put(message)
-    messages.put(None)
+class _Fork:
+    """A copy of this process, in milliseconds, with all that it has imported; used like `subprocess.Popen`."""
+
+    def __init__(self, memory: int, modules: Sequence[str]) -> None:
+        down, mine = os.pipe()
+        theirs, up = os.pipe()
+        self.returncode: int | None = None
+        self._pid = os.fork()
+        if self._pid == 0:
+            try:
+                os.close(mine)
+                os.close(theirs)
+                serve(down, up, memory, modules)
+            finally:
+                os._exit(1)
+        os.close(down)
+        os.close(up)
+        self.stdin, self.stdout = os.fdopen(mine, "wb"), os.fdopen(theirs, "rb")
+
+    def poll(self) -> int | None:
+        return self.wait(getattr(os, "WNOHANG", 0))
+
+    def kill(self) -> None:
+        if self.poll() is None:
+            os.kill(self._pid, signal.SIGKILL)
+
+    def wait(self, options: int = 0) -> int | None:
+        if self.returncode is None:
+            try:
+                pid, status = os.waitpid(self._pid, options)
+            except ChildProcessError:
+                pid, status = self._pid, 0
+            if pid:
+                self.returncode = os.waitstatus_to_exitcode(status)
+        return self.returncode
+
+
+def _collect(source: BinaryIO, lines: SimpleQueue[bytes]) -> None:
+    """Pass on the lines of a process and, at its end, an empty one: waiting for a queue can be given up."""
+    with suppress(OSError, ValueError):
+        for line in source:
+            lines.put(line)
+    lines.put(b"")
+
+
+def _search_path() -> list[str]:
+    """Where this process looks for modules, but never the working folder: a file there is not to be run by chance."""
+    found = [os.path.abspath(place) for place in sys.path if place]
+    return found if _ROOT in found else [_ROOT, *found]
+
+
+def _reason_of_end(process: _Process) -> str:
+    """How a process ended that closed its pipe, as the end of a sentence."""
+    until = time.monotonic() + _ENDING
+    while (status := process.poll()) is None and time.monotonic() < until:
+        time.sleep(0.005)
+    if status is None:
+        return "stopped answering"
+    if status >= 0:
+        return f"ended with exit status {status}"
+    known = {number.value: number.name for number in signal.Signals}
+    return f"was ended by {known.get(-status, f'signal {-status}')}"

@@ -11,10 +11,10 @@ from dofkit.classification.freedom.bridged_blocks import bridged_answer
 from dofkit.configuration import distance_geometry
 from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.drawing.at_reference import at_reference
-from dofkit.configuration.drawing.measured_blocks import is_measured
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.level_bodies import LEVEL, level_angle
 from dofkit.configuration.linear_blocks import confirmed, eliminated
+from dofkit.configuration.measured.equations import is_measured
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety
 from dofkit.configuration.witness import of_real_point, of_reference
@@ -24,7 +24,6 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.zero.independence import doubt, independent_generators
 from dofkit.expressions.tree import Expr
-from dofkit.integrability import measured_forms
 from dofkit.integrability.labels_by_balls import ball_labels
 from dofkit.integrability.labels_by_field import field_labels
 from dofkit.integrability.lie_algebra_at_points import SampledSpan, on_the_same_part, span_at
@@ -51,6 +50,10 @@ IRREGULAR = (
     "the geometric equations define"
 )
 
+MEASURED = (
+    "measured equations occur together with differential ones; whether these integrate was not decided "
+    "within the tolerance"
+)
 APART = "real configurations were found only on components other than those of the points over GF(p)"
 
 
@@ -112,7 +115,7 @@ def _tested(block: Block, setting: Setting, finite: Answer) -> Answer:
 
 def _mixed_answer(block: Block, setting: Setting) -> Answer:
     if block.finite and is_measured(block, setting):
-        return measured_forms.measured_answer(block, setting)
+        return Answer(None, verdict="undecided", reasons=[MEASURED])
     result = _prolonged(block, setting, Answer())
     if setting.reference is not None:
         if block.nonlinear:

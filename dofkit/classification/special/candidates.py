@@ -11,8 +11,7 @@ from math import comb
 from dofkit.classification.special.common_zeros import MAX_READ, Leaf, common_zeros
 from dofkit.classification.special.minors import MAX_MINORS, EliminatedTable, MinorTable, curvatures
 from dofkit.exact.errors import NoValueError, raising_no_value
-from dofkit.exact.ring.canonical import Poly
-from dofkit.exact.ring.minors import determinant
+from dofkit.exact.ring.canonical import Poly, determinant
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 

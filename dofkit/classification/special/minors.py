@@ -17,8 +17,7 @@ from dofkit.base.deadline import check
 from dofkit.classification.special.common_zeros import Reals
 from dofkit.classification.special.derivatives import Derivation
 from dofkit.exact.errors import TooLargeError, raising_no_value
-from dofkit.exact.ring.canonical import Canon, Poly, Quotient
-from dofkit.exact.ring.minors import cleared, determinant
+from dofkit.exact.ring.canonical import Canon, Poly, Quotient, cleared, determinant
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr

@@ -145,7 +145,9 @@ class RealSearch:
                 return j
             previous = residual
             step = np.linalg.lstsq(j / scale[:, None], -f / scale, rcond=1e-12)[0]
-            length = math.sqrt(step.dot(step))
+            length = math.hypot(*step.tolist())
+            if not math.isfinite(length):
+                return None
             if length > 4 * reach:
                 step *= 4 * reach / length
             base = {u: symbols[u] for u in self.unknowns}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from dofkit.exact.ring.builder import Builder
+from dofkit.exact.ring.instructions import Builder
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 

@@ -6,6 +6,7 @@ identically, which is a proof. Everything is bounded: past `MAX_TERMS` terms the
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -207,3 +208,32 @@ def is_identically_zero(expression: Expr, positive: frozenset[Expr] = frozenset(
         raise
     except NoValueError:
         return None
+
+
+@raising_no_value
+def cleared(canon: Canon, row: Sequence[Quotient]) -> tuple[list[Poly], Poly]:
+    """Return a row's entries times their common denominator, as polynomials, and that denominator."""
+    whole = canon.one
+    for _, bottom in row:
+        if bottom != whole:
+            whole = whole * (bottom / bottom.gcd(whole))
+    return [canon.reduce(top if bottom == whole else top * (whole / bottom)) for top, bottom in row], whole
+
+
+def polynomials(canon: Canon, row: Mapping[int, int], n: int) -> list[Poly]:
+    """Return the entries of a row, nodes by column, times their common denominator, as polynomials."""
+    zero = (canon.one * 0, canon.one)
+    return cleared(canon, [canon.quotient(row[c]) if c in row else zero for c in range(n)])[0]
+
+
+def determinant(canon: Canon, matrix: Sequence[Sequence[Poly]]) -> Poly:
+    """Return the determinant in the canonical ring, expanded along the first row."""
+    if len(matrix) == 1:
+        return matrix[0][0]
+    total = canon.one * 0
+    for c, entry in enumerate(matrix[0]):
+        if entry != 0:
+            below = determinant(canon, [[*row[:c], *row[c + 1 :]] for row in matrix[1:]])
+            term = canon.reduce(entry * below)
+            total = total + term if c % 2 == 0 else total - term
+    return canon.reduce(total)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 
-from dofkit.exact.ring.builder import Builder
+from dofkit.exact.ring.instructions import Builder
 from dofkit.exact.ring.radicals import known_signs, leads_with_minus, never_negative, prime_powers, sign
 from dofkit.expressions import tree as ex
 from dofkit.expressions.terms import sorted_sum

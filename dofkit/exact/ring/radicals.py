@@ -8,7 +8,7 @@ from typing import Any
 from flint import Ordering, fmpq, fmpq_mpoly_ctx, fmpz, fmpz_poly
 from flint.utils.flint_exceptions import DomainError
 
-from dofkit.exact.ring.builder import Builder
+from dofkit.exact.ring.instructions import Builder
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import interval_of, is_constant
 from dofkit.expressions.terms import content, linear_terms, sorted_sum

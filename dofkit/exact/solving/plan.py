@@ -19,7 +19,7 @@ from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.ring.instructions import ADD, MUL, NUM, POW
 from dofkit.exact.ring.program import reachable
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.combinations import combined
+from dofkit.exact.solving.ideals import combined
 from dofkit.exact.solving.unknowns import Unit, is_linear, root_relations, units_in, univariate, value_along
 from dofkit.exact.zero.independence import independent_generators
 

@@ -66,7 +66,8 @@ class Handed:
             return of_text(self.data, self.name, self.place, known)
         return [of_value(self.data, self.name, self.place)]
 
-    def digest(self) -> str:
+    @property
+    def key(self) -> str:
         """What tells it from another, in 16 characters."""
         said = self.data if isinstance(self.data, bytes) else repr((self.data, self.error)).encode("utf-8", "replace")
         users = "\0".join(user.student for user in self.users)

@@ -1,9 +1,8 @@
-"""A batch of submissions in a worker: read, graded, and told as lines of JSON."""
+"""What was handed in at one place, in a worker: read, graded, and returned as lines of JSON."""
 
 from __future__ import annotations
 
 import pickle
-import time
 from collections.abc import Generator, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -11,16 +10,13 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 from dofkit.base.workers import Json
-from dofkit.base.workers.limits import allow_processor
+from dofkit.base.workers.child import allow_processor
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.answers.submission import Submission
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.echo import Echo, echo
 from dofkit.homework.grading import ANSWER_SECONDS, Grader, Spot
 from dofkit.homework.result import Result
-
-#: Seconds after which a worker shows that it lives, where the next answer takes work.
-BEAT = 0.25
 
 
 class ResultLine(NamedTuple):
@@ -70,36 +66,30 @@ class Orders:
 
 @dataclass(frozen=True)
 class GradingTask:
-    """Submissions to grade. ``careful``: tell of every answer that it comes next."""
+    """Something handed in, to be graded. ``condemned``: why some answers are not to be judged."""
 
     orders: Orders
-    handed: tuple[Handed, ...]
+    handed: Handed
     condemned: Mapping[Spot, str] = field(default_factory=dict)
-    careful: bool = False
 
 
-def batch_results(task: GradingTask) -> Iterator[Json]:
-    """The answers that come next, from time to time; at the end ``{"lines": ...}``, a list for each of ``handed``."""
+def graded_lines(task: GradingTask) -> Iterator[Json]:
+    """Yield ``{"next": ...}`` before each answer that takes work, and at the end ``{"lines": ...}``."""
     grader = _grader(task.orders)
-    known = grader.prepared.columns()
     grader.condemned = task.condemned
-    last, lines = time.monotonic(), list[list[ResultLine]]()
-    for one in task.handed:
-        lines.append([])
+    lines: list[ResultLine] = []
+    allow_processor(task.orders.hard)
+    for submission in task.handed.submissions(grader.prepared.columns()):
         allow_processor(task.orders.hard)
-        for submission in one.submissions(known):
+        steps = _steps(grader, submission, task.orders.check_only)
+        while True:
+            try:
+                spot = next(steps)
+            except StopIteration as stop:
+                lines.append(ResultLine.of(stop.value))
+                break
+            yield {"next": spot}
             allow_processor(task.orders.hard)
-            steps = _steps(grader, submission, task.orders.check_only)
-            while True:
-                try:
-                    spot = next(steps)
-                except StopIteration as stop:
-                    lines[-1].append(ResultLine.of(stop.value))
-                    break
-                if task.careful or time.monotonic() - last > BEAT:
-                    yield {"next": spot}
-                    allow_processor(task.orders.hard)
-                    last = time.monotonic()
     yield {"lines": lines}
 
 

@@ -1,83 +1,66 @@
-"""Workers that grade, and what becomes of answers that break them: those alone need a review, the rest goes on."""
+"""Grading in workers, and what becomes of answers that break them: those alone need a review, the rest goes on."""
 
 from __future__ import annotations
 
 import threading
-import time
-from collections.abc import Sequence
-from types import TracebackType
+from functools import lru_cache
 
-from dofkit.base.workers import MEMORY, Job, JobOutcome
-from dofkit.base.workers.batches import Worked
-from dofkit.base.workers.stoppable_pool import StoppablePool
+from dofkit.base.workers import Job, JobOutcome
+from dofkit.base.workers.pool import Pool, StoppedError
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.grading import Spot
-from dofkit.homework.runs.batch import GradingTask, Orders, ResultLine, batch_results
+from dofkit.homework.runs.batch import GradingTask, Orders, ResultLine, graded_lines
 
+#: What a worker imports before its first job.
+MODULES = ("dofkit.homework.runs.batch",)
+_TOO_MUCH = "grading it took too long or too much memory."
 #: What a student reads of an answer that broke its worker, by how that ended.
-_ENDED = {
-    "overrun": "grading it took too long or too much memory.",
-    "memory": "grading it took too long or too much memory.",
-    "died": "grading it took too long or too much memory.",
-    "failed": "an internal error occurred.",
-}
+_ENDED = {"overrun": _TOO_MUCH, "memory": _TOO_MUCH, "died": _TOO_MUCH, "failed": "an internal error occurred."}
 
 
 class Keeper:
-    """Grades batches, from any thread, each in one of so many killable workers.
+    """Grades what was handed in, from any thread, by the workers of a pool."""
 
-    ``memory``: the bytes of address space that each may take.
-    """
-
-    def __init__(self, orders: Orders, workers: int, memory: int = MEMORY) -> None:
+    def __init__(self, orders: Orders, pool: Pool) -> None:
         self.orders = orders
-        self._pool = StoppablePool(workers, memory, modules=("dofkit.homework.runs.batch",))
+        self._pool = pool
         self._condemned: dict[Spot, str] = {}
         self._lock = threading.Lock()
 
-    def fork(self) -> None:
-        """Start the workers as copies of this process, where that is safe."""
-        self._pool.fork()
+    def grade(self, handed: Handed) -> list[ResultLine]:
+        """The line of each submission. Raises StoppedError.
 
-    def grade(self, handed: Sequence[Handed]) -> Worked[list[ResultLine]]:
-        """The lines of everything handed in, in order, and the seconds it took. Raises StoppedError."""
-        start = time.monotonic()
-        outcome = self._run(tuple(handed), careful=False)
-        if outcome.finished:
-            lines = [[ResultLine(*line) for line in lines] for lines in outcome.value["lines"]]
-        else:
-            lines = [self._lines_of(one) for one in handed]
-        return Worked(lines, time.monotonic() - start)
-
-    def _lines_of(self, one: Handed) -> list[ResultLine]:
-        """One at a time, and telling of every answer before it is judged: so one that breaks the worker is found."""
+        An answer that breaks two workers, of which the second is a fresh one, is not judged again.
+        """
+        suspects: list[Spot | None] = []
         while True:
-            outcome = self._run((one,), careful=True)
-            if outcome.finished:
-                return [ResultLine(*line) for line in outcome.value["lines"][0]]
-            spot = outcome.value["next"] if outcome.value else None
             with self._lock:
-                if spot is None or spot in self._condemned:
-                    return [self._refusal(one, outcome)]
-                self._condemned[spot] = _ENDED[outcome.ended]
+                condemned = dict(self._condemned)
+            task = GradingTask(self.orders, handed, condemned)
+            outcome = self._pool.run(Job(graded_lines, task, self.orders.wall))
+            if outcome.ended == "absent":
+                raise StoppedError(outcome.reason)
+            if outcome.finished:
+                return [ResultLine(*line) for line in outcome.value["lines"]]
+            spot = outcome.value["next"] if outcome.value else None
+            if spot not in suspects:
+                suspects.append(spot)
+            elif spot is None or spot in condemned:
+                return [self._refusal(handed, outcome)]
+            else:
+                with self._lock:
+                    self._condemned[spot] = _ENDED[outcome.ended]
 
-    def _refusal(self, one: Handed, outcome: JobOutcome) -> ResultLine:
-        return self.orders.refused(one.name, f"{one.place}: it could not be graded: {_ENDED[outcome.ended]}")
+    def _refusal(self, handed: Handed, outcome: JobOutcome) -> ResultLine:
+        error = f"{handed.place}: it could not be graded: {_ENDED[outcome.ended]}"
+        return self.orders.refused(handed.name, error)
 
-    def _run(self, handed: tuple[Handed, ...], careful: bool) -> JobOutcome:
-        with self._lock:
-            condemned = dict(self._condemned)
-        task = GradingTask(self.orders, handed, condemned, careful)
-        return self._pool.run(Job(batch_results, task, self.orders.wall))
 
-    def close(self) -> None:
-        """End all workers, whatever they do."""
-        self._pool.close()
+def grade_there(orders: Orders, handed: Handed) -> list[ResultLine]:
+    """The same on a machine of a cluster, by killable workers of its own."""
+    return _keeper(orders).grade(handed)
 
-    def __enter__(self) -> Keeper:
-        return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
+@lru_cache(maxsize=1)
+def _keeper(orders: Orders) -> Keeper:
+    return Keeper(orders, Pool(modules=MODULES))

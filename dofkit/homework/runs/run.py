@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, closing, contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from typing import TypeAlias
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-from dofkit.base.line_journal import ledger
-from dofkit.base.workers.batches import in_order
-from dofkit.base.workers.pool import cores
+from dofkit.base.journal import Journal, files_of
+from dofkit.base.version import __version__
+from dofkit.base.workers import MEMORY
+from dofkit.base.workers.pool import Cluster, Pool, in_order
 from dofkit.homework.answers.roster import Roster, load_roster
 from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment
@@ -23,10 +27,8 @@ from dofkit.homework.formats.apart import apart_path
 from dofkit.homework.result import Result
 from dofkit.homework.runs.appeals import Appeals
 from dofkit.homework.runs.batch import Orders, ResultLine
-from dofkit.homework.runs.crew import GradingCrew, cluster_crew, local_crew
-from dofkit.homework.runs.journal import Journal, fingerprint
-from dofkit.homework.runs.keeper import Keeper
-from dofkit.homework.runs.repeats import HandedIn, without_repeats
+from dofkit.homework.runs.keeper import MODULES, Keeper, grade_there
+from dofkit.homework.runs.repeats import without_repeats
 from dofkit.homework.runs.review_files import ReviewPaths, RunReview
 from dofkit.homework.runs.rostered import named_by, rostered
 from dofkit.homework.sheet_owners import people_of, with_names
@@ -99,7 +101,21 @@ class GradingOptions:
         if self.out is None or path is None:
             return []
         beside = [apart_path(self.out), *([] if review is None else [review.table, review.page])]
-        return [self.out, path, ledger(path), *beside]
+        return [self.out, path, *files_of(unfinished(path)), *beside]
+
+
+def unfinished(results: Path) -> Path:
+    """The journal of an unfinished run, from which the next one goes on."""
+    return results.with_name(results.name + ".unfinished")
+
+
+def fingerprint(prepared: Prepared, check_only: bool, roster: Roster | None = None) -> str:
+    """What tells a run from others: the assignment with its scenes, who is in the course, and who grades it how."""
+    course = "" if roster is None else roster.digest
+    parts = [__version__, str(check_only), course, prepared.assignment.model_dump_json()]
+    parts += [f"{identity} {decision}" for identity, decision in sorted(prepared.decisions.items())]
+    parts += [f"{name} {key.convention} {key.scene.model_dump_json()}" for name, key in prepared.keys.items()]
+    return hashlib.blake2b("\0".join(parts).encode("utf-8", "replace"), digest_size=16).hexdigest()
 
 
 def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
@@ -121,9 +137,9 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     stream = hand_ins(sources, prepared.columns(), others)
     if people is not None:
         stream = (named_by(people, one) for one in stream)
-    with _crew(orders, options) as crew, closing(HandedIn()) as seen:
+    with _graders(orders, options) as grade:
         appeals = None if options.certificates is None or options.check_only else Appeals(prepared)
-        one = _Run(form, prepared, orders, crew, seen, roster, people, sources, appeals)
+        one = _Run(form, prepared, orders, grade, roster, people, sources, appeals)
         if options.out is None or options.native is None:
             one.to_stdout(stream)
         else:
@@ -137,17 +153,20 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     return one.failed == 0
 
 
+#: Yields everything handed in with its results, in order; a journal keeps them.
+Grade: TypeAlias = Callable[[Iterator[Handed], Journal | None], Iterator[tuple[Handed, list[ResultLine]]]]
+
+
 @contextmanager
-def _crew(orders: Orders, options: GradingOptions) -> Iterator[GradingCrew]:
+def _graders(orders: Orders, options: GradingOptions) -> Iterator[Grade]:
+    """Workers of this machine, or of a cluster. Raises StoppedError."""
     if options.scheduler is not None:
-        with cluster_crew(options.scheduler, orders) as crew:
-            yield crew
+        with Cluster(options.scheduler) as cluster:
+            yield partial(in_order, cluster, partial(grade_there, orders))
         return
-    workers = options.workers or cores()
-    with Keeper(orders, workers) as keeper:
-        keeper.fork()
-        with local_crew(keeper, workers) as crew:
-            yield crew
+    with Pool(options.workers, MEMORY, MODULES) as pool:
+        pool.fork()
+        yield partial(in_order, pool, Keeper(orders, pool).grade)
 
 
 @dataclass
@@ -161,8 +180,7 @@ class _Run:
     form: Format
     prepared: Prepared
     orders: Orders
-    crew: GradingCrew
-    seen: HandedIn
+    grade: Grade
     roster: Roster | None = None
     people: Roster | None = None
     sources: Sequence[str] = ()
@@ -187,11 +205,12 @@ class _Run:
 
         ``path``: where results stand in our own.
         """
-        with closing(Journal(path, fingerprint(self.prepared, self.orders.check_only, self.roster))) as journal:
-            left = journal.remaining(stream, self.seen)
-            self.failed += journal.failed
-            for one, lines in self._with_lines(left, False):
-                journal.write(one, lines)
+        if not path.exists():
+            unfinished(path).unlink(missing_ok=True)
+        mark = fingerprint(self.prepared, self.orders.check_only, self.roster)
+        with closing(Journal(unfinished(path), mark)) as journal, path.open("w", 1, "utf-8", newline="\n") as results:
+            for _, lines in self._with_lines(stream, False, journal):
+                results.writelines(f"{line.text}\n" for line in lines)
         if self.appeals is not None:
             self.appeals.gather(_results(path))
         if self.form.name != NATIVE:
@@ -199,7 +218,7 @@ class _Run:
         review.write(path, self.prepared)
         if self.form.name != NATIVE:
             path.unlink()
-        journal.finish()
+        journal.remove()
 
     def _kept(self, lines: Iterator[str]) -> Iterator[str]:
         """Lines, of which answers are kept."""
@@ -208,12 +227,14 @@ class _Run:
                 self.appeals.add(Result.model_validate_json(text))
             yield text
 
-    def _with_lines(self, stream: Iterator[Handed], quiet: bool) -> Iterator[tuple[Handed, list[ResultLine]]]:
+    def _with_lines(
+        self, stream: Iterator[Handed], quiet: bool, journal: Journal | None = None
+    ) -> Iterator[tuple[Handed, list[ResultLine]]]:
         """Everything with its results, counted, and shown on a terminal how far it is."""
         with _bar(quiet) as bar:
             task = bar.add_task("graded", total=None)
-            graded = rostered(self.people, in_order(self.crew, stream))
-            for one, lines in without_repeats(self.orders, graded, self.seen):
+            graded = ((one, [ResultLine(*line) for line in lines]) for one, lines in self.grade(stream, journal))
+            for one, lines in without_repeats(self.orders, rostered(self.people, graded)):
                 self.failed += sum(line.failed for line in lines)
                 self.doubted += sum(line.doubted for line in lines)
                 yield one, lines

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Generator, Iterator, Sequence
+import hashlib
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, contextmanager
-from itertools import chain
+from dataclasses import replace
+from functools import lru_cache, partial
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
-from dofkit.base.workers.batches import in_order
-from dofkit.base.workers.pool import cores
-from dofkit.interface.many.keeper import SceneCrew, cluster_scenes, local_scenes
-from dofkit.interface.many.kept_reports import KeptReport, KeptReports, mark_of
+from dofkit.base.journal import Journal
+from dofkit.base.version import __version__
+from dofkit.base.workers import MEMORY
+from dofkit.base.workers.pool import Cluster, Pool, in_order
+from dofkit.interface import one_file
 from dofkit.interface.many.scene_files import SceneGiven, scenes_given
-from dofkit.interface.supervised import Given, Printed
+from dofkit.interface.supervised import Given, Printed, report_by
+
+#: What workers import; it is imported here already for those that are forks of this process.
+MODULES = (one_file.__name__,)
+#: The file of the reports in their folder.
+REPORTS = "reports.jsonl"
 
 
 class Helpers(NamedTuple):
@@ -26,60 +33,65 @@ class Helpers(NamedTuple):
 
 def many_reports(files: Sequence[str], asked: Given, helpers: Helpers) -> Generator[Printed]:
     """What is printed of the report on each file, in their order. Raises StoppedError."""
-    with _crew(asked, helpers) as crew:
-        for _, printed in in_order(crew, scenes_given(files, asked.certificate)):
+    with _answerers(asked, helpers) as answers:
+        for _, printed in answers(scenes_given(files, asked.certificate), None):
             yield printed
 
 
 def kept_reports(files: Sequence[str], asked: Given, helpers: Helpers, folder: Path) -> Generator[Printed]:
-    """The same written to a folder, where nothing of it is printed. Raises StoppedError, OSError and BusyError."""
-    scenes = scenes_given(files, asked.certificate)
-    with closing(KeptReports(folder, mark_of(asked))) as kept:
-        for scene in scenes:
-            found = kept.next_known(scene.key)
-            if found is None:
-                kept.write_from_here()
-                with _crew(asked, helpers) as crew:
-                    yield from _others(chain([scene], scenes), kept, crew)
-                break
-            yield _counted(found)
-        else:
-            kept.write_from_here()
-        kept.finish()
+    """The same written to a folder, a line each, where nothing of it is printed.
+
+    The journal beside the lines stays: a later run asks only about files that changed or came. Raises StoppedError,
+    OSError and BusyError.
+    """
+    path = folder / REPORTS
+    ledger = path.with_name(path.name + ".ledger")
+    if not path.exists():
+        ledger.unlink(missing_ok=True)
+    with _answerers(asked, helpers) as answers, closing(Journal(ledger, _mark(asked))) as journal:
+        with path.open("wb") as reports:
+            for _, known in answers(scenes_given(files, asked.certificate), journal):
+                printed = Printed(*known)
+                line = printed.out if printed.out.endswith("\n") else printed.out + "\n"
+                reports.write(line.encode("utf-8", "surrogateescape"))
+                reports.flush()
+                yield printed._replace(out="", err="")
+        journal.keep_written()
 
 
-def _others(scenes: Iterator[SceneGiven], kept: KeptReports, crew: SceneCrew) -> Iterator[Printed]:
-    """What is not known is asked; every line is written after all before it."""
-    waiting: deque[tuple[str, bool]] = deque()
-
-    def unknown() -> Iterator[SceneGiven]:
-        for scene in scenes:
-            known = kept.knows(scene.key)
-            waiting.append((scene.key, known))
-            if not known:
-                yield scene
-
-    def known() -> Iterator[Printed]:
-        while waiting and waiting[0][1]:
-            yield _counted(kept.write_known(waiting.popleft()[0]))
-
-    for _, printed in in_order(crew, unknown()):
-        yield from known()
-        kept.write(waiting.popleft()[0], KeptReport(printed.out, printed.outcome))
-        yield printed._replace(out="", err="")
-    yield from known()
+def _mark(asked: Given) -> str:
+    """What tells a run from others: who answers, and what is asked of every scene."""
+    telling = asked.telling
+    parts = (asked.budget, asked.method, telling.only, telling.without, telling.limits, asked.certificate)
+    return hashlib.blake2b(repr((__version__, *parts)).encode(), digest_size=16).hexdigest()
 
 
-def _counted(report: KeptReport) -> Printed:
-    """What is taken over is counted, and not printed."""
-    return Printed("", "", int(report.outcome is None), report.outcome)
+#: Yields every scene with what is printed of it, in order; a journal keeps that.
+Answers: TypeAlias = Callable[[Iterator[SceneGiven], Journal | None], Iterator[tuple[SceneGiven, Printed]]]
 
 
 @contextmanager
-def _crew(asked: Given, helpers: Helpers) -> Iterator[SceneCrew]:
+def _answerers(asked: Given, helpers: Helpers) -> Iterator[Answers]:
+    """Workers of this machine, or of a cluster. Raises StoppedError."""
     if helpers.scheduler is not None:
-        with cluster_scenes(helpers.scheduler, asked) as crew:
-            yield crew
+        with Cluster(helpers.scheduler) as cluster:
+            yield partial(in_order, cluster, partial(_answer_there, asked))
         return
-    with local_scenes(asked, helpers.workers or cores()) as crew:
-        yield crew
+    with Pool(helpers.workers, MEMORY, MODULES) as pool:
+        pool.fork()
+        yield partial(in_order, pool, partial(answer, pool, asked))
+
+
+def answer(pool: Pool, asked: Given, scene: SceneGiven) -> Printed:
+    """What is printed of one scene. Raises StoppedError."""
+    return report_by(pool, replace(asked, file=scene.file, data=scene.data, certificate=scene.certificate))
+
+
+def _answer_there(asked: Given, scene: SceneGiven) -> Printed:
+    """The same on a machine of a cluster, by killable workers of its own."""
+    return answer(_pool(), asked, scene)
+
+
+@lru_cache(maxsize=1)
+def _pool() -> Pool:
+    return Pool(modules=MODULES)
