@@ -168,7 +168,7 @@ def test_when_points_are_shown(line: str, expected: str, sheet: Path, tmp_path: 
     assert all(test["visibility"] == "visible" and not {"score", "status"} & set(test) for test in read)
     outputs = {test["name"]: test["output"] for test in read}
     assert outputs["pendulum.f: how it was read"] == "Read as: 1"
-    assert outputs["pendulum.rod: how it was read"].startswith("Could not be read (column ")
+    assert outputs["pendulum.rod: how it was read"].startswith("Not readable (column ")
     assert outputs["disc.f: how it was read"] == "No answer was given."
     assert "point" not in found["output"].lower()
 

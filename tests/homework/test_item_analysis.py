@@ -87,6 +87,6 @@ def test_the_overview_shows_it(tmp_path: Path, capsys: pytest.CaptureFixture[str
     cli.app(args, standalone_mode=False)
     capsys.readouterr()
     page = (out / "index.html").read_text(encoding="utf-8")
-    assert "50 % right" in page
+    assert "50 % correct" in page
     assert "north: 100 % of the points (3)" in page
     assert "south: 0 % of the points (3)" in page

@@ -133,7 +133,7 @@ def test_a_file_that_names_another_student_takes_nobodys_place(sheet: Path) -> N
                    ("bob@x", "2", given(), 0))  # fmt: skip
     ada, bob = results(sheet, table)
     assert (ada["student"], bob["student"], bob["score"], bob["doubt"]) == ("ada@x", "bob@x", 4.0, None)
-    assert "handed in as ada@x's, but names 'bob@x'" in ada["doubt"]
+    assert "it was submitted as ada@x's, but names 'bob@x'" in ada["doubt"]
 
 
 @pytest.mark.sweep
@@ -141,7 +141,7 @@ def test_a_file_that_names_another_student_takes_nobodys_place(sheet: Path) -> N
     ("rows", "why"),
     [
         ((("ada@x", "1", {"ans": 1}, 0),), "no row answers a question of this assignment: inputs are named p.f"),
-        ((("ada@x", "1", given(), 0), ("bob@x", "2", "{", 0)), "is no JSON object"),
+        ((("ada@x", "1", given(), 0), ("bob@x", "2", "{", 0)), "is not a JSON object"),
         ((("", "1", given(), 0),), "names neither a uid nor a group"),
     ],
 )

@@ -59,7 +59,7 @@ def test_more_than_three_scenes_are_a_line_each_and_a_summary(capsys: pytest.Cap
     status, out, err = called(capsys, "classify", *FOUR)
     lines = out.splitlines()
     assert (status, err) == (0, "")
-    assert lines[0].split() == ["scene", "f", "v", "the", "system", "verdict"]
+    assert lines[0].split() == ["scene", "f", "v", "system", "verdict"]
     assert [line.split()[:3] for line in lines[1:5]] == [
         ["atwood-machine", "1", "1"],
         ["disc-rolling-on-plane", "4", "2"],

@@ -350,7 +350,7 @@ def test_the_command_line(capsys: pytest.CaptureFixture[str], monkeypatch: pytes
     status, out = run("lagrange", "trolley-pendulum", "--linearize")
     assert status == 0
     assert "Equations of motion" in out
-    assert "M = [M + m, m l; m l, m l^2]" in out
+    assert "A = [M + m, m l; m l, m l^2]" in out
 
 
 def test_the_numbers_are_exact() -> None:

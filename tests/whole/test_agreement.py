@@ -49,7 +49,7 @@ def test_scenes_agree_with_the_graph_in_general_position(dimension: int, many: i
 
 @pytest.mark.parametrize(("dimension", "many"), [(1, FEW), (2, FEW), *(swept(d, MANY) for d in DIMENSIONS)])
 def test_special_positions(dimension: int, many: int) -> None:
-    """On a small grid: velocities by the exact rank; freedom between that and the count, by each engine."""
+    """On a small grid: velocities by the exact rank; at most so much freedom, by each engine."""
     rng = random.Random(f"grid {dimension}")
     undecided = 0
     for _ in range(many):
@@ -62,7 +62,7 @@ def test_special_positions(dimension: int, many: int) -> None:
         assert len(known) <= 1
         undecided += reports[0].dof is None
         for dof in known:
-            assert max(drawn.by_count(), 0) <= dof <= first
+            assert 0 <= dof <= first  # over the reals one equation may remove several freedoms: three points in line
             assert dof == first or dependent(drawn)
     assert undecided <= many // 6
 
