@@ -54,7 +54,6 @@ ArgumentKey = Literal[
     "states of motion",
     "finite relation",
     "inequality",
-    "one side",
     "curved velocities",
     "line field",
     "form by itself",

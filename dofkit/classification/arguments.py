@@ -198,13 +198,6 @@ _OWN: dict[ArgumentKey, Argument] = {
         "dofkit.classification.labels.entry.entry",
         "the text",
     ),
-    "one side": Argument(
-        "the constraint is not holonomic",
-        "",
-        "a certified state of motion satisfies the constraint's equation but not its half-space condition",
-        "dofkit.classification.labels.one_sided.with_sides",
-        "the state",
-    ),
     "curved velocities": Argument(
         "the constraint is not holonomic",
         "",

@@ -7,7 +7,6 @@ tells what integrates, and no relation in use is linear in disguise, because C w
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 from flint import arb
@@ -21,17 +20,12 @@ from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots, certified_rank, kernel
 from dofkit.exact.points.real_search import RealPoint
-from dofkit.exact.ring.program import values
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.tree import Expr
-from dofkit.integrability.velocity_fans import joined_span, velocity_fan
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.normal_form import velocities_of
-from dofkit.relations.normal.pieces import Nonlinear
-from dofkit.relations.normal.signs import MAX_ARGUMENTS, arguments_of, by_signs
 from dofkit.relations.setting import Setting
 
 #: Derivatives of curves are taken up to this order.
@@ -49,6 +43,7 @@ HIDDEN = "the constraints that are nonlinear in the velocities imply an equation
 AT_REFERENCE = (
     "at the reference configuration no regular admissible velocities were found, although they exist elsewhere"
 )
+KINKED = "velocities occur in absolute values, so that the admissible velocities may be one-sided"
 FLAT = "the admissible velocities form linear subspaces, which were not written as linear forms"
 
 
@@ -58,7 +53,7 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
         return
     states = States(block.coordinates, block.rows, result.hidden, setting)
     if states.kinked and "balls" in setting.engines:
-        _by_pieces_at(block, setting, result)
+        _undecided(result, KINKED)
         return
     point = states.draw(7)
     if "balls" not in setting.engines:
@@ -85,57 +80,6 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
         result.velocity_dof = len(block.coordinates) - moving
         full = certified_rank(states.by_velocity(real.point, states.moving)) == len(block.rows)
         result.verdict = weakest(result.verdict, "numeric" if point is None else "proved" if full else "probable")
-
-
-def _by_pieces_at(block: Block, setting: Setting, result: Answer) -> None:
-    """The velocity freedom where velocities stand in abs(): at the reference, or at a generic configuration."""
-    rows, hidden = block.rows, result.hidden
-    try:
-        if setting.reference is not None:
-            rows, hidden = _rows_at_reference(block, setting, result) or (), []
-        _by_pieces(replace(block, rows=rows), hidden, replace(setting, reference=None), result)
-    except NoValueError:
-        _undecided(result, SINGULAR)
-
-
-def _by_pieces(block: Block, hidden: Sequence[Expr], setting: Setting, result: Answer) -> None:
-    """The velocities lie on polyhedra that are joined in motion.
-
-    Or one relation alone bends by itself on one of its pieces, and holds nowhere on a whole region.
-    """
-    fan = velocity_fan(block.rows, hidden)
-    if fan is not None:
-        left = result.velocity_dof or 0
-        standing = States(block.coordinates, block.rows, hidden, setting, fan.coefficients, still=True)
-        for place in standing.certain(2 * SEEDS):
-            found = values(standing.ring, place)
-            at = {e: found[node] for e, node in standing.extra.items()}
-            if joined_span(fan, at, block.coordinates, left):
-                _tell_bent(standing, fan.bent, result, len(fan.linear) == len(block.coordinates) - left)
-                return
-    states = States(block.coordinates, block.rows, hidden, setting)
-    point = next(states.certain(SEEDS), None) if _is_thin_and_alone(states, block, setting) else None
-    if point is not None and _bends(states, point):
-        _tell_bent(states, 1, result, True)
-    else:
-        _undecided(result, FLAT)
-
-
-def _tell_bent(states: States, bent: int, result: Answer, independent: bool) -> None:
-    """So many relations take a velocity each, and no freedom; ``independent``: are all others independent?"""
-    result.curved, result.argument = True, "states of motion"
-    result.velocity_dof = (result.velocity_dof or 0) - bent
-    calls = any(v.kind == "call" for v in states.ring.vars)
-    result.verdict = weakest(result.verdict, "proved" if independent and not calls else "probable")
-
-
-def _is_thin_and_alone(states: States, block: Block, setting: Setting) -> bool:
-    """Is there one relation, which holds always for no choice of the signs of what stands in abs()?"""
-    folded = [row.piece.expr for row in block.rows if isinstance(row.piece, Nonlinear)]
-    if len(folded) != 1 or states.linear or len(arguments_of(folded[0])) > MAX_ARGUMENTS:
-        return False
-    choices = by_signs(folded[0], arguments_of(folded[0]), setting.positive)
-    return not any(is_zero(signed, setting.positive) for signed, _ in choices)
 
 
 def first_order_beside_bends(block: Block, setting: Setting, result: Answer) -> tuple[int | None, bool]:
@@ -170,8 +114,8 @@ def _moves_at_reference(block: Block, setting: Setting, result: Answer, moving: 
         return True
     try:
         rows = _rows_at_reference(block, setting, result)
-        if rows is None:
-            return True
+        if not rows:
+            return rows is None
         there = States(block.coordinates, rows, (), replace(setting, reference=None))
     except NoValueError:
         return False

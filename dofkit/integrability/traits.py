@@ -25,7 +25,7 @@ from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.normal_form import velocities_of
-from dofkit.relations.normal.pieces import Inequality, Nonlinear, Pfaffian, Piece
+from dofkit.relations.normal.pieces import Clause, Inequality, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes
 
 TraitAnswer = tuple[bool | None, Verdict]
@@ -47,7 +47,7 @@ class Traits:
     exact: TraitAnswer | None = None
 
 
-def traits(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH, opened: bool = False) -> Traits:
+def traits(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH, opened: bool = False) -> Traits:
     """Return all labels that a piece carries by itself; ``opened``: its differential is known not to be 0."""
     without_t = timeless(piece, positive, engines)
     if isinstance(piece, Nonlinear):
@@ -58,7 +58,7 @@ def traits(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH, ope
     return Traits(without_t, zero_and_verdict(piece.dt, positive, engines), closed)
 
 
-def timeless(piece: Piece, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
+def timeless(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
     """Return whether t does not occur explicitly, once removable factors are taken out, and how sure that is.
 
     A piece is the zero set of a function of coordinates, velocities and time, or the side of it where the function is

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from itertools import product as cartesian
@@ -14,13 +14,13 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
+from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
-from dofkit.relations.normal.edges import given_by
 from dofkit.relations.normal.elimination import combinations_of
 from dofkit.relations.normal.normal_form import normalise, velocities_of
-from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Pfaffian
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes
 
 #: Ways to split the nonlinear relations that are looked at, rounds of reduction, and relations that are combined.
@@ -171,9 +171,7 @@ def _branches(
 ) -> list[tuple[Row, ...]]:
     """What a row says that now reads ``changed`` = 0."""
     normal = normalise(changed, positive, True)
-    ways = [
-        tuple(Row(row.constraint, p) for p in (*b, *within) if not isinstance(p, Inequality)) for b in normal.branches
-    ]
+    ways = [tuple(Row(row.constraint, p) for p in (*b, *within)) for b in normal.branches]
     return ways or [(Row(row.constraint, Finite(ex.ONE)),)]
 
 
@@ -241,6 +239,27 @@ def eliminated(e: Expr, linear: Sequence[Expr]) -> tuple[Expr, list[Expr]]:
         left = [substitute(other, {v: value}) for other in left]
         e = substitute(e, {v: value})
     return e, divisors
+
+
+def given_by(relations: Iterable[Expr]) -> Mapping[Expr, Expr]:
+    """Return the coordinates that relations determine, as functions of others, each free of those solved for."""
+    found: dict[Expr, Expr] = {}
+    for g in relations:
+        own = substitute(g, found)
+        pivot = next(_coordinate_pivots(own), None)
+        if pivot is not None:
+            s, value = pivot
+            found = {k: substitute(v, {s: value}) for k, v in found.items()} | {s: value}
+    return found
+
+
+def _coordinate_pivots(g: Expr) -> Iterator[tuple[Expr, Expr]]:
+    """Yield the coordinates that stand in a relation once, with a number as coefficient, and their values."""
+    terms = linear_terms(g)
+    for s, c in terms.items():
+        if s.op == "sym" and s.args[0] == "coordinate" and not any(s in u.symbols for u in terms if u != s):
+            rest = ex.add(*(ex.mul(ex.num(-k / c), u) for u, k in terms.items() if u != s))
+            yield s, rest
 
 
 def _pivot(relation: Expr) -> tuple[Expr, Expr] | None:

@@ -15,7 +15,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import linear_form
-from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian, Piece
+from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Pfaffian
 from dofkit.relations.reductions import Reductions
 
 
@@ -50,7 +50,7 @@ class Block:
         return tuple(r for r in self.rows if isinstance(r.piece, Nonlinear))
 
 
-def coordinates_of(piece: Piece) -> frozenset[str]:
+def coordinates_of(piece: Clause) -> frozenset[str]:
     """Every coordinate a piece mentions, in coefficients, velocities and differentials too; of a joint all of them."""
     if isinstance(piece, JointEquation):
         return piece.joint.mentioned

@@ -84,7 +84,7 @@ def test_what_vanishes_with_its_radial_derivative_is_not_told_to_hold_dt() -> No
 )
 def test_a_side_that_velocities_keep_to_is_no_finite_relation_whatever_the_others_say(others: list[str]) -> None:
     entry = _report("x y z u", ["sqrt(xdot^2 + (xdot + ydot)^2) = xdot", *others]).constraints[0]
-    assert entry.holonomic_alone is False
+    assert entry.holonomic_alone is not True
 
 
 def test_what_lies_beyond_a_side_may_be_on_another_branch() -> None:

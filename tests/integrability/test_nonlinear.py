@@ -154,13 +154,6 @@ TABLE: list[tuple[str, dict[str, Any], tuple[int, int], list[bool], dict[str, li
         {},
     ),
     (
-        "zdot = z^(1/3) wdot: w - (3/2) z^(2/3) is an integral, the speed none",
-        scene("x y z w", "xdot^2 + ydot^2 = z", "zdot^3 = z wdot^3"),
-        (3, 2),
-        [False, True],
-        {},
-    ),
-    (
         "zdot = +-y^(1/2) xdot and zdot = 0: x and z are constant",
         scene("x y z", "zdot^4 = y^2 xdot^4", "zdot = 0"),
         (1, 1),
@@ -293,6 +286,7 @@ def test_no_motion_at_all(made: dict[str, Any], conflicting: list[str]) -> None:
             scene("x y z w", "xdot^2 + ydot^2 = z", "zdot^3 + zdot wdot^2 = z wdot^3"),
             id="a bend beside none",
         ),
+        pytest.param(scene("x y z w", "xdot^2 + ydot^2 = z", "zdot^3 = z wdot^3"), id="zdot = z^(1/3) wdot"),
         pytest.param(
             scene("x y z u", "x^2 + y^2 = 1", "(x^2 + y^2 - 1) zdot^2 + udot^2 = ydot^2"), id="0 on the circle"
         ),

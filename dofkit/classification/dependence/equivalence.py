@@ -26,7 +26,7 @@ from dofkit.exact.points.balls import precise_for
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.half_lines import UNDONE_NOTE
+from dofkit.relations.normal.notes import UNDONE_NOTE
 from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting

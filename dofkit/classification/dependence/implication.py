@@ -15,7 +15,6 @@ from typing import NamedTuple
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.freedom.through_reference import all_of, conditional, through_reference
-from dofkit.classification.freedom.velocity_domain import none_holds, still_conditions
 from dofkit.configuration.states import States, value_at, vanishes
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
@@ -24,8 +23,8 @@ from dofkit.expressions.tree import Expr
 from dofkit.relations.beside_others import MAX_WAYS, Way, form_rate, ways_of
 from dofkit.relations.blocks import Row, coordinates_of, split
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
-from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece
+from dofkit.relations.normal.no_solution import hold_nowhere, no_solution
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian, Piece
 from dofkit.relations.setting import Setting
 
 #: No coordinate has this name.
@@ -57,7 +56,7 @@ def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool 
         return None
     told: list[bool | None] = []
     for choice in choices:
-        rows = [Row(k, p) for k, b in enumerate(choice) for p in b if not isinstance(p, Inequality)]
+        rows = [Row(k, p) for k, b in enumerate(choice) for p in b]
         ways = ways_of(rows, setting.positive)
         if len(ways) >= MAX_WAYS:
             return None
@@ -104,10 +103,10 @@ def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
 
 
 def _beyond(branch: Sequence[Piece], rows: Sequence[Row], hidden: Sequence[Expr], setting: Setting) -> bool:
-    """Do the conditions of a branch on positions hold nowhere where some rows do?"""
-    asked = still_conditions([p for p in branch if isinstance(p, DomainCondition)])
+    """Do the conditions of a branch hold nowhere where some rows do?"""
+    asked = [p for p in branch if isinstance(p, DomainCondition)]
     finite = [r.piece.expr for r in rows if isinstance(r.piece, Finite)]
-    return bool(asked) and none_holds([*finite, *hidden], asked, setting.positive)
+    return bool(asked) and hold_nowhere([*finite, *hidden], asked, setting.positive)
 
 
 def _undefined(relation: Normal, names: Sequence[str], rows: Sequence[Row], setting: Setting) -> bool:

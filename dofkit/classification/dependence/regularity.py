@@ -17,13 +17,13 @@ from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.balls import jacobian
 from dofkit.exact.ring.program import values
 from dofkit.exact.zero.identity import is_proved_zero
-from dofkit.expressions.calculus import diff, substitute
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.differentials import in_velocities
 from dofkit.expressions.tree import Expr
+from dofkit.relations.beside_others import eliminated, form_rate
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.chart_of_block import make_chart
-from dofkit.relations.normal.half_lines import solved
-from dofkit.relations.normal.normal_form import relation_of, velocities_of
+from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian, Piece
 from dofkit.relations.normal.polynomial_zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
 from dofkit.relations.reduced import Reduced
@@ -97,13 +97,13 @@ def _lost(normals: Sequence[Normal]) -> bool:
 
 
 def _is_flat(r: Reduced, choice: Sequence[Sequence[Piece]], positive: frozenset[Expr]) -> bool:
-    """Was a relation rewritten whose slopes by all velocities are 0, as a square's are, or have no value, on forms?"""
+    """Return whether the slopes of a relation by all velocities are 0 on forms, as a square's are, or have no value."""
     written = [in_velocities(e.expr)[0] for e in r.constraint.relations]
     slopes = [diff(e, v) for e in written for v in velocities_of(e)]
-    if not slopes or not any(n.notes for n in r.normals):
+    if not slopes:
         return False
     try:
-        given = solved((relation_of(p) for branch in choice for p in branch if isinstance(p, Pfaffian)), generic=True)
-        return all(is_proved_zero(substitute(e, given), positive) for e in slopes)
+        forms = [form_rate(p) for branch in choice for p in branch if isinstance(p, Pfaffian)]
+        return all(is_proved_zero(eliminated(e, forms)[0], positive) for e in slopes)
     except NoValueError:
         return True

@@ -26,7 +26,7 @@ from dofkit.relations.integration_constants import names_in, with_rows
 from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.one_sided import holds_somewhere
-from dofkit.relations.normal.pieces import Inequality, Normal, Still
+from dofkit.relations.normal.pieces import Normal, Still
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System
@@ -153,7 +153,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
             if branch is None:
                 impossible.append(i)
             elif i not in copied:
-                rows += [Row(i, p) for p in normal.branches[branch] if not isinstance(p, Inequality)]
+                rows += [Row(i, p) for p in normal.branches[branch]]
         ways = ways_of(with_boundaries(with_rows(rows, constants)), positive)
         why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
         for way in ways_through_reference(ways, setting):
@@ -235,7 +235,7 @@ def _first_order(
         crossing = crossing_at(n, e, setting)
         if crossing is None:
             return None
-        options.append(tuple(tuple(Row(i, p) for p in b if not isinstance(p, Inequality)) for b in crossing))
+        options.append(tuple(tuple(Row(i, p) for p in b) for b in crossing))
     if prod(map(len, options)) > MAX_CHOICES:
         return None
     names = [c.name for c in system.coordinates]

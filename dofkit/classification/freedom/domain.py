@@ -14,13 +14,6 @@ from typing import Literal
 from flint import arb
 
 from dofkit.classification.freedom.block import answer
-from dofkit.classification.freedom.velocity_domain import (
-    in_motion,
-    in_motion_at,
-    none_holds,
-    on_velocities,
-    still_conditions,
-)
 from dofkit.configuration.components import is_irreducible
 from dofkit.configuration.finite_blocks import OFF_REFERENCE
 from dofkit.configuration.search import find
@@ -31,15 +24,16 @@ from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
+from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
+from dofkit.relations.beside_others import given_by
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.normal.domain import DomainCondition, holds_at
-from dofkit.relations.normal.edges import given_by
-from dofkit.relations.normal.half_lines import scaled
+from dofkit.relations.normal.no_solution import hold_nowhere
 from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 
@@ -53,14 +47,9 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
         return result
     if result.consistent is None:
         return _nowhere(result, block.conditions, "proved") if _empty(block, result, setting) else result
-    moving = on_velocities(block.conditions)
     if result.instantaneous is not None and setting.reference is not None:
         known = {**setting.reference, ex.TIME: ex.ZERO}
-        holds = [holds_at(c, known, setting.positive) for c in still_conditions(block.conditions)]
-        if moving and False not in holds:
-            regular = result.instantaneous == result.velocity_dof
-            told = in_motion_at(block, result.hidden, setting, known) if regular else None
-            holds.append(told or None)
+        holds = [holds_at(c, known, setting.positive) for c in block.conditions]
         if all(holds):
             return _beside_boundary(block, _beside_edge(block, result, setting), setting)
         if None in holds and False not in holds:
@@ -71,9 +60,9 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
         return result
     if setting.reference is not None:
         known = {**setting.reference, ex.TIME: ex.ZERO}
-        if any(holds_at(c, known, setting.positive) is False for c in still_conditions(block.conditions)):
+        if any(holds_at(c, known, setting.positive) is False for c in block.conditions):
             result.reasons.append(OFF_REFERENCE)
-    return _while_moving(block, result, setting) if moving else _somewhere(block, result, setting)
+    return _somewhere(block, result, setting)
 
 
 def _beside_edge(block: Block, result: Answer, setting: Setting) -> Answer:
@@ -82,7 +71,7 @@ def _beside_edge(block: Block, result: Answer, setting: Setting) -> Answer:
     It is where the differential of each depends on none of those of the finite relations; z != 0 beside z = 0 is none.
     """
     known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
-    strictly = [(c, replace(c, adjoining=False)) for c in still_conditions(block.conditions) if c.adjoining]
+    strictly = [(c, replace(c, adjoining=False)) for c in block.conditions if c.adjoining]
     edges = [c for c, strict in strictly if not holds_at(strict, known, setting.positive)]
     if not edges:
         return result
@@ -103,8 +92,8 @@ def _beside_boundary(block: Block, result: Answer, setting: Setting) -> Answer:
     """
     known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
     given = given_by(r.piece.expr for r in block.finite if isinstance(r.piece, Finite))
-    weak = [c for c in still_conditions(block.conditions) if c.sense == ">=" and not c.adjoining]
-    there = dict.fromkeys(replace(c, expr=scaled(substitute(c.expr, given)), sense=">") for c in weak)
+    weak = [c for c in block.conditions if c.sense == ">=" and not c.adjoining]
+    there = dict.fromkeys(replace(c, expr=_scaled(substitute(c.expr, given)), sense=">") for c in weak)
     active = [c for c in there if not c.expr.is_zero and not holds_at(c, known, setting.positive)]
     if not active or not result.consistent:
         return result
@@ -122,20 +111,17 @@ def _beside_boundary(block: Block, result: Answer, setting: Setting) -> Answer:
     return result
 
 
+def _scaled(e: Expr) -> Expr:
+    """Return ``e`` times a positive number, the same expression for all such multiples of ``e``."""
+    terms = linear_terms(e)
+    first = abs(terms[min(terms, key=repr)]) if terms else Fraction(1)
+    return e if first == 1 else e / ex.num(first)
+
+
 def _empty(block: Block, result: Answer, setting: Setting) -> bool:
-    """Do the conditions on positions hold nowhere where the finite relations do?"""
+    """Do the conditions hold nowhere where the finite relations do?"""
     relations = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + result.hidden
-    conditions = still_conditions(block.conditions)
-    return bool(conditions) and none_holds(relations, conditions, setting.positive)
-
-
-def _while_moving(block: Block, result: Answer, setting: Setting) -> Answer:
-    holds = in_motion(block, result.hidden, setting)
-    if holds is None:
-        return _open(result, block.conditions)
-    if not holds:
-        return _nowhere(result, block.conditions, "proved")
-    return result if _is_within(result, still_conditions(block.conditions)) else replace(result, witness=None)
+    return hold_nowhere(relations, block.conditions, setting.positive)
 
 
 def _somewhere(block: Block, result: Answer, setting: Setting) -> Answer:
@@ -153,7 +139,7 @@ def _somewhere(block: Block, result: Answer, setting: Setting) -> Answer:
     if inside is not None and _witness_within(block, result):
         strict = [c for _, c in left]
         return result if _is_within(result, strict) else replace(result, witness=of_real_point(chart, inside))
-    if none_holds(relations, block.conditions, setting.positive):
+    if hold_nowhere(relations, block.conditions, setting.positive):
         return _nowhere(result, block.conditions, "proved")
     return _open(result, block.conditions)
 
@@ -166,7 +152,7 @@ def _where_some_vanish(
         return _nowhere(result, dead, "proved")
     if is_irreducible(chart):
         return _nowhere(result, dead, "probable")
-    return _nowhere(result, dead, "proved") if none_holds(relations, dead, setting.positive) else _open(result, dead)
+    return _nowhere(result, dead, "proved") if hold_nowhere(relations, dead, setting.positive) else _open(result, dead)
 
 
 def _identically_zero(chart: Chart, nodes: Sequence[int]) -> list[bool]:

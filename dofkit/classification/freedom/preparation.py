@@ -121,24 +121,14 @@ def reduce_all(system: System, positive: frozenset[Expr], apart: frozenset[int] 
                 continue
             try:
                 normal = read.normal(relation.expr, constraint.facts.written)
-                only = one_sided(normal)
-                inequalities += only
-                if not only:
-                    normals.append(normal)
-                    written.append(relation)
+                normals.append(normal)
+                written.append(relation)
             except TextError as error:
                 faults.append(Fault(f"'{constraint.name}': {error.message}", ("constraints", i), hint=error.hint))
         found.append(Reduced(constraint, tuple(normals), tuple(inequalities), tuple(written)))
     if faults:
         raise SceneError(tuple(faults), system.name)
     return found
-
-
-def one_sided(normal: Normal) -> tuple[Inequality, ...]:
-    """The inequalities that an equation says, where it says nothing else; none of another."""
-    pieces = normal.branches[0] if len(normal.branches) == 1 else ()
-    sides = tuple(p for p in pieces if isinstance(p, Inequality))
-    return sides if len(sides) == len(pieces) else ()
 
 
 class _Normals:

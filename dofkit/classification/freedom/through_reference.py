@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import product as cartesian
 
-from dofkit.classification.freedom.velocity_domain import still_conditions
 from dofkit.configuration.drawing.at_reference import ball_matrix, ball_point
 from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.errors import NoValueError
@@ -112,7 +111,7 @@ def _holds(branch: Sequence[Piece], setting: Setting) -> bool:
     point = pose_point(chart, known, 5)
     if point is None or not on_variety(chart, point):
         return False
-    conditions = still_conditions([p for p in branch if isinstance(p, DomainCondition)])
+    conditions = [p for p in branch if isinstance(p, DomainCondition)]
     ends = any(c.adjoining and not holds_at(replace(c, adjoining=False), known, setting.positive) for c in conditions)
     return all(_may_hold(c, known, ends, setting.positive) for c in conditions)
 

@@ -16,7 +16,7 @@ from dofkit.classification.labels.entry import LabelledRow
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.integration_constants import with_rows
-from dofkit.relations.normal.pieces import Inequality, Nonlinear, Pfaffian, Still
+from dofkit.relations.normal.pieces import Nonlinear, Pfaffian, Still
 from dofkit.relations.reduced import Reduced
 
 #: Up to this many coordinates, those of one constraint are listed in the scene's order.
@@ -25,7 +25,7 @@ LISTED = 2000
 
 def by_itself(i: int, r: Reduced, told: Sequence[LabelledRow], parts: AnsweredParts) -> Answer | None:
     """The answer of a constraint's own rows; None where they are finite. ``told``: its rows in the system."""
-    written = [Row(i, p) for normal in r.normals for p in normal.pieces if not isinstance(p, Inequality)]
+    written = [Row(i, p) for normal in r.normals for p in normal.pieces]
     if any(isinstance(row.piece, Nonlinear) for row in written):
         still = [t.row for t in told if isinstance(t.row.piece, Still)]
         return _curved(told) or _in_time([*written, *still], parts)
@@ -49,7 +49,7 @@ def _largest(i: int, r: Reduced, parts: AnsweredParts) -> Answer | None:
     best: tuple[tuple[int, int, int], Answer, bool] | None = None
     seen_all = True
     for number, choice in enumerate(islice(cartesian(*(n.branches for n in normals)), MAX_CHOICES + 1)):
-        rows = [Row(i, p) for branch in choice for p in branch if not isinstance(p, Inequality)]
+        rows = [Row(i, p) for branch in choice for p in branch]
         if number == MAX_CHOICES:
             seen_all = False
             break

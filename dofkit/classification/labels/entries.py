@@ -17,7 +17,6 @@ from dofkit.classification.labels.by_itself import by_itself
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import in_words
-from dofkit.classification.labels.one_sided import SideKept, kept_in_system, with_a_side, with_sides
 from dofkit.classification.labels.reasons import Others
 from dofkit.classification.labels.shared_entries import SharedEntries
 from dofkit.integrability.modulo_others import label_modulo_others
@@ -52,22 +51,20 @@ def entries_of(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
     shared, entries = SharedEntries(setting, company.parts), list[ConstraintEntry]()
-    consistent, sided = outcome.consistent, with_a_side(outcome)
+    consistent = outcome.consistent
     for i, r in enumerate(reduced):
         number = known.independent.get(i, None if told[i] else 0)
         circuit = None if i not in known.circuits else [names[j] for j in known.circuits[i]]
         try:
             check()
             copied = i in outcome.copies
-            apart = known.says_more_of(i) or i in sided
-            kind = None if apart else shared.kind(r, told[i], number, copied, i in known.following)
+            kind = None if known.says_more_of(i) else shared.kind(r, told[i], number, copied, i in known.following)
             made = shared.known(kind, r)
             if made is None:
                 beside = partial(_with_others, i, told[i], company, names)
                 alone = by_itself(i, r, told[i], company.parts)
                 evidence = Evidence(told[i], alone, number, circuit, constants, shared.traits, beside, copied)
                 made = entry(r, evidence, setting, consistent)
-                made = with_sides(made, i, r, outcome, setting) if i in sided else made
                 made = _with_dependence(made, i, r, known)
                 shared.keep(kind, made)
             entries.append(made)
@@ -138,17 +135,7 @@ def labels_in_system(
     told = _labelled_rows(len(reduced), outcome, setting)
     if not outcome.consistent:
         return [(None, "undecided")] * len(reduced)
-    labels = [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
-    sided = with_a_side(outcome)
-    return [
-        _with_sides(label, kept_in_system(i, r, outcome, setting)) if i in sided else label
-        for i, (label, r) in enumerate(zip(labels, reduced, strict=True))
-    ]
-
-
-def _with_sides(label: tuple[bool | None, Verdict], kept: SideKept) -> tuple[bool | None, Verdict]:
-    """A label as one of the whole constraint, the sides among it to which it keeps velocities."""
-    return label if kept.holds or not label[0] else (kept.holds, "undecided" if kept.holds is None else kept.verdict)
+    return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
 
 
 def _following(dependent: Sequence[Redundancies]) -> dict[int, set[int]]:

@@ -25,7 +25,7 @@ from dofkit.integrability.single_form import Integrability, integrability
 from dofkit.integrability.traits import Traits
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
-from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece, Still, with_constants
+from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Normal, Pfaffian, Still, with_constants
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import FORMS, ConstraintEntry, FieldVerdict, Form
@@ -44,7 +44,7 @@ class LabelledRow(NamedTuple):
     reduced: bool = False
 
 
-def form_of(piece: Piece) -> Form:
+def form_of(piece: Clause) -> Form:
     """The report's word for a piece."""
     if isinstance(piece, Finite):
         return "finite"
@@ -67,7 +67,7 @@ class Evidence:
     independent: int | None
     circuit: list[str] | None
     constants: Mapping[str, Expr]
-    traits_of: Callable[[Piece], Traits]
+    traits_of: Callable[[Clause], Traits]
     companions_of: Callable[[bool], Others]
     copied: bool = False
 
@@ -75,11 +75,11 @@ class Evidence:
 def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bool | None) -> ConstraintEntry:
     """Everything that is told of one constraint."""
     constraint, normals = reduced.constraint, reduced.normals
-    pieces: list[Piece] = [p for normal in normals for p in normal.pieces] + list(reduced.inequalities)
+    pieces: list[Clause] = [p for normal in normals for p in normal.pieces] + list(reduced.inequalities)
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
     forms = _integrable_forms(normals, evidence.rows)
     own_constants = {c: evidence.constants.get(c, ex.parameter(c)) for c in reduced.constants}
-    shown = [with_constants(p, own_constants) for p in pieces]
+    shown = [*(with_constants(p, own_constants) for n in normals for p in n.pieces), *reduced.inequalities]
     own_forms = [p for f in forms if isinstance(p := with_constants(f, own_constants), Pfaffian)]
     proofs = _proofs(form, own_forms, evidence.by_itself, setting)
     labels = _labels_of(reduced, evidence, form, proofs, forms, consistent)
@@ -116,7 +116,7 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
 
 
 def _traits_of(
-    pieces: Sequence[Piece], shown: Sequence[Piece], normals: Sequence[Normal], evidence: Evidence
+    pieces: Sequence[Clause], shown: Sequence[Clause], normals: Sequence[Normal], evidence: Evidence
 ) -> list[Traits]:
     """Return the traits of the equations of a constraint, without those that only declare an unknown function."""
     generic = declared_functions(normals)
@@ -141,7 +141,7 @@ def _integrable_forms(normals: Sequence[Normal], rows: Sequence[LabelledRow]) ->
     return [f for k, f in enumerate(chosen) if f not in chosen[:k]]
 
 
-def _forms(branches: Sequence[Sequence[Piece]]) -> list[Pfaffian]:
+def _forms(branches: Sequence[Sequence[Clause]]) -> list[Pfaffian]:
     return [p for b in branches for p in b if isinstance(p, Pfaffian)]
 
 
@@ -238,7 +238,7 @@ def _once(normals: Sequence[Normal]) -> str:
 def unfinished(reduced: Reduced, why: str) -> ConstraintEntry:
     """An entry without labels: there was no time for them."""
     constraint = reduced.constraint
-    pieces: list[Piece] = [p for normal in reduced.normals for p in normal.pieces] + list(reduced.inequalities)
+    pieces: list[Clause] = [p for normal in reduced.normals for p in normal.pieces] + list(reduced.inequalities)
     return ConstraintEntry(
         name=constraint.name,
         type=constraint.type,
@@ -286,7 +286,7 @@ def _labels(in_system: bool | None, own: bool | None, told: Sequence[LabelledRow
 
 def label_in_system(
     told: Sequence[LabelledRow],
-    inequalities: Sequence[Inequality],
+    inequalities: Sequence[Clause],
     proofs: Sequence[Integrability],
     forms: Sequence[Pfaffian],
 ) -> tuple[bool | None, Verdict]:
@@ -330,7 +330,7 @@ def _alone(
     by_itself: Answer | None,
     proofs: Sequence[Integrability],
     forms: Sequence[Pfaffian],
-    inequalities: Sequence[Inequality],
+    inequalities: Sequence[Clause],
 ) -> tuple[bool | None, Verdict]:
     if inequalities:
         return False, "proved"

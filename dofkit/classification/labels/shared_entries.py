@@ -11,7 +11,7 @@ from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import Answer
 from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.notes import INSTANT_NOTE
-from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian, Piece
+from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Pfaffian
 from dofkit.relations.piece_shapes import shape_together
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -30,7 +30,7 @@ class SharedEntries:
         self._entries: dict[Hashable, ConstraintEntry] = {}
         self._sure: dict[int, tuple[Answer, Hashable]] = {}
 
-    def traits(self, piece: Piece) -> Traits:
+    def traits(self, piece: Clause) -> Traits:
         """The labels that a piece carries by itself."""
         if isinstance(piece, JointEquation):
             return STILL
@@ -71,7 +71,7 @@ class SharedEntries:
             known = self._sure[id(a)] = a, told
         return known[1]
 
-    def _plain_kinds(self, pieces: Iterable[Piece]) -> Hashable:
+    def _plain_kinds(self, pieces: Iterable[Clause]) -> Hashable:
         return tuple([(type(p).__name__, None if _is_still(p) else self.traits(p)) for p in pieces])
 
     def known(self, kind: Hashable, r: Reduced) -> ConstraintEntry | None:
@@ -90,6 +90,6 @@ class SharedEntries:
             self._entries[kind] = made
 
 
-def _is_still(piece: Piece) -> bool:
+def _is_still(piece: Clause) -> bool:
     """Is it a finite relation without time? All that it carries by itself is known then."""
     return isinstance(piece, JointEquation) or (isinstance(piece, Finite) and TIME not in piece.expr.symbols)

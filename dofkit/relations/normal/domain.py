@@ -109,13 +109,6 @@ def has_value(c: DomainCondition, known: Mapping[Expr, Expr], positive: frozense
     return True
 
 
-def constantly(c: DomainCondition, positive: frozenset[Expr]) -> bool | None:
-    """Whether a condition holds everywhere (True) or nowhere (False), as far as that is known."""
-    if any(s.args[0] != "parameter" for s in c.expr.symbols):
-        return True if _always(c, positive) else None
-    return holds_at(c, {}, positive)
-
-
 def _sign(e: Expr, positive: frozenset[Expr]) -> int | None:
     """The sign of a constant, for generic parameters that of some values of them."""
     ring = Ring([e], positive)

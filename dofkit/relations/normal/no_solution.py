@@ -29,6 +29,8 @@ from dofkit.exact.ring.radicals import known_signs
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
+from dofkit.relations.normal.domain import DomainCondition
+from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.normal.zero_set import never_vanishes
 
 #: Steps of programs over boxes that one search may take; bits of the balls behind them.
@@ -69,6 +71,22 @@ def no_solution(relations: Sequence[Expr], positive: frozenset[Expr], conditions
             return True
         except NoValueError:
             return False
+
+
+def hold_nowhere(relations: Sequence[Expr], conditions: Sequence[DomainCondition], positive: frozenset[Expr]) -> bool:
+    """Return whether it is proved that ``conditions`` hold together at no real point at which ``relations`` are 0.
+
+    u > 0 is written u s^2 = 1 for some s, and u != 0 is u s = 1.
+    """
+    if any(never_holds(c.expr, c.strict, positive) for c in conditions if c.sense != "!="):
+        return True
+    slacks = [ex.coordinate(f"_slack {k}") for k in range(len(conditions))]
+    strict = [
+        c.expr * s * (s if c.strict else ex.ONE) - ex.ONE
+        for c, s in zip(conditions, slacks, strict=True)
+        if c.sense != ">="
+    ]
+    return no_solution([*relations, *strict], positive, [c.expr for c in conditions if c.sense != "!="])
 
 
 def _excluded(wanted: Sequence[Wanted], ranges: Mapping[Expr, Interval], steps: int = MAX_STEPS) -> bool | None:

@@ -8,11 +8,11 @@ Differentials are read through dq = qdot dt: a relation homogeneous of degree k 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from itertools import product as cartesian
 
 from dofkit.base.errors import TextError
-from dofkit.exact.zero.identity import is_proved_zero, is_zero
+from dofkit.exact.zero.identity import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.combinations import Combined, combined
@@ -20,42 +20,27 @@ from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, cle
 from dofkit.expressions.terms import without_cancelled
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
-from dofkit.relations.normal.edges import at_edge, edges_of, lines_of
 from dofkit.relations.normal.exact_zeros import SOLE_NOTE, sole_zero
-from dofkit.relations.normal.half_lines import (
-    INEQUALITY_NOTE,
-    ONE_SIDE_NOTE,
-    PIECES_NOTE,
-    UNDONE_NOTE,
-    SidedLines,
-    lies_within,
-    meet_at_rest,
-    rewritten,
-    settled,
-)
+from dofkit.relations.normal.linear_branches import linear_branches, squares_compared, without_arctangent
 from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.notes import NOWHERE_NOTE, REGION_NOTE, ROOTS_NOTE, SIGNS_NOTE, SQUARED_NOTE
-from dofkit.relations.normal.pieces import (
-    Finite,
-    Inequality,
-    Nonlinear,
-    Normal,
-    Pfaffian,
-    Piece,
-    with_constants,
+from dofkit.relations.normal.notes import (
+    COMPARED_NOTE,
+    NOWHERE_NOTE,
+    QUADRATIC_NOTE,
+    REGION_NOTE,
+    SQUARED_NOTE,
+    UNDONE_NOTE,
 )
-from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE, Conjunction
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian, Piece, with_constants
+from dofkit.relations.normal.polynomial_zeros import Conjunction
 from dofkit.relations.normal.signs import (
-    MAX_ARGUMENTS,
     arguments_of,
     by_signs,
     holds_on_a_region,
     squared,
     up_to_a_number,
-    whole_zero_sets,
     with_absolute_values,
 )
-from dofkit.relations.normal.velocity_roots import in_one_rate, velocity_branches
 from dofkit.relations.normal.zero_set import zero_set
 
 
@@ -181,9 +166,12 @@ def _squared(e: Expr, positive: frozenset[Expr]) -> Normal:
 
 
 def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
-    folds = [u for u in arguments_of(e) if velocities_of(u)]
-    if 0 < len(folds) <= MAX_ARGUMENTS and velocity_branches(e, positive) is None:
-        return _by_signs_of_rates(e, folds, positive)
+    """What a relation nonlinear in the velocities says, by its factors; one with velocities in abs() stays whole."""
+    polynomial = squares_compared(e, velocities_of(e), positive)
+    if polynomial is not None and polynomial != e:
+        return _with_note(normalise(polynomial, positive, True), COMPARED_NOTE)
+    if any(velocities_of(u) for u in arguments_of(e)):
+        return Normal(((Nonlinear(e),),))
     moving = frozenset(s for s in e.symbols if s.args[0] in ("velocity", "coordinate", "time"))
     branches, notes = zero_set(e, positive, moving)
     found: list[tuple[Piece, ...]] = []
@@ -195,119 +183,28 @@ def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
     return Normal(tuple(found), tuple(dict.fromkeys(said)))
 
 
-def _by_signs_of_rates(e: Expr, folds: Sequence[Expr], positive: frozenset[Expr]) -> Normal:
-    """Every choice of signs of what stands in abs() and holds velocities, with the conditions that say them.
-
-    Or all of them, where they are whole sets together. Where one holds on a whole region, is not linear, or goes on
-    into another in motion, the relation stays as it is.
-    """
-    choices = list(by_signs(e, folds, positive))
-    whole = whole_zero_sets(choices, positive)
-    if whole is not None:
-        normals = [normalise(g, positive, True) for g in whole]
-        return Normal(tuple(b for n in normals for b in n.branches), (SIGNS_NOTE, *([PRODUCT_NOTE] * (len(whole) > 1))))
-    kept = [c for c in choices if not no_solution([c[0]], positive, [d.expr for d in c[1]])]
-    regions = [c for signed, c in kept if is_zero(signed, positive)]
-    found = _region(e, regions, kept, positive) if regions else _sided(e, kept, positive)
-    return Normal(((Nonlinear(e),),), (SIGNS_NOTE,)) if found is None else _with_note(found, SIGNS_NOTE)
-
-
 def _with_note(normal: Normal, note: str) -> Normal:
     return normal._replace(notes=tuple(dict.fromkeys((note, *normal.notes))))
 
 
-def _region(
-    e: Expr,
-    regions: Sequence[tuple[DomainCondition, ...]],
-    choices: Sequence[tuple[Expr, tuple[DomainCondition, ...]]],
-    positive: frozenset[Expr],
-) -> Normal | None:
-    """The inequalities that an equation says which holds for all velocities of one region, its edges among them.
-
-    None where it holds on several, or at others too, or has no value somewhere.
-    """
-    (region, *more) = regions
-    if more or conditions_of(e, positive):
-        return None
-    for signed, conditions in choices:
-        lines = [] if conditions == region else _lines(normalise(signed, positive, True), conditions)
-        if lines is None or not all(lies_within(one, region, positive) for one in settled(lines, positive)):
-            return None
-    return Normal((tuple(Inequality(c.expr) for c in region),), (INEQUALITY_NOTE,))
-
-
-def _lines(normal: Normal, conditions: Sequence[DomainCondition]) -> list[SidedLines] | None:
-    """The branches of a relation under conditions; None where one is not linear."""
-    lines = []
-    for branch in normal.branches:
-        relations = [relation_of(p) for p in branch if isinstance(p, (Finite, Pfaffian))]
-        own = [p for p in branch if isinstance(p, DomainCondition)]
-        if len(relations) + len(own) < len(branch):
-            return None
-        lines.append(SidedLines(tuple(relations), (*conditions, *own)))
-    return lines
-
-
-def _sided(
-    e: Expr, choices: Sequence[tuple[Expr, tuple[DomainCondition, ...]]], positive: frozenset[Expr]
-) -> Normal | None:
-    """The pieces of ``e = 0`` under the conditions of its choices.
-
-    None where one of several is not linear, or goes on into another in motion.
-    """
-    lines: list[SidedLines] = []
-    notes: list[str] = []
-    for signed, conditions in choices:
-        normal = normalise(signed, positive, True)
-        notes += normal.notes
-        own = _lines(normal, conditions)
-        if own is None:
-            whole = tuple((*b, *conditions) for b in normal.branches)
-            return Normal(whole, normal.notes) if len(choices) == 1 else None
-        lines += own
-    told = settled(lines, positive)
-    if len(told) > 1 and not meet_at_rest(told, velocities_of(e)):
-        return None
-    notes += [ONE_SIDE_NOTE] * any(velocities_of(c.expr) for one in told for c in one.conditions)
-    return Normal(tuple(_pieces_of(one) for one in told), (*notes, *([PIECES_NOTE] * (len(told) > 1))))
-
-
-def relation_of(piece: Finite | Pfaffian) -> Expr:
-    """What is 0 where a finite relation, or a form on velocities, holds."""
-    if isinstance(piece, Finite):
-        return piece.expr
-    return ex.add(*(a * ex.velocity(name) for name, a in piece.coefficients.items()), piece.dt)
-
-
-def _pieces_of(lines: SidedLines) -> tuple[Piece, ...]:
-    forms = [linear_form(r) if velocities_of(r) else Finite(r) for r in lines.relations]
-    return (*(f for f in forms if f is not None), *lines.conditions)
-
-
 def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Piece, ...]], str]:
     """The branches of one irreducible relation in velocities, and what was done."""
-    if not velocities_of(e):
+    velocities = velocities_of(e)
+    if not velocities:
         return [(Finite(e),)], ""
     form = linear_form(e)
     if form is not None:
         return [(form if form.coefficients else Finite(form.dt),)], ""
-    lines, note = lines_of(e, positive)
-    if lines is None:
-        other = rewritten(e, positive)
-        sided = None if other is None else _sided(e, other, positive)
-        if sided is not None:
-            return list(sided.branches), "; ".join((UNDONE_NOTE, *sided.notes))
-        return [(Nonlinear(e),)], ROOTS_NOTE if in_one_rate(e, positive) else ""
-    edges = edges_of(lines, positive)
-    if edges is None:
+    undone = without_arctangent(e, velocities, positive)
+    if undone is not None:
+        return [(*b, *undone[1]) for b in normalise(undone[0], positive, True).branches], UNDONE_NOTE
+    found = linear_branches(e, velocities, positive)
+    if found is None:
         return [(Nonlinear(e),)], ""
-    return [*map(_pieces_of, lines), *(b for zero in edges for b in _at_edge(e, zero, positive))], note
+    return [(*map(_linear_piece, b.relations), *b.conditions) for b in found], QUADRATIC_NOTE
 
 
-def _at_edge(e: Expr, zero: Conjunction, positive: frozenset[Expr]) -> Iterable[tuple[Piece, ...]]:
-    """What ``e = 0`` says beside what vanishes at an edge of its lines; nothing where it has no value."""
-    there = at_edge(e, zero)
-    if there is None:
-        return ()
-    beside = ((Nonlinear(e),),) if there == e else normalise(there, positive, True).branches
-    return ((*map(Finite, zero), *b) for b in beside)
+def _linear_piece(e: Expr) -> Finite | Pfaffian:
+    """What an expression linear in the velocities, or free of them, says."""
+    form = linear_form(e)
+    return Finite(e) if form is None or not form.coefficients else form

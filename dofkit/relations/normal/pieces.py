@@ -56,7 +56,9 @@ class Inequality:
     strict: bool = False
 
 
-Piece = Finite | Pfaffian | Nonlinear | Inequality | DomainCondition
+#: What a branch of an equation consists of; with inequalities, what a constraint consists of.
+Piece = Finite | Pfaffian | Nonlinear | DomainCondition
+Clause = Piece | Inequality
 #: All pieces of a branch hold together; one of the branches holds. No branch: nothing satisfies it.
 Branches = tuple[tuple[Piece, ...], ...]
 

@@ -16,7 +16,6 @@ from dofkit.exact.ring.radicals import square_root
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero.identity import is_proved_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
@@ -79,59 +78,11 @@ def by_signs(
             yield with_signs(e, mapping), tuple(DomainCondition(u, ">=") for u in plain.values())
 
 
-def whole_zero_sets(
-    choices: Sequence[tuple[Expr, tuple[DomainCondition, ...]]], positive: frozenset[Expr]
-) -> list[Expr] | None:
-    """Expressions linear in some velocity of which all zeros, whatever the signs there, are those of the choices.
-
-    ``choices``: an expression for every choice of signs, and the conditions that say them. None where a choice holds
-    always, is not linear, or where signs that occur on its zeros go with another expression: abs(x) = abs(y) is
-    y = x, or y = -x, but abs(x) = y is a half of each.
-    """
-    together: dict[object, list[int]] = {}
-    for i, (signed, _) in enumerate(choices):
-        together.setdefault(up_to_a_number(signed), []).append(i)
-    shown = [choices[numbers[0]][0] for numbers in together.values()]
-    whole = [_is_whole(e, numbers, choices, positive) for e, numbers in zip(shown, together.values(), strict=True)]
-    return shown if all(whole) else None
-
-
 def up_to_a_number(e: Expr) -> frozenset[tuple[Expr, Fraction]]:
     """Equal for expressions that are multiples of each other."""
     terms = linear_terms(e)
     first = terms[min(terms, key=repr)] if terms else 1
     return frozenset((s, c / first) for s, c in terms.items())
-
-
-def _is_whole(
-    e: Expr,
-    own: Sequence[int],
-    choices: Sequence[tuple[Expr, tuple[DomainCondition, ...]]],
-    positive: frozenset[Expr],
-) -> bool:
-    """Is every choice of signs that occurs on e = 0 one of its ``own``?
-
-    On the graph e = 0 what stands in abs() vanishes nowhere on an open set, or everywhere: then its sign is free. Every
-    point is a limit of those at which no other is 0, so it is enough that no foreign choice holds strictly.
-    """
-    slopes = {v: diff(e, v) for v in e.symbols if v.args[0] == "velocity"}
-    numbers = [v for v, slope in sorted(slopes.items(), key=repr) if slope.op == "num" and not slope.is_zero]
-    solved = next(iter(numbers), None)
-    if solved is None or any(s.args[0] == "velocity" for slope in slopes.values() for s in slope.symbols):
-        return False
-    value = -substitute(e, {solved: ex.ZERO}) / slopes[solved]
-    sides = []
-    for _, conditions in choices:
-        moved = [substitute(c.expr, {solved: value}) for c in conditions]
-        sides.append(tuple(u for u in moved if not is_proved_zero(u, positive)))
-    held = {sides[i] for i in own}
-    return all(side in held or _never_all(side, positive) for side in sides)
-
-
-def _never_all(side: Sequence[Expr], positive: frozenset[Expr]) -> bool:
-    """Are some expressions proved never to be > 0 all together, because one is not, or a product of two?"""
-    pairs = (u * v for i, u in enumerate(side) for v in side[:i])
-    return any(never_holds(u, True, positive) for u in (*side, *pairs))
 
 
 def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] | None:

@@ -105,31 +105,10 @@ class _WrittenZeros:
 
     def _even_sum(self, e: Expr) -> Zeros | None:
         """A sum of even powers with coefficients of one sign, as written."""
-        signs = {self._even_sign(term) for term in e.args}
+        signs = {sign_as_written(term, self.positive) for term in e.args}
         if len(signs) != 1 or None in signs:
             return None
         return self._together([self.of(term) for term in e.args])
-
-    def _even_sign(self, term: Expr) -> int | None:
-        """The sign of a term that cannot change it; None where it can, or where that is unknown."""
-        sign = 1
-        for factor in term.args if term.op == "mul" else (term,):
-            if factor.op == "num":
-                sign = sign if factor.args[0] > 0 else -sign
-            elif not self._never_negative(factor):
-                return None
-        return sign
-
-    def _never_negative(self, factor: Expr) -> bool:
-        if factor in self.positive or (factor.op == "fn" and factor.args[0] in ("exp", "abs", "cosh")):
-            return True
-        if factor.op == "const":
-            return True
-        if factor.op == "pow" and factor.args[1].op == "num":
-            exponent: Fraction = factor.args[1].args[0]
-            even = exponent.denominator == 1 and exponent % 2 == 0
-            return even or exponent.denominator % 2 == 0 or factor.args[0] in self.positive
-        return False
 
     def _together(self, parts: list[Zeros]) -> Zeros:
         notes = [SQUARES_NOTE]
@@ -143,6 +122,29 @@ class _WrittenZeros:
         node = ring.node(e)
         canon = Canon(ring)
         return PolynomialZeros(canon, self.positive, self.variables, self.of).of(*canon.quotient(node), e)
+
+
+def sign_as_written(term: Expr, positive: frozenset[Expr]) -> int | None:
+    """Return the sign of a term that its factors show not to change; None where it may, or where that is unknown."""
+    sign = 1
+    for factor in term.args if term.op == "mul" else (term,):
+        if factor.op == "num":
+            sign = sign if factor.args[0] > 0 else -sign
+        elif not _never_negative(factor, positive):
+            return None
+    return sign
+
+
+def _never_negative(factor: Expr, positive: frozenset[Expr]) -> bool:
+    if factor in positive or (factor.op == "fn" and factor.args[0] in ("exp", "abs", "cosh")):
+        return True
+    if factor.op == "const":
+        return True
+    if factor.op == "pow" and factor.args[1].op == "num":
+        exponent: Fraction = factor.args[1].args[0]
+        even = exponent.denominator == 1 and exponent % 2 == 0
+        return even or exponent.denominator % 2 == 0 or factor.args[0] in positive
+    return False
 
 
 def _below(factor: Expr) -> bool:
