@@ -280,7 +280,7 @@ def turned(rng: random.Random, case: KnownScene) -> KnownScene | None:
         if "axes" in part:
             moved["axes"] = [placed(axis, [0, 0, 0]) for axis in part["axes"]]
         if "between" in part:
-            moved["between"] = [end if isinstance(end, str) else placed(end, shift) for end in part["between"]]
+            moved["between"] = [placed(end, shift) if isinstance(end, list) else drawn(end) for end in part["between"]]
         return moved
 
     parts = {key: [drawn(part) for part in scene[key]] for key in ("particles", "constraints") if key in scene}
