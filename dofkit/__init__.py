@@ -19,10 +19,11 @@ Each name has an example: ``help(dofkit.NAME)``.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+import lazy_loader as lazy
 
 from dofkit.base.errors import DofkitError, SceneError, TextError
-from dofkit.base.surface import handed_on
 from dofkit.base.version import __version__
 
 if TYPE_CHECKING:
@@ -48,39 +49,29 @@ if TYPE_CHECKING:
     __all__ += ["catalog_names", "catalog_text", "configurations", "derived_flag", "graph", "load_assignment", "loads"]
     __all__ += ["linkage", "phase", "redundant_links", "verify"]
 
-#: Where names live whose modules are imported when they are first asked for.
-_HOMES = {
-    "load": "dofkit.scene.reading",
-    "loads": "dofkit.scene.reading",
-    "catalog_names": "dofkit.scene.catalog",
-    "catalog_text": "dofkit.scene.catalog",
-    "Scene": "dofkit.scene.scene",
-    "classify": "dofkit.methods.classify",
-    "Report": "dofkit.report",
-    "ask": "dofkit.methods.ask",
-    "derived_flag": "dofkit.methods.classify",
-    "verify": "dofkit.methods.certificates.verifying",
-    "lagrange": "dofkit.motion.lagrange.equations",
-    "configurations": "dofkit.motion.sampled.configurations",
-    "draw": "dofkit.pictures.still",
-    "animate": "dofkit.pictures.animation",
-    "graph": "dofkit.pictures.still",
-    "phase": "dofkit.pictures.still",
-    "linkage": "dofkit.mobility.graph.answers",
-    "redundant_links": "dofkit.mobility.graph.answers",
-    "Linkage": "dofkit.mobility.graph.answers",
-    "load_assignment": "dofkit.homework.assignment",
-    "grade": "dofkit.homework.grading",
+#: The modules of names, imported when one of these is first asked for (SPEC 1).
+_MODULES = {
+    "homework.assignment": ["load_assignment"],
+    "homework.grading": ["grade"],
+    "methods.ask": ["ask"],
+    "methods.certificates.verifying": ["verify"],
+    "methods.classify": ["classify", "derived_flag"],
+    "mobility.graph.answers": ["Linkage", "linkage", "redundant_links"],
+    "motion.lagrange.equations": ["lagrange"],
+    "motion.sampled.configurations": ["configurations"],
+    "pictures.animation": ["animate"],
+    "pictures.still": ["draw", "graph", "phase"],
+    "report": ["Report"],
+    "scene.catalog": ["catalog_names", "catalog_text"],
+    "scene.reading": ["load", "loads"],
+    "scene.scene": ["Scene"],
 }
 
 #: What draws reports and scenes for `print` and for notebooks.
 DRAWN_BY = "dofkit.interface.show.drawn"
 
-
-def __getattr__(name: str) -> Any:
-    found = globals()[name] = handed_on(__name__, _HOMES, name)
-    return found
+__getattr__, _dir, _ = lazy.attach(__name__, submod_attrs=_MODULES)
 
 
 def __dir__() -> list[str]:
-    return [*_HOMES, "DofkitError", "SceneError", "TextError", "__version__"]
+    return [*_dir(), "DofkitError", "SceneError", "TextError", "__version__"]

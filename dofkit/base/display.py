@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import sys
+from importlib import import_module
 from typing import Any, ClassVar, Self
-
-from dofkit.base.surface import handed_on
 
 
 def _drawn(name: str, *given: Any) -> Any:
@@ -14,7 +13,7 @@ def _drawn(name: str, *given: Any) -> Any:
     It has ``text_of(value, width, how)``, lines for a terminal; ``html_of(value)``, a piece of a page;
     ``latex_of(value)``, a display of what has formulas, or None; and ``panel_of(error)``, the lines of an error.
     """
-    return handed_on("dofkit", {name: sys.modules["dofkit"].DRAWN_BY}, name)(*given)
+    return getattr(import_module(sys.modules["dofkit"].DRAWN_BY), name)(*given)
 
 
 def text_of(value: object, width: int | None = None, how: bool = False) -> str:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from dofkit.base.surface import handed_on
+import lazy_loader as lazy
 
 if TYPE_CHECKING:
     from dofkit.interface.cli import main
@@ -12,9 +12,4 @@ if TYPE_CHECKING:
 __all__ = ["main"]
 
 
-def __getattr__(name: str) -> Any:
-    return handed_on(__name__, {"main": "dofkit.interface.cli"}, name)
-
-
-def __dir__() -> list[str]:
-    return sorted(__all__)
+__getattr__, __dir__, _ = lazy.attach(__name__, submod_attrs={"cli": ["main"]})

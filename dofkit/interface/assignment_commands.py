@@ -9,30 +9,9 @@ from typing import Annotated, Any
 import typer
 
 from dofkit.base.endings import format_of_path
-from dofkit.base.surface import handed_on
 from dofkit.interface import options
 from dofkit.interface.failures import failures_of
 from dofkit.interface.help_panels import PanelCommand
-
-#: Names that are imported only where a command needs them.
-_HOMES = {
-    "class_sheets": "dofkit.homework.class_sheets",
-    "load_roster": "dofkit.homework.answers.roster",
-    "own": "dofkit.homework.own_sheets",
-    "write_class": "dofkit.homework.class_sheets",
-    "HANDOUTS": "dofkit.homework.handout.sheets",
-    "load_assignment": "dofkit.homework.assignment",
-    "remarks": "dofkit.homework.handout.sheets",
-    "starting": "dofkit.homework.starting",
-    "unanswered": "dofkit.pictures.unanswered",
-    "write_sheet": "dofkit.homework.handout.sheets",
-    "written_sheet": "dofkit.homework.handout.sheets",
-}
-
-
-def _of(name: str) -> Any:
-    return handed_on(__name__, _HOMES, name)
-
 
 assignment_app = typer.Typer(
     help="Write assignments, handouts and a variant per student.", no_args_is_help=True, rich_markup_mode=None
@@ -46,7 +25,9 @@ def new(
 ) -> None:
     """Print a first assignment with five questions per scene."""
     with failures_of(None):
-        typer.echo(_of("starting")(scenes, every), nl=False)
+        from dofkit.homework.starting import starting
+
+        typer.echo(starting(scenes, every), nl=False)
 
 
 @assignment_app.command("handout", cls=PanelCommand)
@@ -67,16 +48,20 @@ def handout(
 
     It states the problems, the names and how answers are written, and gives no answer away.
     """
+    from dofkit.homework.assignment import load_assignment
+    from dofkit.homework.handout.sheets import HANDOUTS, remarks, write_sheet, written_sheet
+    from dofkit.homework.own_sheets import own
+
     with failures_of(assignment):
-        form = form or "html" if out is None else format_of_path(out, _of("HANDOUTS"), form)
-        prepared = _of("load_assignment")(assignment)
+        form = form or "html" if out is None else format_of_path(out, HANDOUTS, form)
+        prepared = load_assignment(assignment)
         target = Path(assignment).with_suffix(f".{form}") if out is None else out
         if target.resolve() == Path(assignment).resolve():
             raise typer.BadParameter("it would overwrite the assignment", param_hint="--out")
         if student is not None:
-            prepared = _of("own")(prepared, student)
-        _of("write_sheet")(_of("written_sheet")(prepared, drawing(), student), form, target)
-    for remark in _of("remarks")(prepared):
+            prepared = own(prepared, student)
+        write_sheet(written_sheet(prepared, drawing(), student), form, target)
+    for remark in remarks(prepared):
         typer.echo(f"{assignment}: {remark}", err=True)
     typer.echo(target)
 
@@ -98,9 +83,12 @@ def vary(
     ...`), and a table of the differences. The same seed gives a student the same variant everywhere, and every key is
     proved. Students who have a variant in the folder keep it when the roster changes.
     """
+    from dofkit.homework.answers.roster import load_roster
+    from dofkit.homework.class_sheets import class_sheets, write_class
+
     with failures_of(assignment):
-        made = _of("class_sheets")(assignment, _of("load_roster")(roster), seed, out, anew)
-        _of("write_class")(made, form, drawing(), out)
+        made = class_sheets(assignment, load_roster(roster), seed, out, anew)
+        write_class(made, form, drawing(), out)
     for remark in made.remarks():
         typer.echo(f"{assignment}: {remark}", err=True)
     typer.echo(f"{out}: {len(made.sheets)} sheets")
@@ -108,7 +96,7 @@ def vary(
 
 def drawing() -> Callable[[Any, Any, str], str | None]:
     """Return the function that draws a scene for a handout."""
-    unanswered = _of("unanswered")
+    from dofkit.pictures.unanswered import unanswered
 
     def draw(scene: Any, report: Any, title: str) -> str | None:
         picture = unanswered(scene, report, title)

@@ -8,13 +8,8 @@ from typing import Annotated
 
 import typer
 
-from dofkit.base.surface import handed_on
 from dofkit.interface import options
 from dofkit.interface.failures import failures_of, print_json
-
-#: The catalog is read only where it is asked for.
-_HOME = "dofkit.scene.catalog"
-_HOMES = dict.fromkeys(("catalog_names", "catalog_search", "catalog_text", "catalog_titles"), _HOME)
 
 
 def catalog(
@@ -34,15 +29,17 @@ def catalog(
     `dofkit catalog` lists the names, with their titles on a terminal. `dofkit catalog WORD...` lists the scenes in
     which all the words occur. `dofkit catalog show NAME` prints the YAML of a scene.
     """
+    from dofkit.scene.catalog import catalog_names, catalog_search, catalog_text, catalog_titles
+
     with failures_of(" ".join(words or ())):
         if words and words[0] == "show" and len(words) == 2:
-            typer.echo(handed_on(__name__, _HOMES, "catalog_text")(words[1]), nl=False)
+            typer.echo(catalog_text(words[1]), nl=False)
         elif words:
-            _titles(handed_on(__name__, _HOMES, "catalog_search")(words), as_json)
+            _titles(catalog_search(words), as_json)
         elif as_json or sys.stdout.isatty():
-            _titles(handed_on(__name__, _HOMES, "catalog_titles")(), as_json)
+            _titles(catalog_titles(), as_json)
         else:
-            typer.echo("\n".join(handed_on(__name__, _HOMES, "catalog_names")()))
+            typer.echo("\n".join(catalog_names()))
 
 
 def _titles(titles: Mapping[str, str], as_json: bool) -> None:

@@ -9,12 +9,11 @@ from collections.abc import Generator, Iterator, Sequence
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple
 
 import typer
 
 from dofkit.base.errors import ArgumentError
-from dofkit.base.surface import handed_on
 from dofkit.base.wording import many
 from dofkit.interface.outcome import headline
 from dofkit.interface.presentation import Telling
@@ -29,8 +28,6 @@ from dofkit.methods.names import MethodName
 FAILED, UNREADABLE = 1, 2
 #: Seconds between two looks at the files that are watched.
 LOOKING = 0.2
-#: What only many scenes at once need, imported there.
-_MANY = dict.fromkeys(("Helpers", "kept_reports", "many_reports"), "dofkit.interface.many.run")
 #: Clears a terminal, and goes to its first line.
 _CLEARED = "\x1b[2J\x1b[H"
 
@@ -104,19 +101,17 @@ def _stream(asked: Asked) -> Generator[Printed]:
     """What is printed of each file: one after another, or many at once."""
     if asked.workers is None and asked.scheduler is None and asked.out is None:
         return reports(asked.files, asked.telling, asked.budget, asked.method, asked.certificate)
-    helpers, telling = _many("Helpers")(asked.workers, asked.scheduler), asked.telling
+    from dofkit.interface.many.run import Helpers, kept_reports, many_reports
+
+    helpers, telling = Helpers(asked.workers, asked.scheduler), asked.telling
     telling = telling._replace(ascii_only=ascii_only())
     if asked.out is not None:
         telling = Telling(True, only=telling.only, without=telling.without, limits=telling.limits)
     given = given_for_all(asked.files, telling, asked.budget, asked.method)
     given = replace(given, certificate=asked.certificate)
     if asked.out is None:
-        return cast("Generator[Printed]", _many("many_reports")(asked.files, given, helpers))
-    return cast("Generator[Printed]", _many("kept_reports")(asked.files, given, helpers, asked.out))
-
-
-def _many(name: str) -> Any:
-    return handed_on(__name__, _MANY, name)
+        return many_reports(asked.files, given, helpers)
+    return kept_reports(asked.files, given, helpers, asked.out)
 
 
 def watched(asked: Asked) -> int:

@@ -8,8 +8,6 @@ import os
 import sys
 import threading
 
-from dofkit.base.surface import handed_on
-
 #: So many objects are made before those no longer used are looked for: imports make many, which all stay.
 OBJECTS = 100_000
 
@@ -19,7 +17,9 @@ def main() -> None:
     gc.set_threshold(OBJECTS)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     try:
-        handed_on(__name__, {"main": "dofkit.interface.cli"}, "main")()
+        from dofkit.interface.cli import main as run  # after the settings above
+
+        run()
     except SystemExit as ended:
         if _alone() and isinstance(ended.code, int):
             _leave(ended.code)

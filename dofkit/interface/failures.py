@@ -11,7 +11,6 @@ from typing import Any
 import typer
 
 from dofkit.base.errors import DofkitError, Fault
-from dofkit.base.surface import handed_on
 from dofkit.interface.streams import ascii_only, colours_of
 
 #: The exit status where something could not be read, and after Ctrl-C.
@@ -32,7 +31,8 @@ def failures_of(file: str | None) -> Iterator[None]:
         faults = tuple(getattr(error, "faults", None) or (Fault(str(error)),))
         sys.stdout.flush()
         about = getattr(error, "file", None) or file or getattr(error, "source", None) or "assignment"
-        complaint = handed_on(__name__, {"complaint": "dofkit.interface.show.faults"}, "complaint")
+        from dofkit.interface.show.faults import complaint
+
         told = complaint(about, faults, None, colours_of(sys.stderr) is not None)
         typer.echo(told, err=True, color=True)
         raise typer.Exit(UNREADABLE) from None

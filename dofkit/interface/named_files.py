@@ -6,8 +6,8 @@ import glob
 import os
 from collections.abc import Iterable, Iterator
 
-from dofkit.base.surface import handed_on
 from dofkit.models.formats import LOOKED_AT, is_known_model
+from dofkit.scene.catalog import catalog_names
 
 #: How the files of scenes and models end; of those that end as the last do a folder holds many others.
 ENDINGS, OF_MANY_KINDS = (".json", ".mjcf", ".slvs", ".urdf", ".yaml", ".yml"), (".xml",)
@@ -32,7 +32,7 @@ def _named(argument: str) -> list[str]:
 
 def _is_catalogued(name: str) -> bool:
     """Is it a scene of the catalog, which has the same name as a folder here?"""
-    return name in handed_on(__name__, {"catalog_names": "dofkit.scene.catalog"}, "catalog_names")()
+    return name in catalog_names()
 
 
 def _below(folder: str) -> Iterator[str]:

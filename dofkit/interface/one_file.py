@@ -12,37 +12,23 @@ from typing import Any
 
 from dofkit.base.documents import Document
 from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
-from dofkit.base.surface import handed_on
 from dofkit.base.workers import Json
 from dofkit.classification.undecided import sketch, undecided
 from dofkit.interface import show
 from dofkit.interface.outcome import outcome_of
+from dofkit.interface.selection import selected_line, selection_of
+from dofkit.interface.show.changes import changed, unexpected
+from dofkit.interface.show.decimals import as_the_scene
 from dofkit.interface.show.sheet import SheetSection
 from dofkit.interface.show.terminal import Screen
 from dofkit.interface.supervised import STDIN, Cut, Given
-from dofkit.methods.classify import with_certificate
 from dofkit.methods.stages import classified, lowered, stages
-from dofkit.motion.lagrange.equations import lagrange
 from dofkit.report import Report
+from dofkit.scene.dropped import without
+from dofkit.scene.expectation import unmet
 from dofkit.scene.found_files import FoundFile, find
 from dofkit.scene.reading import SceneFile
 from dofkit.scene.scene import Scene
-
-#: What only some options need, imported there.
-_USED_BY_OPTIONS = {
-    "as_the_scene": "dofkit.interface.show.decimals",
-    "certificate_of_motion": "dofkit.methods.certificates.motion_evidence",
-    "changed": "dofkit.interface.show.changes",
-    "selected_line": "dofkit.interface.selection",
-    "selection_of": "dofkit.interface.selection",
-    "unexpected": "dofkit.interface.show.changes",
-    "unmet": "dofkit.scene.expectation",
-    "without": "dofkit.scene.dropped",
-}
-
-
-def _used(name: str) -> Any:
-    return handed_on(__name__, _USED_BY_OPTIONS, name)
 
 
 def report_lines(given: Given) -> Iterator[Json]:
@@ -108,8 +94,7 @@ def _undecided(reason: str, scene: Scene, given: Given) -> Iterator[Json]:
 def _part_of(scene: Scene, given: Given) -> Scene:
     """What is asked about: the scene, or what is left of it without some constraints."""
     dropped = given.telling.without
-    part: Scene = _used("without")(scene, dropped) if dropped else scene
-    return part
+    return without(scene, dropped) if dropped else scene
 
 
 def _told(whole: Scene, scene: Scene, report: Report, given: Given, start: float) -> Json:
@@ -117,12 +102,12 @@ def _told(whole: Scene, scene: Scene, report: Report, given: Given, start: float
         report = _written_certificate(scene, report, given.certificate)
     changes = () if whole is scene or given.telling.as_json else _changes(whole, report, given)
     told = report.model_dump(mode="json") if scene.expect or given.telling.as_json else {}
-    missed = _used("unmet")(scene, told) if scene.expect else []
-    more = (*changes, *_used("unexpected")(missed)) if missed else changes
+    missed = unmet(scene, told) if scene.expect else []
+    more = (*changes, *unexpected(missed)) if missed else changes
     if given.telling.as_json:
         text = _told_line(told, given)
     else:
-        text = _report_text(_used("as_the_scene")(report, scene), scene.title, given, more)
+        text = _report_text(as_the_scene(report, scene), scene.title, given, more)
     seconds = time.perf_counter() - start
     counted = {**outcome_of(report), "expects": bool(scene.expect), "unmet": missed, "seconds": seconds}
     return streams(text, outcome=counted)
@@ -131,11 +116,13 @@ def _told(whole: Scene, scene: Scene, report: Report, given: Given, start: float
 def _changes(scene: Scene, report: Report, given: Given) -> Sequence[SheetSection]:
     """What is otherwise than with the constraints that were dropped."""
     *_, before = stages(scene, given.budget, given.method)
-    return (_used("changed")(before, report, given.telling.without),)
+    return (changed(before, report, given.telling.without),)
 
 
 def _written_certificate(scene: Scene, report: Report, path: str) -> Report:
     """The report with its certificate, which is written to a path; folders on the way are made."""
+    from dofkit.methods.classify import with_certificate  # few ask for one
+
     report = with_certificate(scene, report)
     _write(report.certificate, path)
     return report
@@ -151,14 +138,18 @@ def _write(certificate: dict[str, Any] | None, path: str) -> None:
 
 
 def _equations(scene: Scene, given: Given) -> Iterator[Json]:
+    from dofkit.motion.lagrange.equations import lagrange  # only the command `lagrange`
+
     report = lagrange(scene, given.linearize, given.budget)
     if given.certificate is not None:
+        from dofkit.methods.certificates.motion_evidence import certificate_of_motion  # few ask for one
+
         told = report.model_dump(mode="json")
-        _write(_used("certificate_of_motion")(scene, told, report.classification), given.certificate)
+        _write(certificate_of_motion(scene, told, report.classification), given.certificate)
     if given.telling.as_json:
         yield streams(_line(report.model_dump(mode="json"), given))
     else:
-        sheet = show.sheet_of_motion(_used("as_the_scene")(report, scene), scene.title)
+        sheet = show.sheet_of_motion(as_the_scene(report, scene), scene.title)
         yield streams(show.as_text(sheet, _screen(given)) + "\n\n")
 
 
@@ -172,7 +163,7 @@ def _report_text(report: Report, title: str | None, given: Given, more: Sequence
     if telling.as_json:
         return _told_line(report.model_dump(mode="json"), given)
     if telling.only:
-        return str(_used("selected_line")(report, telling.only)) + "\n"
+        return selected_line(report, telling.only) + "\n"
     if telling.brief:
         return show.brief_line(report, given.widest, _screen(given)) + "\n"
     sheet = show.sheet_of_report(report, title, telling.how)
@@ -182,7 +173,7 @@ def _report_text(report: Report, title: str | None, given: Given, more: Sequence
 def _told_line(told: dict[str, Any], given: Given) -> str:
     """A report, or the fields of it that are asked for, as a line of JSON."""
     only = given.telling.only
-    return _line(_used("selection_of")(told, only) if only else told, given)
+    return _line(selection_of(told, only) if only else told, given)
 
 
 def _screen(given: Given) -> Screen:

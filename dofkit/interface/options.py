@@ -10,33 +10,27 @@ import typer
 
 from dofkit.base.endings import format_of_path, is_folder_path
 from dofkit.base.errors import ArgumentError
-from dofkit.base.surface import handed_on
+from dofkit.base.spelling import no_such
 from dofkit.interface.help_panels import ADVANCED
 from dofkit.interface.outcome import FAILURES
 from dofkit.methods.table import METHODS
-
-#: Names that are imported only where an option needs them.
-_HEAVY = {
-    "Report": "dofkit.report",
-    "all_explanations": "dofkit.interface.explanations",
-    "catalog_names": "dofkit.scene.catalog",
-    "named_files": "dofkit.interface.named_files",
-    "no_such": "dofkit.base.spelling",
-}
 
 # completion by the shell
 
 
 def explained(incomplete: str) -> list[str]:
     """Return the words that `explain` knows."""
-    known = handed_on(__name__, _HEAVY, "all_explanations")()
+    from dofkit.interface.explanations import all_explanations
+
+    known = all_explanations()
     return list(dict.fromkeys(told.word for told in known if told.word.casefold().startswith(incomplete.casefold())))
 
 
 def catalogued(incomplete: str) -> list[str]:
     """Return the names of the catalog; where none fits the shell completes files."""
-    names = handed_on(__name__, _HEAVY, "catalog_names")()
-    return [name for name in names if incomplete and name.startswith(incomplete)]
+    from dofkit.scene.catalog import catalog_names
+
+    return [name for name in catalog_names() if incomplete and name.startswith(incomplete)]
 
 
 # of several commands
@@ -44,8 +38,9 @@ def catalogued(incomplete: str) -> list[str]:
 
 def _named(arguments: list[str]) -> list[str]:
     """Return every file that the arguments name; folders and patterns stand for the files in them."""
-    found: list[str] = handed_on(__name__, _HEAVY, "named_files")(arguments)
-    return found
+    from dofkit.interface.named_files import named_files
+
+    return named_files(arguments)
 
 
 def folder(path: Path | None) -> Path | None:
@@ -162,8 +157,9 @@ def fields(only: list[str] | None) -> tuple[str, ...]:
     """Return names of fields of a report. Raises BadParameter for any other name."""
     if not only:
         return ()
-    report = handed_on(__name__, _HEAVY, "Report")
-    return _known(listed(only), report.model_fields, "field", "--only")
+    from dofkit.report import Report
+
+    return _known(listed(only), Report.model_fields, "field", "--only")
 
 
 def failures(fail_on: list[str] | None) -> tuple[str, ...]:
@@ -174,8 +170,7 @@ def failures(fail_on: list[str] | None) -> tuple[str, ...]:
 def _known(names: tuple[str, ...], known: Iterable[str], what: str, option: str) -> tuple[str, ...]:
     for name in names:
         if name not in known:
-            message = handed_on(__name__, _HEAVY, "no_such")(name, known, what)
-            raise typer.BadParameter(message, param_hint=option)
+            raise typer.BadParameter(no_such(name, known, what), param_hint=option)
     return names
 
 

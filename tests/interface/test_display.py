@@ -14,9 +14,9 @@ import pytest
 from shared.notebook import CELLS
 
 import dofkit
-from dofkit.interface.show import picture
 from dofkit.interface.show.page import as_html
 from dofkit.interface.show.sheet import Fact, Formula, Remark, Sheet, SheetSection
+from dofkit.pictures import still
 from dofkit.report import Report
 
 DISC = "disc-rolling-on-plane"
@@ -194,11 +194,10 @@ def test_a_picture_is_folded_in_where_pictures_are_installed(monkeypatch: pytest
     def svg(scene: dofkit.Scene, report: Report | None) -> str:
         return f"<svg><title>{scene.name} {report and report.dof}</title></svg>"
 
-    monkeypatch.setattr(picture, "find_spec", lambda name: name)
-    monkeypatch.setattr(picture, "handed_on", lambda package, homes, name: svg)
+    monkeypatch.setattr(still, "svg", svg)
     assert "<svg><title>disc-rolling-on-plane 4</title></svg>" in shown(dofkit.classify(DISC))
     assert "<svg><title>disc-rolling-on-plane None</title></svg>" in shown(dofkit.load(DISC))
-    monkeypatch.setattr(picture, "find_spec", lambda name: None)
+    monkeypatch.setitem(sys.modules, "dofkit.pictures.still", None)
     assert "<svg>" not in shown(dofkit.classify(DISC))
 
 

@@ -24,7 +24,7 @@ FORBIDDEN = frozenset(
 NAMED = frozenset({"Symbol", "Dummy", "Function", "symbols", "ReferenceFrame", "Point"})
 #: Calls that look alike and are not: by file and the text of the call's function.
 ALLOWED = {
-    ("base/surface.py", "import_module"): "the package's own modules, by a fixed table of each room",
+    ("base/display.py", "import_module"): "the package's own module that draws, by a fixed name",
     ("scene/constraints/__init__.py", "import_module"): "the modules of the folder, one a constraint type",
     ("models/mujoco_model.py", "spec.compile"): "MuJoCo's compiler of a model, which runs no text",
     ("models/formats.py", "import_module"): "the reader of a format, by the table of formats",

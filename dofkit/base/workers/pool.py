@@ -10,11 +10,13 @@ from concurrent.futures import CancelledError, Future, ThreadPoolExecutor, wait
 from functools import cache, partial
 from queue import LifoQueue
 from types import TracebackType
-from typing import Any, Protocol, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar
 
 from dofkit.base.errors import DofkitError
-from dofkit.base.journal import Journal
 from dofkit.base.workers.worker import MEMORY, Job, JobOutcome, Worker, can_fork
+
+if TYPE_CHECKING:
+    from dofkit.base.journal import Journal
 
 #: Calls under way for each worker, and the most bytes that wait for one.
 AHEAD, MOST_BYTES = 32, 4_000_000

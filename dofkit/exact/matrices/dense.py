@@ -10,10 +10,10 @@ import random
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 from flint import fmpz
 
 from dofkit.base.deadline import check
+from dofkit.base.libraries import np
 
 PRIME_BITS = 23
 #: Products that are summed before they are reduced: 256 (2^22)^2 + 2^22 < 2^53.

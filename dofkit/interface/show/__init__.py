@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from dofkit.base.surface import handed_on
+import lazy_loader as lazy
 
 if TYPE_CHECKING:
     from dofkit.interface.show.brief import brief_line
@@ -15,15 +15,13 @@ if TYPE_CHECKING:
 
 __all__ = ["Screen", "as_text", "brief_line", "complaint", "sheet_of_motion", "sheet_of_report"]
 
-_HOMES = {
-    "Screen": "dofkit.interface.show.terminal",
-    "as_text": "dofkit.interface.show.terminal",
-    "brief_line": "dofkit.interface.show.brief",
-    "complaint": "dofkit.interface.show.faults",
-    "sheet_of_motion": "dofkit.interface.show.motion",
-    "sheet_of_report": "dofkit.interface.show.report",
-}
-
-
-def __getattr__(name: str) -> Any:
-    return handed_on(__name__, _HOMES, name)
+__getattr__, __dir__, _ = lazy.attach(
+    __name__,
+    submod_attrs={
+        "brief": ["brief_line"],
+        "faults": ["complaint"],
+        "motion": ["sheet_of_motion"],
+        "report": ["sheet_of_report"],
+        "terminal": ["Screen", "as_text"],
+    },
+)

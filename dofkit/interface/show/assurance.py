@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import inf, log10
 
-from dofkit.base.surface import handed_on
+from dofkit.base.verdicts import ArgumentKey
 from dofkit.base.wording import gap_in_words
 from dofkit.interface.show.sheet import Remark
 from dofkit.report import FieldVerdict, Report
 
-#: Names that are imported only where arguments are shown.
-_HEAVY = {"TABLE": "dofkit.classification.arguments"}
 #: The meaning of each verdict.
 VERDICT_MEANS = {
     "proved": "derived by exact arithmetic that leaves no doubt",
@@ -122,13 +120,16 @@ def way(report: Report) -> str:
 
 def _arguments(report: Report) -> Iterator[Remark]:
     """Yield each argument with the fields that rest on it and its hypotheses."""
-    together: dict[str, list[str]] = {}
+    together: dict[ArgumentKey, list[str]] = {}
     for name, found in report.verdicts.items():
         if found.argument is not None:
             together.setdefault(found.argument, []).append(_FIELDS.get(name, name.replace("_", " ")))
-    table = handed_on(__name__, _HEAVY, "TABLE") if together else {}
+    if not together:
+        return
+    from dofkit.classification.arguments import TABLE
+
     for key, names in together.items():
-        row = table[key]
+        row = TABLE[key]
         theorem = f" [{row.theorem}]" if row.theorem else ""
         because = "" if len(row.hypotheses) < _TERSE else f" (condition: {row.hypotheses})"
         told = f"{row.claims}{because}".replace("over GF(p)", "modulo a large prime")

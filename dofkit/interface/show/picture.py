@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
+from typing import Any
 
 from dofkit.base.deadline import limited
 from dofkit.base.errors import DofkitError
-from dofkit.base.surface import handed_on
+from dofkit.report import Report
 
-#: The room that draws, and its function from a scene and its report to an inline SVG.
-_ROOM, _FUNCTION = "dofkit.pictures", "svg"
 #: Seconds for a picture; without a report the scene is classified for it.
 DRAWING = 5.0
 
 
-def picture_of(scene: object, report: object = None) -> str | None:
+def picture_of(scene: Any, report: Report | None = None) -> str | None:
     """An inline SVG of a scene; None without pictures, or where it cannot be drawn in time."""
-    if find_spec(_ROOM) is None:
-        return None
     try:
+        from dofkit.pictures.still import svg  # most values are shown without a picture
+
         with limited(DRAWING):
-            drawn = handed_on(__name__, {_FUNCTION: _ROOM}, _FUNCTION)(scene, report)
-    except (ImportError, AttributeError, DofkitError):
+            return svg(scene, report)
+    except (ImportError, DofkitError):
         return None
-    return drawn if isinstance(drawn, str) else None

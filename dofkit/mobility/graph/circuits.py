@@ -11,8 +11,7 @@ from collections.abc import Iterator, Sequence
 from heapq import heappop, heappush
 from typing import Any, NamedTuple
 
-import numpy as np
-
+from dofkit.base.libraries import np
 from dofkit.mobility.graph.pebbles import FREE
 
 #: Circuits in one word.

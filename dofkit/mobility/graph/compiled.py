@@ -12,7 +12,7 @@ from importlib.util import find_spec
 from types import FunctionType, ModuleType
 from typing import Any
 
-import numpy as np
+from dofkit.base.libraries import np
 
 #: Links from which compiling, or reading what was compiled before, takes less time than it saves.
 WORTH_COMPILING = 40_000

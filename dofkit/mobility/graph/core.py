@@ -11,8 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
+from dofkit.base.libraries import np
 from dofkit.exact.matrices.dense import Factored, factored, prime_at, product, residues
 from dofkit.mobility.graph.decompose import Ends
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import networkx as nx
+from dofkit.base.libraries import nx
 
 Ends = Sequence[tuple[int, int]]
 

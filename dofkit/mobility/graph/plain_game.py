@@ -14,8 +14,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numpy as np
-
+from dofkit.base.libraries import np
 from dofkit.mobility.graph.pebbles import FREE, Board
 from dofkit.mobility.graph.rigid_blocks import NONE, RigidBlocks
 

@@ -6,8 +6,7 @@ from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
+from dofkit.base.libraries import np
 from dofkit.mobility.graph import net as nets
 from dofkit.mobility.graph import pebbles, rigid_clusters
 from dofkit.mobility.graph.answer import Proof, Question

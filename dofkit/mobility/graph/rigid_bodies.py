@@ -6,8 +6,7 @@ from collections.abc import Iterable, Sequence
 from itertools import combinations
 from typing import Any
 
-import numpy as np
-
+from dofkit.base.libraries import np
 from dofkit.exact.matrices.dense import product, residues
 
 
