@@ -267,7 +267,8 @@ class System:
     ``particles`` and ``bodies`` list names; ``links`` the rigid links between particles as
     (constraint index, particle, particle), ``distances`` those between points of any kind that constraints
     hold, by constraint index; ``connections`` what each constraint of given or generic geometry
-    connects, ``starts`` where the bodies' origins stand. ``size``: the largest distance between given points.
+    connects, ``starts`` where the bodies' origins stand; ``arms``, where geometry is measured, the vectors from the
+    bodies' origins to their material points at the scene's centre. ``size``: the largest distance between given points.
     ``left_out``: what the scene says that it leaves out. ``drawn``: a pose that is no ``reference`` since Euler angles
     are singular there, so that coordinates tell no velocities of bodies.
     """
@@ -289,6 +290,7 @@ class System:
     distances: Mapping[int, Sequence[Distance]] = field(default_factory=dict)
     connections: tuple[Connection, ...] = ()
     starts: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
+    arms: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
     tolerance: Fraction | None = None
     size: float = 1.0
     warnings: tuple[str, ...] = ()

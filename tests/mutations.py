@@ -83,9 +83,9 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "regular = point.rank == len(search.slacks) + (codimension or 1)",
     ): "where equations take nothing away there are none",
     (
-        "dofkit/configuration/drawing/measured_paths.py",
-        "if stages[-1].residual > BROKEN * 10 * tolerance:",
-        "if stages[-1].residual >= BROKEN * 10 * tolerance:",
+        "dofkit/configuration/measured/continuation.py",
+        "if stages[-1].residual > VIOLATED * 10 * tolerance:",
+        "if stages[-1].residual >= VIOLATED * 10 * tolerance:",
     ): "a floating point number does not meet a bound exactly",
     (
         "dofkit/configuration/local/long_paths.py",

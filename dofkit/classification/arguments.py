@@ -88,7 +88,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the rank of measured geometry",
         "",
         "the singular values are separated by a gap",
-        "dofkit.configuration.drawing.measured.measure",
+        "dofkit.configuration.measured.dimension.measured_freedom",
         "the singular values",
     ),
     "links in general position": Argument(

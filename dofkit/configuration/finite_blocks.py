@@ -7,11 +7,10 @@ from dataclasses import replace
 from math import isfinite
 
 from dofkit.base.wording import gap_in_words
-from dofkit.configuration.drawing import measured as measured_drawing
-from dofkit.configuration.drawing import measured_as_written
-from dofkit.configuration.drawing.at_reference import AtReference, at_reference, ball_matrix
-from dofkit.configuration.drawing.measured_blocks import drawing_of_block, is_measured, is_tree
+from dofkit.configuration.drawing.at_reference import at_reference, ball_matrix
 from dofkit.configuration.generic_points import field_jacobian
+from dofkit.configuration.measured.dimension import MISSED, MeasuredFreedom, measured_freedom
+from dofkit.configuration.measured.equations import is_measured, is_tree, pose_of_block
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety
 from dofkit.configuration.witness import of_real_point, of_reference
@@ -53,14 +52,16 @@ def finite_answer(block: Block, setting: Setting) -> Answer:
 
 
 def _within_tolerance(block: Block, chart: Chart, setting: Setting) -> Answer:
-    """The answer where geometry is measured; generically where that cannot matter, as in a tree that is not drawn."""
-    drawing = drawing_of_block(chart, setting)
-    if drawing is None and is_tree(block, setting):
+    """Return the answer of a block with measured geometry; numbers do not matter in a tree without positions."""
+    pose = pose_of_block(chart, setting)
+    if pose is None and is_tree(block, setting):
         return _finite_answer(chart, setting)
-    found = None if drawing is None else at_reference(chart, drawing, exact=False)
-    if drawing is None or found is None:
-        return Answer(None, verdict="undecided", reasons=[NOT_DRAWN])
-    return _measured_answer(chart, setting, drawing, found)
+    if "balls" not in setting.engines:
+        return Answer(None, verdict="undecided", reasons=["measured geometry has no points over GF(p)"])
+    freedom = None if pose is None else measured_freedom(chart, pose, setting)
+    return (
+        Answer(None, verdict="undecided", reasons=[NOT_DRAWN]) if freedom is None else _measured_answer(chart, freedom)
+    )
 
 
 def _finite_answer(chart: Chart, setting: Setting) -> Answer:
@@ -155,31 +156,24 @@ def _confined_answer(chart: Chart, setting: Setting, result: Answer) -> Answer:
     return result
 
 
-def _measured_answer(chart: Chart, setting: Setting, drawing: Mapping[Expr, Expr], found: AtReference) -> Answer:
-    """Measured geometry: the rank within the tolerance."""
-    if "balls" not in setting.engines:
-        return Answer(None, verdict="undecided", reasons=["measured geometry has no points over GF(p)"])
-    told = measured_drawing.measure(chart, _floats(found), setting, found.rigid)
-    told = measured_as_written.held_against_exact(told, chart, drawing)
-    result = Answer(True, told.dimension, told.dimension, "numeric" if told.dimension is not None else "undecided")
-    result.argument, result.gap, result.about = "singular values", told.gap, "reference"
+def _measured_answer(chart: Chart, freedom: MeasuredFreedom) -> Answer:
+    """Return the freedom at a measured pose as the answer of a block."""
+    dimension = freedom.dimension
+    result = Answer(True, dimension, dimension, "numeric" if dimension is not None else "undecided")
+    result.argument, result.gap, result.about = "singular values", freedom.gap, "reference"
     result.method = "singular values within the tolerance at the given configuration"
-    result.instantaneous = told.instantaneous
-    if told.still:
+    result.instantaneous = freedom.instantaneous
+    if freedom.fixes_time:
         result.consistent, result.verdict, result.argument = False, "numeric", "time fixed"
-    elif told.dimension is None and (chart.time is not None or told.reason == measured_drawing.MISSED):
+    elif dimension is None and (chart.time is not None or freedom.reason == MISSED):
         result.consistent = None
     exact = "only an exact zero counts as a zero singular value"
-    gap = gap_in_words(told.gap, "singular value") if isfinite(told.gap) else exact
-    result.reasons.append(f"{told.reason}; {gap}")
-    result.matrix, result.modulus = sparse(told.dependencies), 2
-    result.dependent = tuple(str(chart.symbols[c].args[1]) for c in told.columns)
-    result.degenerate = told.dimension != told.instantaneous
+    gap = gap_in_words(freedom.gap, "singular value") if isfinite(freedom.gap) else exact
+    result.reasons.append(f"{freedom.reason}; {gap}")
+    result.matrix, result.modulus = sparse(freedom.dependencies), 2
+    result.dependent = tuple(str(chart.symbols[c].args[1]) for c in freedom.columns)
+    result.degenerate = dimension != freedom.instantaneous
     return result
-
-
-def _floats(found: AtReference) -> dict[Expr, float]:
-    return {s: float(v.mid()) for s, v in found.ball.symbols.items()} if found.ball is not None else {}
 
 
 def _finite_matrix(chart: Chart, found: Variety, result: Answer) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.expressions.tree import Expr
@@ -20,19 +20,6 @@ class NamedRows(NamedTuple):
     p: int
 
 
-class TurnedBody(NamedTuple):
-    """A body's coordinates: of its origin, which is drawn at ``start``, and its angles, ``initial`` as drawn.
-
-    ``chart``: how the angles turn it, as in `system.Rotation`; in the plane there is one angle.
-    """
-
-    places: tuple[str, ...]
-    angles: tuple[str, ...]
-    chart: Literal["plane", "gibbs", "euler"]
-    start: tuple[float, ...]
-    initial: tuple[float, ...]
-
-
 @dataclass(frozen=True)
 class Setting:
     """What the engines may assume of the symbols, which of them may be asked, and what is asked beyond the labels.
@@ -40,9 +27,10 @@ class Setting:
     ``grows``: the growth vector; ``flag``: the derived flag.
     ``distances``: those that constraints hold, by constraint, in a world of ``dimension``; ``links``: the particles
     that rigid links join, by constraint; ``reductions``: those in use; ``welds``: the constraints that weld;
-    ``geometric``: those that are no texts, whose numbers are measured where there is a ``tolerance``; then ``bodies``
-    and the ``centre`` of all that is drawn are told too. ``tilts``: the second of the Euler angles of bodies whose
-    angles texts name; where its sine is 0 the other two turn alike. ``bridges``: the joints that close no loop;
+    ``geometric``: those that are no texts, whose numbers are measured where there is a ``tolerance``; then ``arms`` are
+    the vectors from the bodies' origins to their material points at the scene's centre. ``tilts``: the second of the
+    Euler angles of bodies whose angles texts name; where its sine is 0 the other two turn alike. ``bridges``: the
+    joints that close no loop;
     ``afloat``: the constraints that hold after any motion of all that they hold, without these, as one;
     ``within``: what is asked of hangs by such joints on more. ``joint_rows``: of constraints at the drawing, where the
     geometry of joints alone tells them.
@@ -64,8 +52,7 @@ class Setting:
     reductions: Reductions = ALL
     welds: frozenset[int] = frozenset()
     geometric: frozenset[int] = frozenset()
-    bodies: tuple[TurnedBody, ...] = ()
-    centre: tuple[float, ...] = ()
+    arms: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
     tilts: frozenset[str] = frozenset()
     bridges: frozenset[int] = frozenset()
     afloat: frozenset[int] = frozenset()

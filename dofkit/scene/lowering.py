@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import cache, partial
 
 from dofkit.base.errors import SceneError
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.tree import parameter
+from dofkit.expressions.tree import MINUS_ONE, ZERO, mul, parameter, power
+from dofkit.expressions.vectors import Vec
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.reference import pose_of, reference_of, undrawn
@@ -54,7 +56,6 @@ def system_of(scene: Scene, found: Survey) -> System:
             warnings.append(LEVEL.format(", ".join(level)))
         elif reference is None:
             warnings += _partly(found, undrawn(drawing, found.drawn, pose, touched()) if found.drawn else ())
-    names = names_by_position("f", [force.name for force in scene.forces])
     return System(
         name=scene.name,
         dimension=scene.dimension,
@@ -68,17 +69,23 @@ def system_of(scene: Scene, found: Survey) -> System:
         pose=pose if reference is None else reference,
         particles=tuple(vocabulary.table.particles),
         bodies=tuple(vocabulary.table.bodies),
-        forces=tuple(ListedForce(name, force.reason) for name, force in zip(names, scene.forces, strict=True)),
+        forces=_forces(scene),
         links=found.links,
         distances=found.distances if reference is None else {},
         connections=found.connections,
         starts={name: frame.start for name, frame in drawing.frames.items()},
+        arms=_arms(drawing, found.centre),
         tolerance=scene.tolerance or None,
         size=found.size,
         warnings=tuple(warnings),
         left_out=scene.left_out,
         drawn=singular,
     )
+
+
+def _forces(scene: Scene) -> tuple[ListedForce, ...]:
+    names = names_by_position("f", [force.name for force in scene.forces])
+    return tuple(ListedForce(name, force.reason) for name, force in zip(names, scene.forces, strict=True))
 
 
 def _touched(constraints: Iterable[Constraint]) -> frozenset[str]:
@@ -101,6 +108,18 @@ def _level(drawing: Drawing, touched: Callable[[], frozenset[str]]) -> list[str]
             tilt = approximate(frame.initial[1])
             if tilt is None or abs(math.sin(tilt)) < SINGULAR:
                 found.append(frame.name)
+    return found
+
+
+def _arms(drawing: Drawing, centre: Vec | None) -> dict[str, Vec]:
+    """Return, for every body that turns, the vector from its origin to its material point at the scene's centre."""
+    if centre is None:
+        return {}
+    found = {}
+    for frame in drawing.frames.values():
+        if frame.angles:
+            point = replace(frame, position=(ZERO,) * frame.dimension).point(centre)
+            found[frame.name] = tuple(mul(x, power(point.under, MINUS_ONE)) for x in point.over)
     return found
 
 

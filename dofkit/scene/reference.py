@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
+from fractions import Fraction
 from itertools import combinations, product
 from math import dist
 from operator import mul
 
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.tree import ZERO, Expr, coordinate
+from dofkit.expressions.tree import ZERO, Expr, coordinate, num
 from dofkit.expressions.vectors import Vec
 from dofkit.scene.drawing import Drawing
 from dofkit.system import GROUND
@@ -21,6 +22,12 @@ def size_of(points: Sequence[Vec]) -> float:
     """The largest distance between points whose positions are numbers; 1 if there are none."""
     found = {numbers for numbers in map(_numbers, points) if numbers is not None}
     return _diameter(sorted(found)) or 1.0
+
+
+def centre_of(points: Sequence[Vec]) -> Vec | None:
+    """Return the middle of the points whose positions are numbers, rounded to binary; None if there are none."""
+    found = [numbers for numbers in map(_numbers, points) if numbers is not None]
+    return tuple(num(Fraction((min(xs) + max(xs)) / 2)) for xs in zip(*found, strict=True)) or None
 
 
 def _numbers(point: Vec) -> tuple[float, ...] | None:

@@ -15,6 +15,7 @@ from dofkit.base.errors import Fault
 from dofkit.base.memory import unhurried
 from dofkit.expressions.text import Names
 from dofkit.expressions.tree import Expr
+from dofkit.expressions.vectors import Vec
 from dofkit.report import Report
 from dofkit.scene.carriers import carrier_warnings, motor_warnings
 from dofkit.scene.constraints import ConstraintBase
@@ -25,7 +26,7 @@ from dofkit.scene.fields import suggestion
 from dofkit.scene.ledger import MOVING, Texts, symbols_of
 from dofkit.scene.names import Declared, Owners, Vocabulary, name_faults, vocabulary_of, within_member
 from dofkit.scene.parts import Body, Energies, Force, texts_of
-from dofkit.scene.reference import drawn_bodies, size_of
+from dofkit.scene.reference import centre_of, drawn_bodies, size_of
 from dofkit.scene.world import NO_FINDINGS, Before, Findings, World, within
 from dofkit.system import GROUND, Connection, Constraint, Distance
 
@@ -48,7 +49,8 @@ class Survey:
     """All that is known of a scene: its drawing, its constraints lowered, what they connect, and its faults.
 
     ``generic``, ``links``, ``distances`` (these two by constraint index), ``special`` and ``warnings`` are as in
-    `Findings`, of all entries; ``drawn``: the bodies that the drawing places; ``size``: that of the drawing.
+    `Findings`, of all entries; ``drawn``: the bodies that the drawing places; ``size``: that of the drawing;
+    ``centre``: its middle, where the geometry is measured.
     """
 
     drawing: Drawing
@@ -60,6 +62,7 @@ class Survey:
     distances: Mapping[int, tuple[Distance, ...]]
     special: bool
     size: float
+    centre: Vec | None
     warnings: tuple[str, ...]
     faults: tuple[Fault, ...]
 
@@ -96,7 +99,8 @@ def survey(scene: Surveyed, euler: bool = False) -> Survey:
 def _whole(drawing: Drawing, read: tuple[Elaboration, ...], forces: list[Findings], faults: list[Fault]) -> Survey:
     """What was read of all entries, put together."""
     findings = [f for f in (*(e.findings for e in read), *forces) if f is not NO_FINDINGS]
-    size = size_of([*drawing.points, *(p for f in findings for p in f.points)])
+    points = [*drawing.points, *(p for f in findings for p in f.points)]
+    size = size_of(points)
     placed = drawing.drawn.union(*(f.drawn for f in findings if f.drawn))
     drawn = drawn_bodies(placed, (ends for f in findings for ends in f.welds))
     constraints, connections = tuple(e.constraint for e in read), tuple(e.connection for e in read)
@@ -111,6 +115,7 @@ def _whole(drawing: Drawing, read: tuple[Elaboration, ...], forces: list[Finding
         distances={i: e.findings.distances for i, e in enumerate(read) if e.findings.distances},
         special=any(f.special or not drawn.isdisjoint(f.special_of) for f in findings),
         size=size,
+        centre=centre_of(points) if drawing.tolerance else None,
         warnings=(
             *(w for f in findings for w in f.warnings),
             *carrier_warnings(constraints, connections),

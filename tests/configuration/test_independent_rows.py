@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from dofkit.configuration.drawing.measured import independent_rows
+from dofkit.configuration.measured.equations import independent_rows
 
 #: With a tolerance of 1e-3 what differs by less than 3e-3 is the same.
 TOLERANCE = 1e-3

@@ -15,9 +15,6 @@ from shared.known_scenes import swept
 from shared.steffen import flexes, polyhedron
 
 import dofkit
-from dofkit.configuration.drawing.measured_frames import frames_of, shifts
-from dofkit.expressions import tree as ex
-from dofkit.relations.setting import TurnedBody
 from dofkit.report import Report
 
 Places = dict[str, tuple[float, ...]]
@@ -386,26 +383,6 @@ def test_loops_of_hinges_a_thousand_sizes_from_the_origin(hinges: Any, dof: int,
         joints.append({"type": "revolute", "between": between, "at": at, "axis": turned})
     report = dofkit.classify({"bodies": names[1:], "constraints": joints, "tolerance": 1e-7})
     assert (report.dof, report.verdicts["dof"].verdict) == (dof, "numeric")
-
-
-@pytest.mark.parametrize("chart", ["plane", "gibbs", "euler"])
-def test_bodies_told_by_another_point_of_theirs(chart: Any) -> None:
-    """The derivatives by the angles of R (c - s) are its differences, and R is the identity as drawn."""
-    initial = (0.3, 0.7, -0.4)[: 1 if chart == "plane" else 3]
-    d = 2 if chart == "plane" else 3
-    start = (0.5, -1.0, 2.0)[:d]
-    names = [f"a{k}" for k in range(len(initial))]
-    body = TurnedBody(tuple("xyz"[:d]), tuple(names), chart, start, initial)
-    symbols = [ex.coordinate(name) for name in (*body.places, *body.angles)]
-    (frame,) = frames_of([body], (3.0, 4.0, 5.0)[:d], symbols)
-    drawn = (0.0, 0.0, 0.0) if chart == "gibbs" else initial
-    assert np.allclose(shifts(frame, drawn)[0], np.subtract((3.0, 4.0, 5.0)[:d], start))
-    angles = np.add(drawn, 0.2)
-    slopes = shifts(frame, angles)[1]
-    for k in range(len(drawn)):
-        step = np.eye(len(drawn))[k] * 1e-6
-        difference = (shifts(frame, angles + step)[0] - shifts(frame, angles - step)[0]) / 2e-6
-        assert np.allclose(difference, slopes[:, k], atol=1e-8)
 
 
 # Time

@@ -10,7 +10,6 @@ import pytest
 import dofkit
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import identity
-from dofkit.exact.zero.constants import proved_zero
 from dofkit.exact.zero.identity import is_proved_zero, zero_and_verdict
 from dofkit.exact.zero.independence import doubt, independent_generators
 from dofkit.expressions import tree as ex
@@ -27,13 +26,6 @@ def test_arcs_that_nearly_close_do_not(arcs: str) -> None:
     for e, consistent in (("0", True), ("1/(10^60*10^60)", False), ("-1/(10^60*10^60)", False)):
         report = dofkit.classify({"coordinates": ["x"], "constraints": ["x = 0", f"x + {arcs.format(e=e)} = 0"]})
         assert report.consistent in (consistent, None), e
-
-
-@pytest.mark.parametrize("arcs", ARCS)
-def test_arcs_that_close_are_proved_to(arcs: str) -> None:
-    """The product of exp(i theta_k)^n_k is real, and the sum is small."""
-    for e, closed in (("0", True), ("1/(10^60*10^60)", False), ("-1/(10^60*10^60)", False)):
-        assert proved_zero(parse_expression(arcs.format(e=e), Names())) is closed
 
 
 def test_three_points_make_a_zero_probable(monkeypatch: pytest.MonkeyPatch) -> None:

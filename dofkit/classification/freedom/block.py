@@ -11,10 +11,10 @@ from dofkit.classification.freedom.bridged_blocks import bridged_answer
 from dofkit.configuration import distance_geometry
 from dofkit.configuration.components import is_graph, is_irreducible
 from dofkit.configuration.drawing.at_reference import at_reference
-from dofkit.configuration.drawing.measured_blocks import is_measured
 from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.level_bodies import LEVEL, level_angle
 from dofkit.configuration.linear_blocks import confirmed, eliminated
+from dofkit.configuration.measured.equations import is_measured
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety
 from dofkit.configuration.witness import of_real_point, of_reference

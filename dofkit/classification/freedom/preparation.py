@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Hashable, Iterator
 from itertools import chain, count
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import Fault, SceneError, TextError
 from dofkit.exact.zero.analyticity import is_analytic
 from dofkit.expressions import tree as ex
-from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.renaming import kinds_in, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.unwritten import Unwritten
@@ -24,7 +23,7 @@ from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
 from dofkit.relations.piece_shapes import NormalTemplate
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.reductions import ALL, Reductions
-from dofkit.relations.setting import Setting, TurnedBody
+from dofkit.relations.setting import Setting
 from dofkit.system import System
 
 #: The kinds of symbols that no finite relation holds.
@@ -52,46 +51,13 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         reductions=reductions,
         welds=frozenset(i for i, c in enumerate(system.constraints) if c.facts.welded),
         geometric=frozenset(i for i, c in enumerate(system.constraints) if not c.facts.written or c.facts.contact),
-        bodies=_turned(system) if system.tolerance else (),
-        centre=_centre(system) if system.tolerance else (),
+        arms=system.arms,
         tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
         bridges=apart.joints,
         afloat=apart.afloat,
         joint_rows=RowsAtDrawing(system, positive).of if apart.joints else None,
     )
     return reduced, setting
-
-
-def _turned(system: System) -> tuple[TurnedBody, ...]:
-    """The bodies that turn, where they are drawn."""
-    roles = {body: [c for c in system.coordinates if c.owner == body] for body in system.bodies}
-    charts = {r.body: r for r in system.rotations}
-    found = []
-    for body, own in roles.items():
-        places = tuple(c.name for c in own if c.role in ("x", "y", "z"))
-        angles = tuple(c.name for c in own if c.role not in ("x", "y", "z"))
-        start = _numbers(system.starts.get(body, ()))
-        rotation = charts.get(body)
-        if rotation is None:
-            initial = _numbers([system.pose.get(ex.coordinate(name), ex.ZERO) for name in angles])
-        else:
-            initial = _numbers(rotation.initial)
-        if start is not None and initial is not None and angles:
-            chart = "plane" if rotation is None else rotation.chart
-            found.append(TurnedBody(places, angles, chart, start, initial))
-    return tuple(found)
-
-
-def _centre(system: System) -> tuple[float, ...]:
-    """The middle of the places at which constraints are drawn; () where there are none."""
-    drawn = [place for c in system.connections for place in (*c.places, *(p.at for p in c.points)) if place is not None]
-    numbers = [place for place in map(_numbers, drawn) if place is not None]
-    return tuple((min(xs) + max(xs)) / 2 for xs in zip(*numbers, strict=True))
-
-
-def _numbers(vector: Iterable[Expr]) -> tuple[float, ...] | None:
-    found = [approximate(e) for e in vector]
-    return tuple(x for x in found if x is not None) if None not in found else None
 
 
 def _links(system: System) -> dict[int, list[tuple[str, str]]]:

@@ -53,23 +53,19 @@ class AtReference:
     modulus: int
     rank: int
     rigid: int
-    ball: BallPoint | None
     dependent: tuple[int, ...] | None = None
     looked: FollowedClasses = field(default_factory=FollowedClasses)
     sure: bool = False
 
 
-def at_reference(chart: Chart, reference: Mapping[Expr, Expr], exact: bool = True) -> AtReference | None:
-    """The answer at the reference configuration (t = 0); None where that is not on the variety.
-
-    With measured geometry (not ``exact``) the relations need not hold there to the last digit.
-    """
+def at_reference(chart: Chart, reference: Mapping[Expr, Expr]) -> AtReference | None:
+    """Return the answer at the reference configuration (t = 0), or None if that does not satisfy the equations."""
     with ctx.workprec(precision()):
         known = {**reference, ex.TIME: ex.ZERO}
         if "field" not in chart.engines:
-            return by_balls(chart, known, exact)
-        found = _by_field(chart, known, exact)
-        return found if found is None else replace(found, sure=exact and _is_exact(chart, known, found))
+            return _by_balls(chart, known)
+        found = _by_field(chart, known)
+        return found if found is None else replace(found, sure=_is_exact(chart, known, found))
 
 
 def _is_exact(chart: Chart, known: Mapping[Expr, Expr], found: AtReference) -> bool:
@@ -84,10 +80,10 @@ def _is_exact(chart: Chart, known: Mapping[Expr, Expr], found: AtReference) -> b
     return exact_rank(chart.ring, chart.nodes, columns, rational_values(known)) == chart.coordinates - velocities
 
 
-def _by_field(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReference | None:
+def _by_field(chart: Chart, known: Mapping[Expr, Expr]) -> AtReference | None:
     """`at_reference` with a point over GF(p), and balls where signs are asked for."""
     point = pose_point(chart, known, 3)
-    if point is None or (exact and not on_variety(chart, point)):
+    if point is None or not on_variety(chart, point):
         return None
     matrix = field_jacobian(chart, point)
     n = chart.coordinates
@@ -96,24 +92,18 @@ def _by_field(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtRefere
     timed = len(chart.columns) - n
     fields = rigid_fields(chart, point)
     rigid = rank_of(fields, point.p)
-    ball = None
-    if not exact:
-        ball = ball_point(chart, known, point.rng) if "balls" in chart.engines else None
-        local = LocalDimension(None, "undecided", "measured")
-        return AtReference(n - rank_q, local, [], point.p, rank, rigid, ball)
     together = timed or (rank == n - rigid and not chart.within) or "classes" not in chart.reductions
     apart = None if together else _by_parts(chart, known, matrix, point.p, rank)
     if apart is not None:
         local, looked = apart
-        return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)
+        return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, looked=looked)
     if rank < len(matrix) and not timed:
         local, spared = _with_fewer(chart, known, point, fields)
         looked = FollowedClasses(coordinates=n - spared, spared=spared)
-        return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball, looked=looked)
-    if rank < len(matrix) and "balls" in chart.engines:
-        ball = ball_point(chart, known, point.rng)
+        return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, looked=looked)
+    ball = ball_point(chart, known, point.rng) if rank < len(matrix) and "balls" in chart.engines else None
     local = _at_fixed_time(local_dimension.local_at(chart, point, ball, rigid, chart.time), timed)
-    return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, ball)
+    return AtReference(n - rank_q, local, matrix, point.p, rank, rigid)
 
 
 def _with_fewer(
@@ -215,10 +205,10 @@ def _at_fixed_time(local: LocalDimension, timed: int) -> LocalDimension:
     return replace(local, dimension=None if local.confined else local.dimension - timed)
 
 
-def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReference | None:
+def _by_balls(chart: Chart, known: Mapping[Expr, Expr]) -> AtReference | None:
     """`at_reference` with balls alone: what a tiny ball contains 0 of is taken for 0."""
     ball = ball_point(chart, known, random.Random("dofkit reference"))
-    matrix = None if ball is None else ball_matrix(chart, ball, exact)
+    matrix = None if ball is None else ball_matrix(chart, ball, True)
     if ball is None or matrix is None:
         return None
     n, columns = chart.coordinates, len(chart.columns)
@@ -227,8 +217,6 @@ def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReferen
     rank = part.rank
     at = values(chart.ring, ball)
     rigid = rigid_motions_real(chart, lambda i: float(at[chart.ring.var_node[i]].mid()))
-    if not exact:
-        return AtReference(n - rank, LocalDimension(None, "undecided", "measured"), [], 2, rank, rigid, ball)
     of_q = ball_part([row[:n] for row in matrix])
     local = LocalDimension(None, "undecided", gap_in_words(part.gap, "pivot"))
     if part.gap > CLEAR:
@@ -237,7 +225,7 @@ def by_balls(chart: Chart, known: Mapping[Expr, Expr], exact: bool) -> AtReferen
         local = _at_fixed_time(_dimension_along_curves(manifold, rigid, chart.time), timed)
     shown = sparse(dependencies(matrix, part))
     names = tuple(of_q.columns) if rank == of_q.rank else ()
-    return AtReference(n - of_q.rank, local, shown, 2, rank, rigid, ball, names)
+    return AtReference(n - of_q.rank, local, shown, 2, rank, rigid, names)
 
 
 def _dimension_along_curves(manifold: Manifold, rigid: int, time: int | None) -> LocalDimension:

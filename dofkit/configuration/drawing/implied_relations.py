@@ -20,11 +20,11 @@ from dofkit.base.libraries import np
 from dofkit.configuration.drawing.at_reference import ball_point
 from dofkit.configuration.drawing.dependent_classes import chart_of
 from dofkit.configuration.drawing.fewer_coordinates import smaller
-from dofkit.configuration.drawing.measured import measure
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.configuration.local.dimension import vanish_near
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.configuration.local.multipliers import needed_along
+from dofkit.configuration.measured.dimension import measured_freedom
 from dofkit.configuration.rigid_motions import rigid_motions
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.balls import FloatPoint, jacobian
@@ -155,14 +155,10 @@ def pivots_among(chart: Chart, point: FieldPoint, rows: Sequence[int]) -> Pivots
 
 def _within_tolerance(chart: Chart, setting: Setting, known: Mapping[Expr, Expr], rank: int) -> bool | None:
     """The same of measured relations: does what moves under all but one of them keep that one within the tolerance?"""
-    ball = ball_point(chart, known, random.Random("dofkit implied"))
-    point = pose_point(chart, known, 3)
-    if ball is None or point is None or "balls" not in chart.engines:
+    if "balls" not in chart.engines:
         return None
-    at = {s: float(v.mid()) for s, v in ball.symbols.items()}
-    rigid = rigid_motions(chart, point)
     try:
-        told = measure(chart, at, setting, rigid)
+        freedom = measured_freedom(chart, known, setting)
     except NoValueError:
         return None
-    return None if told.dimension is None else told.dimension == chart.coordinates - rank
+    return None if freedom is None or freedom.dimension is None else freedom.dimension == chart.coordinates - rank

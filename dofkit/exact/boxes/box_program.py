@@ -103,7 +103,7 @@ class BoxProgram:
     # -- hull consistency ------------------------------------------------------------------------
 
     def forward(self, box: Box) -> list[Interval]:
-        """The values of all steps over the box. Raises EmptyError where one has none."""
+        """Return the values of all steps over the box. Raises EmptyError where one has none."""
         at: list[Interval] = []
         self.work += len(self.nodes)
         for node in self.nodes:
@@ -127,7 +127,7 @@ class BoxProgram:
         return HALF_TURNS if op == "atan2" else _of_one(node, at[args[0]])
 
     def backward(self, at: list[Interval]) -> None:
-        """Narrow ``at`` from the roots down. Raises EmptyError."""
+        """Narrow ``at`` from the roots to the variables. Raises EmptyError."""
         for root, wanted in self.roots:
             at[root] = iv.meet(at[root], wanted)
         for i in range(len(self.nodes) - 1, -1, -1):
@@ -139,7 +139,7 @@ class BoxProgram:
                 at[j] = self._narrowed(node, at[j], at[i])
 
     def _narrowed(self, node: Node, x: Interval, result: Interval) -> Interval:
-        """The part of the one argument for which the step can have the result."""
+        """Return the part of the argument for which the step can have the result."""
         if node.op == "pow":
             if node.data % 2:
                 return iv.meet(x, iv.root(result, node.data))
@@ -152,7 +152,7 @@ class BoxProgram:
         return functions.solve_function(node.data, x, result)
 
     def _backward_many(self, node: Node, at: list[Interval], result: Interval) -> None:
-        """Each term or factor from the result and the others."""
+        """Narrow each term or factor by the result and the others."""
         adds = node.op == "add"
         combine, neutral = (iv.add, (0.0, 0.0)) if adds else (iv.mul, (1.0, 1.0))
         after = [neutral]
@@ -166,7 +166,7 @@ class BoxProgram:
             before = combine(before, old)
 
     def total(self, at: list[Interval]) -> bool:
-        """Is every step defined for all arguments in the box?"""
+        """Return whether every step is defined for all arguments in the box."""
         return all(_defined(node, at[node.args[0]]) for node in self.nodes if len(node.args) == 1)
 
     @raising_no_value
@@ -186,7 +186,7 @@ class BoxProgram:
 
 
 def _of_one(node: Node, x: Interval) -> Interval:
-    """All values of a step with one argument. Raises EmptyError where it has none."""
+    """Return all values of a step with one argument. Raises EmptyError where it has none."""
     if node.op == "pow":
         return iv.integer_power(x, node.data)
     if node.op == "inverse":

@@ -1,4 +1,4 @@
-"""Elementary functions of intervals, rounded outward, and the arguments for which they have given values."""
+"""Elementary functions of intervals, rounded outward, and their inverses on intervals."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ _INVERSE = {"exp": "log", "log": "exp", "asin": "sin", "atan": "tan", "sinh": "a
 
 
 def constant(name: str) -> Interval:
-    """pi and E."""
+    """Return an interval that contains pi or E."""
     return bounds(arb.pi() if name == "pi" else arb.const_e())
 
 
@@ -69,7 +69,7 @@ def _increasing(name: str, a: Interval) -> Interval:
 
 
 def function(name: str, a: Interval) -> Interval:
-    """All values of a function of one argument. Raises EmptyError where it has none."""
+    """Return all values of a function of one argument. Raises EmptyError where it has none."""
     if name in _INCREASING:
         return _increasing(name, a)
     if name == "acos":
@@ -86,7 +86,7 @@ def function(name: str, a: Interval) -> Interval:
 
 
 def _circular(name: str, a: Interval) -> Interval:
-    """sin, cos or tan."""
+    """Return the values of sin, cos or tan."""
     if name == "tan":
         if not _bounded_angle(a) or a[1] - a[0] > 3.2 or _meets_grid(a, 0.5, 1.0):
             return WHOLE
@@ -105,13 +105,13 @@ def _bounded_angle(a: Interval) -> bool:
 
 
 def _meets_grid(a: Interval, offset: float, step: float) -> bool:
-    """May a number pi (offset + k step) lie in ``a``? Where it is close, yes."""
+    """Return whether a number pi (offset + k step) may lie in ``a``; True where one is close."""
     slack = 1e-6
     return math.floor((a[1] / math.pi - offset) / step + slack) >= math.ceil((a[0] / math.pi - offset) / step - slack)
 
 
 def solve_function(name: str, x: Interval, result: Interval) -> Interval:
-    """The part of ``x`` whose value can be in ``result``. Raises EmptyError."""
+    """Return the part of ``x`` whose value can be in ``result``. Raises EmptyError."""
     if name in _INVERSE:
         return meet(x, _increasing_or_circular(_INVERSE[name], meet(result, _INCREASING[name][1])))
     if name == "acos":
@@ -132,7 +132,7 @@ def _increasing_or_circular(name: str, a: Interval) -> Interval:
 
 
 def _solve_circular(name: str, x: Interval, result: Interval) -> Interval:
-    """The pieces of the inverse, one a period, that meet ``x``."""
+    """Return the part of ``x`` whose sine, cosine or tangent can be in ``result``, period by period."""
     if not _bounded_angle(x) or x[1] - x[0] > 30.0:
         if name != "tan":
             meet(result, (-1.0, 1.0))

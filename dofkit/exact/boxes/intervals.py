@@ -1,7 +1,8 @@
 """Closed intervals of real numbers with floating point ends, every operation rounded outward.
 
 IEEE additions, products, quotients and square roots are correctly rounded, so the next float outward is a bound; other
-functions go through balls. What an interval of a value leaves out is proved not to be taken.
+functions are evaluated by balls. A number that the interval of a value does not contain is proved not to be a value.
+Balls cannot replace these intervals: conditions and positive parameters have half-lines as their ranges.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import math
 from collections.abc import Iterable
 from fractions import Fraction
 
-from flint import arb, fmpq
+from flint import arb
 
 Interval = tuple[float, float]
 INF = math.inf
@@ -22,21 +23,21 @@ _WHOLE_BITS = 2.0**53
 
 
 class EmptyError(Exception):
-    """No real value is left."""
+    """No real number is left."""
 
 
 def down(x: float) -> float:
-    """A bound from below of what was rounded to ``x``."""
+    """Return a lower bound of the number that was rounded to ``x``."""
     return LARGEST if x == INF else math.nextafter(x, -INF)
 
 
 def up(x: float) -> float:
-    """A bound from above of what was rounded to ``x``."""
+    """Return an upper bound of the number that was rounded to ``x``."""
     return -LARGEST if x == -INF else math.nextafter(x, INF)
 
 
 def meet(a: Interval, b: Interval) -> Interval:
-    """Raises EmptyError where they have no number in common."""
+    """Return the intersection. Raises EmptyError where it is empty."""
     low, high = max(a[0], b[0]), min(a[1], b[1])
     if low > high:
         raise EmptyError
@@ -44,15 +45,15 @@ def meet(a: Interval, b: Interval) -> Interval:
 
 
 def hull(parts: Iterable[Interval | None]) -> Interval:
-    """The smallest interval that holds all; raises EmptyError where there is none."""
-    found = [p for p in parts if p is not None]
-    if not found:
+    """Return the smallest interval that contains all parts. Raises EmptyError where there is no part."""
+    intervals = [p for p in parts if p is not None]
+    if not intervals:
         raise EmptyError
-    return min(p[0] for p in found), max(p[1] for p in found)
+    return min(p[0] for p in intervals), max(p[1] for p in intervals)
 
 
 def number(value: Fraction) -> Interval:
-    """An interval that holds a rational number."""
+    """Return an interval that contains a rational number."""
     try:
         x = value.numerator / value.denominator
     except OverflowError:
@@ -61,7 +62,7 @@ def number(value: Fraction) -> Interval:
 
 
 def _exact_sum(a: float, b: float, s: float) -> bool:
-    """Knuth's two-sum without a remainder."""
+    """Return whether s = a + b without a rounding error, by Knuth's two-sum."""
     back = s - a
     return (a - (s - back)) + (b - back) == 0.0
 
@@ -78,22 +79,22 @@ def _sum_high(a: float, b: float) -> float:
 
 
 def add(a: Interval, b: Interval) -> Interval:
-    """The sums of numbers of two intervals, rounded outward."""
+    """Return the sums of numbers of two intervals, rounded outward."""
     return _sum_low(a[0], b[0]), _sum_high(a[1], b[1])
 
 
 def negative(a: Interval) -> Interval:
-    """The negatives of the numbers of an interval."""
+    """Return the negatives of the numbers of an interval."""
     return -a[1], -a[0]
 
 
 def minus(a: Interval, b: Interval) -> Interval:
-    """The differences of numbers of two intervals."""
+    """Return the differences of numbers of two intervals."""
     return add(a, negative(b))
 
 
 def _product(a: float, b: float) -> tuple[float, bool]:
-    """(the rounded product, is it exact?), with 0 times infinity as 0."""
+    """Return the rounded product, with 0 times infinity as 0, and whether it is exact."""
     if a == 0.0 or b == 0.0:
         return 0.0, True
     p = a * b
@@ -103,7 +104,7 @@ def _product(a: float, b: float) -> tuple[float, bool]:
 
 
 def mul(a: Interval, b: Interval) -> Interval:
-    """The products of numbers of two intervals, rounded outward."""
+    """Return the products of numbers of two intervals, rounded outward."""
     lows, highs = [], []
     for x in a:
         for y in b:
@@ -114,7 +115,7 @@ def mul(a: Interval, b: Interval) -> Interval:
 
 
 def inverse(b: Interval) -> list[Interval]:
-    """1/y for y in ``b`` without 0, as one or two pieces."""
+    """Return 1/y for y in ``b`` without 0, as one or two intervals."""
     parts: list[Interval] = []
     if b[1] > 0:
         low = max(b[0], 0.0)
@@ -125,7 +126,7 @@ def inverse(b: Interval) -> list[Interval]:
 
 
 def _quotient_low(a: float, b: float) -> float:
-    """A bound from below of a/b, b > 0: the quotient itself where it is a whole number exactly.
+    """Return a lower bound of a/b, b > 0: the quotient itself where it is a whole number exactly.
 
     C's fmod has no rounding error, while q b = a may hold in rounded arithmetic only: 1/(1/3 in 53 bits) is not 3.
     """
@@ -136,7 +137,7 @@ def _quotient_low(a: float, b: float) -> float:
 
 
 def solve_product(x: Interval, y: Interval, result: Interval) -> Interval:
-    """The part of ``x`` for which x y can be in ``result``. Raises EmptyError."""
+    """Return the part of ``x`` for which x y can be in ``result``. Raises EmptyError."""
     if contains_zero(y):
         if contains_zero(result):
             return x
@@ -145,18 +146,18 @@ def solve_product(x: Interval, y: Interval, result: Interval) -> Interval:
 
 
 def meet_or_none(a: Interval, b: Interval) -> Interval | None:
-    """What two intervals have in common; None where that is nothing."""
+    """Return the intersection, or None where it is empty."""
     low, high = max(a[0], b[0]), min(a[1], b[1])
     return None if low > high else (low, high)
 
 
 def contains_zero(a: Interval) -> bool:
-    """Is 0 in the interval?"""
+    """Return whether the interval contains 0."""
     return a[0] <= 0.0 <= a[1]
 
 
 def _power_of(x: float, n: int, high: bool) -> float:
-    """A bound of x^n for x >= 0."""
+    """Return a bound of x^n for x >= 0."""
     total = 1.0
     for _ in range(n):
         p, exact = _product(total, x)
@@ -166,7 +167,7 @@ def _power_of(x: float, n: int, high: bool) -> float:
 
 
 def integer_power(a: Interval, n: int) -> Interval:
-    """a^n for n > 0."""
+    """Return a^n for n > 0."""
     if n % 2:
         low = _power_of(a[0], n, False) if a[0] >= 0 else -_power_of(-a[0], n, True)
         return low, (_power_of(a[1], n, True) if a[1] >= 0 else -_power_of(-a[1], n, False))
@@ -175,19 +176,19 @@ def integer_power(a: Interval, n: int) -> Interval:
 
 
 def absolute(a: Interval) -> Interval:
-    """The absolute values of the numbers of an interval."""
+    """Return the absolute values of the numbers of an interval."""
     if contains_zero(a):
         return 0.0, max(-a[0], a[1])
     return a if a[0] > 0 else negative(a)
 
 
 def solve_even(x: Interval, size: Interval) -> Interval:
-    """The part of ``x`` whose absolute value is in ``size`` (>= 0). Raises EmptyError."""
+    """Return the part of ``x`` whose absolute value is in ``size`` (>= 0). Raises EmptyError."""
     return hull((meet_or_none(x, size), meet_or_none(x, negative(size))))
 
 
 def root(a: Interval, degree: int) -> Interval:
-    """The real root; of an even degree only where ``a`` is not negative. Raises EmptyError."""
+    """Return the real roots; of an even degree only where ``a`` is not negative. Raises EmptyError."""
     if degree % 2 == 0:
         a = meet(a, NON_NEGATIVE)
     return _root_bounds(a[0], degree)[0], _root_bounds(a[1], degree)[1]
@@ -205,7 +206,7 @@ def _root_bounds(x: float, degree: int) -> Interval:
 
 
 def bounds(value: arb) -> Interval:
-    """The ends of a ball as floats."""
+    """Return an interval that contains a ball."""
     if not value.is_finite():
         return WHOLE
     if value.is_exact() and arb(float(value)) == value:
@@ -214,17 +215,12 @@ def bounds(value: arb) -> Interval:
 
 
 def middle(a: Interval) -> float:
-    """A number well inside, finite also where an end is not."""
+    """Return a number inside the interval, finite also where an end is not."""
     if a == WHOLE:
         return 0.0
     if a[0] == -INF:
         return min(2 * a[1], a[1] - 1.0, -1.0) if a[1] > -LARGEST / 4 else a[1]
     if a[1] == INF:
         return max(2 * a[0], a[0] + 1.0, 1.0) if a[0] < LARGEST / 4 else a[0]
-    found = a[0] / 2 + a[1] / 2
-    return min(max(found, a[0]), a[1])
-
-
-def ball(value: Fraction) -> arb:
-    """A rational number as a ball."""
-    return arb(fmpq(value.numerator, value.denominator))
+    center = a[0] / 2 + a[1] / 2
+    return min(max(center, a[0]), a[1])

@@ -33,7 +33,7 @@ class GivenUpError(Exception):
 
 
 def size(e: Expr) -> int:
-    """The number of different nodes."""
+    """Return the number of different nodes."""
     return sum(1 for _ in ex.nodes(e))
 
 
@@ -48,7 +48,7 @@ class Algebra:
         self._vanishing: dict[Expr, bool] = {}
 
     def attempt(self, work: Callable[[], T]) -> T | None:
-        """The result of ``work``, None where an expression has no canonical form or divides by zero."""
+        """Return the result of ``work``, or None where an expression has no canonical form or divides by zero."""
         try:
             return raising_no_value(work)()
         except NoValueError:
@@ -68,7 +68,7 @@ class Algebra:
             raise GivenUpError
 
     def lowered(self, expressions: Sequence[Expr]) -> tuple[Canon, list[Quotient]]:
-        """Quotients in lowest terms over one set of generators."""
+        """Return the expressions as quotients in lowest terms over one set of generators."""
         self.spend(expressions)
         ring = Ring(expressions, self.positive)
         nodes = [ring.node(e) for e in expressions]
@@ -78,7 +78,7 @@ class Algebra:
         return canon, [rationalised(canon, quotient) for quotient in quotients]
 
     def tidy(self, e: Expr) -> Expr:
-        """``e`` as one quotient in lowest terms, factored; ``e`` itself where that is too large."""
+        """Return ``e`` as one factored quotient in lowest terms, or ``e`` itself where that is too large."""
         found = self._tidied.get(e)
         if found is None:
             shown = self.attempt(lambda: self._quotient(e))
@@ -94,7 +94,7 @@ class Algebra:
         return factored(canon, top) / factored(canon, bottom)
 
     def vanishes(self, e: Expr) -> bool:
-        """True where ``e`` is proved to be zero identically."""
+        """Return whether ``e`` is proved to be zero identically."""
         if e.op in ("num", "sym"):
             return e.is_zero
         found = self._vanishing.get(e)
@@ -109,18 +109,18 @@ class Algebra:
         return Canon(ring).is_zero(node)
 
     def closed(self, form: dict[Expr, Expr]) -> bool:
-        """True where d(omega) = 0 is proved."""
+        """Return whether d(omega) = 0 is proved."""
         items = list(form.items())
         return all(self.vanishes(diff(b, s) - diff(a, u)) for i, (s, a) in enumerate(items) for u, b in items[i + 1 :])
 
 
 def bounded(poly: Poly) -> bool:
-    """Small enough to be factored or divided in a moment."""
+    """Return whether a polynomial is small enough to be factored or divided quickly."""
     return len(poly) <= MAX_TERMS and sum(int(k) for k in poly.degrees()) <= MAX_DEGREE * 4 and soon_factored(poly)
 
 
 def in_lowest_terms(top: Poly, bottom: Poly) -> Quotient:
-    """A quotient divided by the common divisor of its terms."""
+    """Return a quotient divided by the common divisor of numerator and denominator."""
     if top == 0:
         return top, top**0
     if bounded(top) and bounded(bottom):
@@ -135,7 +135,7 @@ def _length(quotient: Quotient) -> int:
 
 
 def rationalised(canon: Canon, quotient: Quotient) -> Quotient:
-    """In lowest terms, also across cos^2 + sin^2 = 1 and root^d = radicand."""
+    """Return a quotient in lowest terms, also across cos^2 + sin^2 = 1 and root^d = radicand."""
     best = in_lowest_terms(*quotient)
     for var in canon.ring.vars:
         if var.kind not in ("cos", "sin", "root") or not any(p.degrees()[-1 - var.index] for p in best):
@@ -148,7 +148,7 @@ def rationalised(canon: Canon, quotient: Quotient) -> Quotient:
 
 
 def factored(canon: Canon, poly: Poly) -> Expr:
-    """A polynomial in the generators as a product."""
+    """Return a polynomial in the generators as a product."""
     if poly == 0 or not bounded(poly):
         return canon.to_expr(poly)
     constant, factors = poly.factor()
@@ -173,7 +173,7 @@ def _small(top: Poly, bottom: Poly) -> Quotient:
 
 
 def solve(rows: list[list[Quotient]], one: Poly) -> list[Quotient] | None:
-    """x with sum(row[k] x[k]) = row[-1] for every row, free unknowns 0; None where there is none."""
+    """Return x with sum(row[k] x[k]) = row[-1] for every row, free unknowns 0, or None where there is none."""
     if not rows:
         return None
     unknowns = len(rows[0]) - 1

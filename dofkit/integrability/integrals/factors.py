@@ -1,6 +1,6 @@
 """Integrating factors: mu with d(mu omega) = 0.
 
-Every function here proposes; a factor counts only once mu omega is proved to be closed.
+Every family below proposes factors; one is used only once mu omega is proved to be closed.
 """
 
 from __future__ import annotations
@@ -18,14 +18,13 @@ from dofkit.integrability.integrals.antiderivative import Form, antiderivative
 
 #: Past so many variables only the cheap factors are tried.
 MAX_VARIABLES = 5
-MAX_PROPOSALS = 24
 #: The largest d log mu/dw looked at, in nodes.
 MAX_SIZE = 120
 _W = ex.sym("parameter", "new combination")
 
 
 def exponential(e: Expr) -> Expr:
-    """exp(e), with exp(c log u) = u^c."""
+    """Return exp(e), with exp(c log u) written as u^c."""
     parts = []
     for term in e.args if e.op == "add" else (e,):
         factors = term.args if term.op == "mul" else (term,)
@@ -37,13 +36,13 @@ def exponential(e: Expr) -> Expr:
     return ex.mul(*parts)
 
 
-def turning(form: Form) -> dict[tuple[Expr, Expr], Expr]:
-    """d(omega) by pairs of variables: d a_j / d x_i - d a_i / d x_j."""
+def exterior_derivative(form: Form) -> dict[tuple[Expr, Expr], Expr]:
+    """Return d(omega) by pairs of variables: d a_j / d x_i - d a_i / d x_j."""
     return {(s, u): diff(b, s) - diff(a, u) for (s, a), (u, b) in combinations(form.items(), 2)}
 
 
 def simple(work: Algebra, form: Form) -> Iterator[Expr]:
-    """The common divisor of the coefficients; then each coefficient (a cyclic coordinate's, Lie's theorem)."""
+    """Yield one over the common divisor of the coefficients, then one over each coefficient."""
     seen: list[Expr] = []
     for divisor in (_content(work, form), *form.values()):
         if not divisor.is_zero and divisor not in seen and divisor.op != "num":
@@ -52,7 +51,7 @@ def simple(work: Algebra, form: Form) -> Iterator[Expr]:
 
 
 def _content(work: Algebra, form: Form) -> Expr:
-    """The common divisor of numerators over that of denominators."""
+    """Return the common divisor of the numerators over that of the denominators."""
     present = [a for a in form.values() if not a.is_zero]
     found = work.attempt(lambda: _common(work, present))
     return ex.ONE if found is None else found
@@ -66,24 +65,11 @@ def _common(work: Algebra, present: list[Expr]) -> Expr:
     return canon.to_expr(top) / canon.to_expr(bottom)
 
 
-def symmetric(work: Algebra, form: Form) -> Iterator[Expr]:
-    """1/omega(X) for a scaling or a rotation X: where X is a symmetry of omega, mu omega is closed (Lie)."""
-    variables = [s for s, a in form.items() if not a.is_zero]
-    proposals = [ex.add(*(s * form[s] for s in variables))]
-    for s, u in combinations(variables, 2):
-        proposals += [s * form[s] + k * u * form[u] for k in (1, 2, -1)] + [2 * s * form[s] + u * form[u]]
-        proposals.append(s * form[u] - u * form[s])
-    for proposal in proposals[:MAX_PROPOSALS]:
-        below = work.tidy(proposal)
-        if not below.is_zero and below.op != "num":
-            yield 1 / below
-
-
 # -- factors that depend on one combination of variables -------------------------------------------
 
 
 def combinations_of(form: Form) -> Iterator[tuple[Expr, dict[Expr, Expr]]]:
-    """A combination w of the variables, and a curve on which w is the variable ``_W``."""
+    """Yield combinations w of the variables, each with a curve on which w is the variable ``_W``."""
     for s in form:
         yield s, {s: _W}
     variables = [s for s, a in form.items() if not a.is_zero]
@@ -100,8 +86,8 @@ def combinations_of(form: Form) -> Iterator[tuple[Expr, dict[Expr, Expr]]]:
 
 
 def of_combination(work: Algebra, form: Form) -> Iterator[Expr]:
-    """mu(w): d log mu = p(w) dw, where p = -d(omega)/(dw ^ omega) has to depend on w alone."""
-    curls = turning(form)
+    """Yield mu(w) with d log mu = p(w) dw, where p = -d(omega)/(dw ^ omega) has to depend on w alone."""
+    curls = exterior_derivative(form)
     for w, curve in combinations_of(form):
         slope = _slope(work, form, curls, w)
         if slope is None:
@@ -112,7 +98,7 @@ def of_combination(work: Algebra, form: Form) -> Iterator[Expr]:
 
 
 def _slope(work: Algebra, form: Form, curls: dict[tuple[Expr, Expr], Expr], w: Expr) -> Expr | None:
-    """p, from the first pair of variables that tells; None where it is seen not to depend on w alone."""
+    """Return p from the first pair of variables that determines it, or None where it does not depend on w alone."""
     for (s, u), curl in curls.items():
         wedge = diff(w, s) * form[u] - diff(w, u) * form[s]
         if wedge.is_zero:
@@ -127,7 +113,7 @@ def _slope(work: Algebra, form: Form, curls: dict[tuple[Expr, Expr], Expr], w: E
 
 
 def _depends_on(work: Algebra, e: Expr, w: Expr, variables: list[Expr]) -> bool:
-    """de ^ dw = 0."""
+    """Return whether de ^ dw = 0, so that ``e`` is a function of w."""
     if w.op == "sym":
         return all(s == w or s not in e.symbols for s in variables)
     pairs = combinations(variables, 2)
@@ -135,7 +121,7 @@ def _depends_on(work: Algebra, e: Expr, w: Expr, variables: list[Expr]) -> bool:
 
 
 def _integrated(work: Algebra, slope: Expr, w: Expr, curve: dict[Expr, Expr]) -> Expr | None:
-    """exp of the antiderivative of p(w), at w."""
+    """Return exp of the antiderivative of p, at w."""
     if slope.is_zero:
         return None
     restricted = work.attempt(lambda: work.tidy(substitute(slope, curve)))
@@ -143,41 +129,14 @@ def _integrated(work: Algebra, slope: Expr, w: Expr, curve: dict[Expr, Expr]) ->
     return None if log is None else substitute(exponential(log), {_W: w})
 
 
-# -- products of functions of one variable, in two variables ----------------------------------------
-
-
-def separable(work: Algebra, form: Form) -> Iterator[Expr]:
-    """mu = X(x) Y(y) / b for a dx + b dy, both ways.
-
-    With F = a/b: dF/dy + (Y'/Y) F = X'/X. Differentiated by x this gives Y'/Y = -F_xy/F_x.
-    Separable, linear, Bernoulli's equations are of this kind.
-    """
-    if len(form) != 2:
-        return
-    for x, y in (tuple(form), tuple(form)[::-1]):
-        if form[y].is_zero:
-            continue
-        ratio = work.tidy(form[x] / form[y])
-        if size(ratio) > MAX_SIZE:
-            return
-        by_x = work.tidy(diff(ratio, x))
-        if by_x.is_zero:
-            yield 1 / (form[y] * ratio)
-            continue
-        q = work.tidy(-diff(by_x, y) / by_x)
-        p = work.tidy(diff(ratio, y) + q * ratio)
-        if x in q.symbols or y in p.symbols:
-            continue
-        along_x, along_y = antiderivative(work, p, x), antiderivative(work, q, y)
-        if along_x is not None and along_y is not None:
-            yield exponential(along_x) * exponential(along_y) / form[y]
-
-
 # -- products of powers of the factors that occur ---------------------------------------------------
 
 
 def of_powers(work: Algebra, form: Form) -> Iterator[Expr]:
-    """mu = prod g_k^c_k over variables, factors of coefficients, exponentials; c_k constants [Darboux1878]."""
+    """Yield mu = prod g_k^c_k with constants c_k [Darboux1878].
+
+    The g_k are variables, factors of the coefficients, and exponentials.
+    """
     logs = _candidates(work, form)
     if not logs:
         return
@@ -187,7 +146,7 @@ def of_powers(work: Algebra, form: Form) -> Iterator[Expr]:
 
 
 def _candidates(work: Algebra, form: Form) -> list[Expr]:
-    """log of factors, and the exponents x and x^2/2."""
+    """Return the logarithms of possible factors, and the exponents x and x^2/2."""
     bases: dict[Expr, None] = dict.fromkeys(form)
     for coefficient in form.values():
         tidy = work.tidy(coefficient)
@@ -200,9 +159,9 @@ def _candidates(work: Algebra, form: Form) -> list[Expr]:
 
 
 def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None:
-    """c with sum c_k (dg_k ^ omega) + d(omega) = 0, by comparing coefficients."""
+    """Return c with sum c_k (dg_k ^ omega) + d(omega) = 0, by comparing coefficients."""
     rows: list[list[Expr]] = []
-    for (s, u), curl in turning(form).items():
+    for (s, u), curl in exterior_derivative(form).items():
         wedges = [diff(g, s) * form[u] - diff(g, u) * form[s] for g in logs]
         rows.append([*wedges, -curl])
     flat = [e for row in rows for e in row]
@@ -221,7 +180,7 @@ def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None
 
 
 def _compared(polys: list[Poly], fixed: frozenset[int], canon: Canon) -> list[list[Quotient]]:
-    """One equation for every monomial in the generators that are not ``fixed``."""
+    """Return one equation for every monomial in the generators that are not ``fixed``."""
     count = len(canon.ring.vars)
     parts: dict[tuple[int, ...], list[dict[tuple[int, ...], Any]]] = {}
     for column, poly in enumerate(polys):
@@ -234,4 +193,4 @@ def _compared(polys: list[Poly], fixed: frozenset[int], canon: Canon) -> list[li
 
 Proposals = Callable[[Algebra, Form], Iterator[Expr]]
 #: In order of cost.
-FAMILIES: tuple[Proposals, ...] = (simple, of_combination, separable, of_powers, symmetric)
+FAMILIES: tuple[Proposals, ...] = (simple, of_combination, of_powers)

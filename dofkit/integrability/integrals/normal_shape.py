@@ -1,4 +1,4 @@
-"""The same integral in other words: logarithms, roots and reciprocals taken away, factors in a fixed order."""
+"""The most readable form of an integral: logarithms, roots and reciprocals removed, factors in a fixed order."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _KINDS = {"parameter": 0, "coordinate": 1, "time": 2}
 
 
 def _rank(factor: Expr) -> tuple[int, str]:
-    """Numbers, parameters, coordinates, time, then whatever is not a power of a symbol."""
+    """Return the place of a factor: numbers, parameters, coordinates, time, then what is no power of a symbol."""
     base, _ = as_power(factor)
     if base.op == "num":
         return -1, ""
@@ -27,13 +27,13 @@ def _rank(factor: Expr) -> tuple[int, str]:
 
 
 def _place(term: Expr) -> tuple[bool, bool, list[tuple[int, str]]]:
-    """Polynomial terms by their variables, then functions, numbers last."""
+    """Return the place of a term: polynomial terms by their variables, then functions, numbers last."""
     moving = sorted(_rank(s) for s in term.symbols if s.args[0] != "parameter")
     return not term.symbols, any(n.op in ("fn", "call") for n in ex.nodes(term)), moving
 
 
 def arranged(e: Expr) -> Expr:
-    """``e`` with terms and factors sorted, a term without a minus sign first, exp(u)^k as exp(k u)."""
+    """Return ``e`` with terms and factors sorted, a term without a minus sign first, exp(u)^k as exp(k u)."""
     parts = tuple(arranged(child) for child in ex.children(e))
     if e.op == "mul":
         return _product(parts)
@@ -60,7 +60,7 @@ def _product(parts: tuple[Expr, ...]) -> Expr:
 
 
 def upright(e: Expr) -> Expr:
-    """-atan(u/v) as atan(v/u), which differs from it by a constant."""
+    """Return -atan(u/v) as atan(v/u), which differs from it by a constant."""
     if e.op == "add":
         return ex.add(*map(upright, e.args))
     if e.op != "mul" or e.args[0].op != "num" or e.args[0].args[0] > 0:
@@ -74,7 +74,7 @@ def upright(e: Expr) -> Expr:
 
 
 def cost(pair: Pair) -> tuple[int, int]:
-    """How much there is to read: functions and denominators count extra."""
+    """Return the lengths of integral and factor; functions and denominators count extra."""
     integral, factor = pair
     return _reading(integral), _reading(factor)
 
@@ -86,7 +86,7 @@ def _reading(e: Expr) -> int:
 
 
 def shapes(work: Algebra, pair: Pair) -> list[Pair]:
-    """``pair`` and its other forms, the simplest first."""
+    """Return ``pair`` and its equivalent forms, the simplest first."""
     found = list(_scaled(work, pair))
     for first in list(found):
         for other in (_without_logs(first), _without_roots(first), _reciprocal(first)):
@@ -100,7 +100,7 @@ def shapes(work: Algebra, pair: Pair) -> list[Pair]:
 
 
 def _scaled(work: Algebra, pair: Pair) -> Iterator[Pair]:
-    """As built and as one quotient, constant factors taken out."""
+    """Yield the pair as built and as one quotient, constant factors taken out."""
     integral, factor = pair
     for shown in dict.fromkeys((upright(integral), integral, work.tidy(integral))):
         constant = _constant(shown)
@@ -109,7 +109,7 @@ def _scaled(work: Algebra, pair: Pair) -> Iterator[Pair]:
 
 
 def _constant(e: Expr) -> Expr:
-    """The factor of ``e`` free of coordinates and time; of a sum, its rational content with the first sign."""
+    """Return the factor of ``e`` free of coordinates and time; of a sum, its rational content with the first sign."""
     if e.op == "mul":
         return ex.mul(*(f for f in e.args if all(s.args[0] == "parameter" for s in f.symbols)))
     if e.op != "add":
@@ -120,7 +120,7 @@ def _constant(e: Expr) -> Expr:
 
 
 def _logs(e: Expr) -> tuple[dict[Expr, Fraction], list[Expr]]:
-    """The sum's terms c log(u) with rational c as u -> c, and the other terms."""
+    """Return the terms c log(u) of a sum with rational c, as u -> c, and the other terms."""
     logs: dict[Expr, Fraction] = {}
     rest = []
     for term in e.args if e.op == "add" else (e,):
@@ -135,7 +135,7 @@ def _logs(e: Expr) -> tuple[dict[Expr, Fraction], list[Expr]]:
 
 
 def _without_logs(pair: Pair) -> Pair | None:
-    """exp(k f) where f holds logarithms with rational coefficients."""
+    """Return exp(k f) where f holds logarithms with rational coefficients."""
     integral, factor = pair
     logs, rest = _logs(integral)
     if not logs:
@@ -149,7 +149,7 @@ def _without_logs(pair: Pair) -> Pair | None:
 
 
 def _without_roots(pair: Pair) -> Pair | None:
-    """f^k for a product of powers with fractions in the exponents."""
+    """Return f^k for a product of powers with fractions in the exponents."""
     integral, factor = pair
     parts = integral.args if integral.op == "mul" else (integral,)
     k = lcm(*(as_power(part)[1].denominator for part in parts))
@@ -160,7 +160,7 @@ def _without_roots(pair: Pair) -> Pair | None:
 
 
 def _reciprocal(pair: Pair) -> Pair | None:
-    """1/f where that is no longer than f."""
+    """Return 1/f for a product f."""
     integral, factor = pair
     if integral.is_zero or integral.op == "add" or size(integral) > 60:
         return None

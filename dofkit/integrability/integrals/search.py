@@ -1,8 +1,8 @@
-"""Integrals of Pfaffian forms: f and mu with df = mu omega, found by rules and proved by differentiating.
+"""Integrals of Pfaffian forms: f and mu with df = mu omega, proposed by rules and proved by differentiating.
 
-A result is returned only where df = mu omega holds identically in the canonical ring, component by
-component, and mu is seen not to vanish at a point; a form for which no rule applies gives None. The
-work is bounded by a count, not by a clock: the same form always gives the same result.
+A result is returned only where df = mu omega holds identically in the canonical ring, component by component, and mu
+is proved not to vanish at a point; a form for which no rule applies gives None. The work is bounded by a count of
+steps, and that of SymPy by time.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from dofkit.relations.normal.pieces import Pfaffian
 
 __all__ = ["Integral", "integrate"]
 
-#: Forms past this size, in nodes, are left alone.
+#: The largest form that is integrated, in nodes.
 MAX_FORM = 300
 #: A result this easy to read, with a factor no longer than that, ends the search.
 EASY = 16
@@ -34,7 +34,7 @@ LONG = 60
 
 @dataclass(frozen=True)
 class Integral:
-    """The finite relation a form integrates to, as text.
+    """The configuration-level equation that a form integrates to, as text.
 
     ``factor``: the integrating factor mu, e.g. ``1/x^2``; None where the form is closed as written.
     ``integral``: ``f = C``, e.g. ``y/x = C``; d f = mu omega.
@@ -45,7 +45,7 @@ class Integral:
 
 
 def integrate(form: Pfaffian, positive: frozenset[Expr]) -> Integral | None:
-    """f = C and mu with df = mu omega in (q, t), proved; None where none was found."""
+    """Return f = C and mu with df = mu omega in (q, t), proved, or None where no rule applies."""
     work = Algebra(positive)
     try:
         return _integrate(work, form)
@@ -70,7 +70,7 @@ def _integrate(work: Algebra, form: Pfaffian) -> Integral | None:
 
 
 def _with_factor(work: Algebra, form: Form) -> Integral | None:
-    """The simplest of the integrals that the first fruitful families of factors give."""
+    """Return the simplest of the integrals that the first successful family of factors gives."""
     best: Pair | None = None
     try:
         for pair in _pairs(work, form):
@@ -84,37 +84,37 @@ def _with_factor(work: Algebra, form: Form) -> Integral | None:
 
 
 def _equation(integral: Expr, form: Form) -> str:
-    """``f = C``, with C1, C2, ... where the form itself has a C."""
+    """Return ``f = C`` as text, with C1, C2, ... where the form itself has a C."""
     taken = {s.args[1] for s in form} | {s.args[1] for a in form.values() for s in a.symbols}
     constant = next(name for name in chain(("C",), (f"C{i}" for i in count(1))) if name not in taken)
     return f"{to_text(integral)} = {constant}"
 
 
 def _pairs(work: Algebra, form: Form) -> Iterator[Pair]:
-    found = False
+    successful = False
     for family in FAMILIES if len(form) <= MAX_VARIABLES else FAMILIES[:1]:
         for mu in family(work, form):
             pair = _integral(work, form, mu)
             if pair is not None:
-                found = True
+                successful = True
                 yield pair
-        if found:
+        if successful:
             return
 
 
 def _integral(work: Algebra, form: Form, mu: Expr) -> Pair | None:
-    """The integral that belongs to a factor, in its simplest proved shape."""
+    """Return the integral that belongs to a factor, in its simplest proved form, with that factor."""
     scaled = {s: a if a.is_zero else work.tidy(mu * a) for s, a in form.items()}
     if sum(map(size, scaled.values())) > 2 * MAX_FORM or not work.closed(scaled):
         return None
-    found = potential(work, scaled)
-    if found is None:
+    f = potential(work, scaled)
+    if f is None:
         return None
-    return next((pair for pair in shapes(work, (found, mu)) if _proved(work, form, pair)), None)
+    return next((pair for pair in shapes(work, (f, mu)) if _proved(work, form, pair)), None)
 
 
 def _proved(work: Algebra, form: Form, pair: Pair) -> bool:
-    """df = mu omega identically, and mu is not zero."""
+    """Return whether df = mu omega identically and mu is not zero."""
     integral, mu = pair
     holds = all(work.vanishes(diff(integral, s) - mu * a) for s, a in form.items())
     return holds and (mu.op == "num" or certainly_nonzero(mu, work.positive))

@@ -1,0 +1,1 @@
+"""The dimension at a measured reference configuration: rank with a tolerance, second order, continuation."""

@@ -1,0 +1,285 @@
+"""The dimension of the set of configurations at a measured pose, decided in floating point within the tolerance.
+
+Columns of lengths are divided by the scene's size and rows by their gradients, so that a singular value says by what
+fraction of the size an equation can be satisfied otherwise. Those below the tolerance (times `SLACK`) count as 0. What
+is then dependent is taken to be exactly dependent in the geometry that was measured. An infinitesimal motion is finite
+where it is continued within the tolerance; it is not where the second order of that geometry, or the residuals along
+it, exclude it by more than the tolerance can hide. Where that leaves it open, the geometry exactly as written may
+decide, as it is one of those that the tolerance allows. All else is undecided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from dofkit.base.libraries import np
+from dofkit.configuration.drawing.at_reference import AtReference, at_reference
+from dofkit.configuration.local.germ import Conclusion
+from dofkit.configuration.measured.continuation import BEYOND, LONGEST, Path, follow, is_motion, reach_of
+from dofkit.configuration.measured.equations import (
+    GREY,
+    SLACK,
+    MeasuredPose,
+    ScaledEquations,
+    clear_rank,
+    float_point,
+    independent_rows,
+)
+from dofkit.configuration.measured.second_order import StressForms
+from dofkit.exact.matrices.singular_values import dependency_pattern, greedy_pivots
+from dofkit.expressions.tree import Expr
+from dofkit.relations.chart import Chart
+from dofkit.relations.setting import Setting
+
+#: From so many sizes from the origin singular values are smaller by the square of that, since turns are about it; from
+#: `FAR_AWAY` sizes on no motion is followed.
+NEAR, FAR_AWAY = 2.0, 30.0
+#: Directions in which motions are followed; how much farther one is that is nearly straight.
+DIRECTIONS, FARTHER = 3, 3.0
+
+FOLLOWED = "the motion was continued for a finite step within the tolerance"
+MISSED = (
+    "the measured reference configuration does not satisfy the equations within the tolerance, and the "
+    "tolerance is meaningful only near it"
+)
+FIXED = "within the tolerance the equations allow neither a motion nor another instant: they fix the time"
+OPEN = "some infinitesimal motions are not finite motions; which ones was not decided"
+AS_WRITTEN = "with the numbers exactly as written the equations are dependent, which decides: {}"
+STOPPED = (
+    "the infinitesimal motion extends to a finite motion within the tolerance but not for the geometry "
+    "as written, so the tolerance leaves it open"
+)
+HIDDEN = "the geometry as written allows no finite motion, but lengths within the tolerance may allow one"
+
+
+@dataclass(frozen=True)
+class MeasuredFreedom:
+    """The freedom at a measured pose; ``instantaneous`` and ``dimension`` are None where they are undecided.
+
+    ``dependencies``: a matrix over GF(2) with the pattern of dependent rows that the Jacobian has within the tolerance:
+    independent rows are unit vectors, the others sums of those they depend on. ``columns`` are dependent coordinates.
+    ``gap``: between the least singular value that counts and the largest that does not. ``fixes_time``: the equations
+    are satisfied at one instant only. ``bound``: an upper bound of the dimension where it is undecided.
+    """
+
+    instantaneous: int | None
+    dimension: int | None
+    dependencies: list[list[int]]
+    columns: tuple[int, ...]
+    gap: float
+    reason: str
+    fixes_time: bool = False
+    bound: int | None = None
+
+
+def measured_freedom(chart: Chart, pose: Mapping[Expr, Expr], setting: Setting) -> MeasuredFreedom | None:
+    """Return the freedom at a measured pose, or None if something has no value there."""
+    at = float_point(chart, pose)
+    if at is None:
+        return None
+    freedom = _within_tolerance(chart, at, setting)
+    if freedom.reason not in (OPEN, FOLLOWED) or chart.time is not None:
+        return freedom
+    exact = at_reference(chart, pose)
+    return freedom if exact is None else _compared_with_exact(freedom, exact)
+
+
+def _compared_with_exact(freedom: MeasuredFreedom, exact: AtReference) -> MeasuredFreedom:
+    """Return what the geometry exactly as written says of a measured freedom, if its rank is the same.
+
+    It decides a motion of as many dimensions as the tolerance allows; it leaves open a motion that it does not have.
+    """
+    dimension = exact.local.dimension
+    if exact.instantaneous != freedom.instantaneous or dimension is None or dimension == freedom.dimension:
+        return freedom
+    if freedom.dimension is not None:
+        return replace(freedom, dimension=None, reason=STOPPED)
+    if dimension <= exact.rigid:
+        return replace(freedom, reason=HIDDEN)
+    if freedom.bound is None or dimension < freedom.bound:
+        return freedom
+    return replace(freedom, dimension=dimension, reason=AS_WRITTEN.format(exact.local.reason))
+
+
+def _within_tolerance(chart: Chart, at: Mapping[Expr, float], setting: Setting) -> MeasuredFreedom:
+    equations, tolerance = ScaledEquations(chart, setting, at), float(setting.tolerance or 0)
+    n = chart.coordinates
+    if not chart.nodes:
+        return MeasuredFreedom(n, n, [], (), float("inf"), "")
+    f, timed = equations.system(at)
+    if float(np.max(np.abs(f))) > tolerance * SLACK:
+        return MeasuredFreedom(None, None, [], (), float("inf"), MISSED)
+    j = timed[:, :n]
+    singular = np.linalg.svd(j, compute_uv=False)
+    rank = int(np.sum(singular > tolerance * SLACK))
+    below = float(singular[rank]) if rank < len(singular) else 0.0
+    gap = float(singular[rank - 1]) / below if rank and below > 0 else float("inf")
+    lever = equations.lever(timed)
+    least = tolerance * SLACK / (lever * lever if lever > NEAR else 1.0)
+    if np.any((singular > least) & (singular < tolerance * GREY)):
+        return MeasuredFreedom(None, None, [], (), gap, "a singular value near the tolerance leaves the rank undecided")
+    problem = _Problem(
+        MeasuredPose(equations, at, timed, rank, tolerance), lever > FAR_AWAY or equations.rounding(at) > tolerance
+    )
+    conclusion = next(c for criterion in CRITERIA if (c := criterion(problem)) is not None)
+    bound = problem.bound if conclusion.reason == OPEN else None
+    if chart.time is not None:
+        conclusion = _at_fixed_time(problem.pose, conclusion)
+    return MeasuredFreedom(
+        n - rank,
+        conclusion.dimension,
+        dependency_pattern(j, independent_rows(j, rank, tolerance)),
+        tuple(greedy_pivots(j.T, rank)),
+        gap,
+        conclusion.reason,
+        conclusion.reason == FIXED,
+        bound,
+    )
+
+
+class _Problem:
+    """A measured pose whose local dimension is asked for; ``is_far``: too far from the origin to follow a motion."""
+
+    def __init__(self, pose: MeasuredPose, is_far: bool) -> None:
+        self.pose = pose
+        self.is_far = is_far
+        self.equations, columns = pose.j.shape
+        self.first = int(columns) - pose.rank
+        self.rigid = len(pose.rigid_motions)
+
+    @cached_property
+    def forms(self) -> StressForms:
+        """The second order."""
+        return StressForms(self.pose)
+
+    @property
+    def bound(self) -> int:
+        """An upper bound of the dimension where not all of its infinitesimal motions are finite."""
+        return min(self.first - 1, self.rigid + self.forms.cone_bound)
+
+    @cached_property
+    def paths(self) -> list[tuple[Path, Path]]:
+        """The paths along some random motions, both ways."""
+        reach = reach_of(self.pose.tolerance) * BEYOND
+        return [(follow(self.pose, d, reach), follow(self.pose, -d, reach)) for d in _directions(self.pose.flexes)]
+
+
+def _independent(problem: _Problem) -> Conclusion | None:
+    """Independent equations cut out a manifold [ImplicitFunctions]."""
+    if problem.pose.rank < problem.equations:
+        return None
+    return Conclusion(problem.first, "all equations are independent within the tolerance")
+
+
+def _rigid_to_first_order(problem: _Problem) -> Conclusion | None:
+    """Nothing moves but the system as a rigid body [AsimowRoth1978]."""
+    if problem.first > problem.rigid:
+        return None
+    return Conclusion(problem.first, "the only infinitesimal motions are rigid motions of the system", confined=True)
+
+
+def _indistinct(problem: _Problem) -> Conclusion | None:
+    """No motion can be followed: nothing is decided."""
+    if problem.is_far:
+        return Conclusion(
+            None,
+            "the reference configuration is too far from the origin, relative to its size, to continue a motion "
+            "in floating point",
+        )
+    if reach_of(problem.pose.tolerance) > LONGEST:
+        return Conclusion(None, "the tolerance is too coarse to distinguish a finite motion from an infinitesimal one")
+    if len(problem.pose.flexes) != problem.first - problem.rigid:
+        return Conclusion(
+            None, "rigid motions of the system cannot be distinguished from other motions within the tolerance"
+        )
+    return None
+
+
+def _indefinite_form(problem: _Problem) -> Conclusion | None:
+    """One dependent equation whose second order takes both signs parts the manifold [HurewiczWallman1941]."""
+    if not problem.forms.change_sign:
+        return None
+    why = "branches cross here: the second-order form is indefinite by more than the tolerance"
+    return Conclusion(problem.first - 1, why)
+
+
+def _definite_combination(problem: _Problem) -> Conclusion | None:
+    """A stress whose form is definite leaves rigid motions alone [ConnellyWhiteley1996]."""
+    if problem.forms.vanish or not problem.forms.definite:
+        return None
+    why = "a stress is definite to second order by more than the tolerance: no finite motion"
+    return Conclusion(problem.rigid, why, confined=True)
+
+
+def _continued(problem: _Problem) -> Conclusion | None:
+    """Random motions are continued both ways, and no second-order form is known not to vanish."""
+    reach = reach_of(problem.pose.tolerance)
+    if not problem.forms.vanish or not all(is_motion(*paths, reach) for paths in problem.paths):
+        return None
+    return Conclusion(problem.first, FOLLOWED)
+
+
+def _violated(problem: _Problem) -> Conclusion | None:
+    """The only motion violates the equations both ways: their zero on this curve is isolated [IsolatedZeros]."""
+    if not problem.forms.vanish or problem.first - problem.rigid != 1:
+        return None
+    (paths,) = problem.paths
+    if not all(path.violates for path in paths) and not _violated_farther(problem.pose):
+        return None
+    why = "the one infinitesimal motion violates the equations by more than the tolerance"
+    return Conclusion(problem.rigid, why, confined=True)
+
+
+def _violated_farther(pose: MeasuredPose) -> bool:
+    reach = reach_of(pose.tolerance) * BEYOND * FARTHER
+    return all(follow(pose, sign * pose.flexes[0], reach).violates for sign in (1, -1))
+
+
+def _undecided(problem: _Problem) -> Conclusion:
+    return Conclusion(None, OPEN)
+
+
+#: The criteria in the order in which they are asked; the first that comes to a conclusion decides.
+CRITERIA: tuple[Callable[[_Problem], Conclusion | None], ...] = (
+    _independent,
+    _rigid_to_first_order,
+    _indistinct,
+    _indefinite_form,
+    _definite_combination,
+    _continued,
+    _violated,
+    _undecided,
+)
+
+
+def _directions(flexes: Any) -> list[Any]:
+    """Return the motion, or some random ones if there are several."""
+    if len(flexes) == 1:
+        return [flexes[0]]
+    rng = np.random.default_rng(13)
+    return [rng.standard_normal(len(flexes)) @ flexes for _ in range(DIRECTIONS)]
+
+
+def _at_fixed_time(pose: MeasuredPose, conclusion: Conclusion) -> Conclusion:
+    """Return the dimension without that of time; undecided where time may be constant on the set."""
+    rank, (equations, columns) = clear_rank(pose.j, pose.tolerance), pose.j.shape
+    if rank == columns:
+        return Conclusion(None, FIXED)
+    if rank is not None and rank == equations > pose.rank and _time_moves(replace(pose, rank=rank)):
+        why = "all equations are independent within the tolerance, with time as a variable"
+        return Conclusion(columns - equations - 1, why)
+    if rank != pose.rank or (conclusion.dimension is not None and conclusion.confined):
+        return Conclusion(None, "whether a motion passes through this instant is not decided within the tolerance")
+    return conclusion if conclusion.dimension is None else conclusion._replace(dimension=conclusion.dimension - 1)
+
+
+def _time_moves(pose: MeasuredPose) -> bool:
+    """Return whether time changes beyond the tolerance along a random path of the manifold of all equations."""
+    if not len(pose.flexes):
+        return False
+    path = follow(pose, _directions(pose.flexes)[-1], reach_of(pose.tolerance))
+    ahead = pose.equations.between(pose.at, path.stages[-1].at)[-1]
+    return abs(float(ahead)) > GREY * pose.tolerance

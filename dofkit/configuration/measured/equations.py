@@ -1,0 +1,301 @@
+"""Equations of measured geometry in floating point, scaled so that numbers are fractions of the scene's size."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from dofkit.base.deadline import check
+from dofkit.base.libraries import np, nx
+from dofkit.configuration.drawing.at_reference import ball_point
+from dofkit.configuration.rigid_motions import displacements_real
+from dofkit.exact.points.balls import FloatPoint, jacobian
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Ring
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.blocks import Block, coordinates_of
+from dofkit.relations.chart import Chart
+from dofkit.relations.setting import Setting
+from dofkit.system import GROUND
+
+#: A singular value counts as 0 below tolerance * SLACK; between that and tolerance * GREY the rank is undecided.
+SLACK, GREY = 3.0, 30.0
+#: By how much rounding errors of positions grow in residuals.
+ROUNDING_GROWTH = 1e3
+#: The least squared cosine between a velocity and the rigid motions for which it is counted as one of them.
+HALF = 0.5
+
+Point = Mapping[Expr, float]
+
+
+class ScaledEquations:
+    """The equations of a chart; columns of lengths are divided by the scene's size, rows by their gradients.
+
+    A turn about a distant origin moves everything by far more than a shift. So a body's position p is replaced by
+    P = p + R (c - s), the position of its material point at the scene's centre c. Time, where it is a column, is the
+    last, in such a unit that no equation changes faster with it than with a shift.
+    """
+
+    def __init__(self, chart: Chart, setting: Setting, at: Point) -> None:
+        self.chart = chart
+        self.symbols = chart.symbols
+        self.coordinates = chart.coordinates
+        self._arms = _Arms(setting, chart.symbols)
+        lengths = {c.name for c in setting.roles if c.role in ("x", "y", "z")}
+        self.lengths = np.array([str(s.args[-1]) in lengths and s != ex.TIME for s in self.symbols], dtype=bool)
+        self.scale = np.where(self.lengths, setting.size, 1.0)
+        if chart.time is not None and chart.nodes:
+            fastest = float(np.max(np.abs(self.system(at)[1][:, chart.time])))
+            self.scale[chart.time] = 1 / fastest if fastest > 0 else 1.0
+
+    def lever(self, j: Any) -> float:
+        """Return the largest effect of a turn divided by that of a shift, at least 1."""
+        turns = ~self.lengths & (np.arange(len(self.symbols)) < self.coordinates)
+        shifted, turned = (np.abs(j[:, part]).max(axis=1, initial=0) for part in (self.lengths, turns))
+        mixed = shifted > 0
+        return float(np.max(turned[mixed] / shifted[mixed], initial=1.0))
+
+    def rounding(self, at: Point) -> float:
+        """Return a bound of the residuals that rounding of the positions causes."""
+        positions = np.abs(self._vector(at)[self.lengths] / self.scale[self.lengths])
+        return ROUNDING_GROWTH * float(np.finfo(float).eps) * float(np.max(positions, initial=0.0))
+
+    def rigid_motions(self, at: Point) -> Any:
+        """Return the velocities of rigid motions of the system as rows."""
+        variables = self.chart.ring.vars
+        fields = displacements_real(self.chart, lambda i: at.get(variables[i].key, 0.0) if i >= 0 else 0.0)
+        return (fields + fields @ self._arms.slopes(at).T) / self.scale if fields.size else fields
+
+    def system(self, at: Point, norms: Any = None) -> tuple[Any, Any]:
+        """Return the residuals (m) and the Jacobian (m x n), rows divided by ``norms``, else by their gradients."""
+        f, j = self._unscaled(at)
+        if norms is None:
+            norms = self._gradients(j)
+        return f / norms, j / norms[:, None]
+
+    def norms(self, at: Point) -> Any:
+        """Return the lengths of the gradients, 1 for a gradient that is 0."""
+        return self._gradients(self._unscaled(at)[1])
+
+    def _unscaled(self, at: Point) -> tuple[Any, Any]:
+        check()
+        point = FloatPoint(at, 0)
+        out = values(self.chart.ring, point)
+        f = np.array([out[n] for n in self.chart.nodes], dtype=float)
+        j = np.array(jacobian(self.chart.ring, out, point, self.chart.nodes, self.chart.columns, 0.0), dtype=float)
+        j = j.reshape(len(f), len(self.symbols))
+        return f, (j - j @ self._arms.slopes(at)) * self.scale
+
+    def _gradients(self, j: Any) -> Any:
+        norms = np.linalg.norm(j[:, : self.coordinates], axis=1)
+        return np.where(norms > 0, norms, 1.0)
+
+    def _vector(self, at: Point) -> Any:
+        return np.array([at.get(s, 0.0) for s in self.symbols])
+
+    def moved(self, at: Point, step: Any) -> dict[Expr, float]:
+        """Return the point that is a step, in scaled columns, away."""
+        end = self._vector(at) + step * self.scale
+        turned = {**at, **dict(zip(self.symbols, end.tolist(), strict=True))}
+        end += self._arms.values(at) - self._arms.values(turned)
+        return {**at, **dict(zip(self.symbols, end.tolist(), strict=True))}
+
+    def between(self, start: Point, end: Point) -> Any:
+        """Return the step, in scaled columns, from one point to another."""
+        first, last = (self._vector(at) + self._arms.values(at) for at in (start, end))
+        return (last - first) / self.scale
+
+
+class _Arms:
+    """R (c - s) of every body, from its origin to its material point at the scene's centre, over the columns."""
+
+    def __init__(self, setting: Setting, symbols: Sequence[Expr]) -> None:
+        self.symbols = symbols
+        columns = {s: i for i, s in enumerate(symbols)}
+        self.rows: list[int] = []
+        arms: list[Expr] = []
+        for body, arm in setting.arms.items():
+            positions = [ex.coordinate(c.name) for c in setting.roles if c.owner == body and c.role in ("x", "y", "z")]
+            if all(s in columns for s in positions) and all(e.symbols <= columns.keys() for e in arm):
+                self.rows += [columns[s] for s in positions]
+                arms += arm
+        self.ring = Ring(arms)
+        self.nodes = [self.ring.node(e) for e in arms]
+        known = [self.ring.var_index(s) for s in symbols]
+        self.columns = [-1 if i is None else i for i in known]
+
+    def values(self, at: Point) -> Any:
+        """Return the arms as one vector over the columns, 0 where a column is no position of a body."""
+        return self._evaluated(at)[0]
+
+    def slopes(self, at: Point) -> Any:
+        """Return the derivatives of the arms, n x n over the columns."""
+        return self._evaluated(at)[1]
+
+    def _evaluated(self, at: Point) -> tuple[Any, Any]:
+        n = len(self.symbols)
+        arms, slopes = np.zeros(n), np.zeros((n, n))
+        if self.rows:
+            point = FloatPoint({**dict.fromkeys(self.symbols, 0.0), **at}, 0)
+            out = values(self.ring, point)
+            arms[self.rows] = [out[node] for node in self.nodes]
+            slopes[self.rows] = jacobian(self.ring, out, point, self.nodes, self.columns, 0.0)
+        return arms, slopes
+
+
+@dataclass(frozen=True)
+class MeasuredPose:
+    """Equations at a point: their Jacobian ``j`` (m x n) at ``at``, and its ``rank`` r within the tolerance."""
+
+    equations: ScaledEquations
+    at: Point
+    j: Any
+    rank: int
+    tolerance: float
+
+    @cached_property
+    def norms(self) -> Any:
+        """By what the rows are divided, here and nearby."""
+        return self.equations.norms(self.at)
+
+    @cached_property
+    def _svd(self) -> tuple[Any, Any, Any]:
+        left, singular, right = np.linalg.svd(self.j)
+        return left, singular, right
+
+    @property
+    def independent(self) -> Any:
+        """Orthonormal combinations of the equations that are independent, r x m."""
+        return self._svd[0].T[: self.rank]
+
+    @property
+    def stresses(self) -> Any:
+        """Orthonormal combinations of the equations with gradient 0 within the tolerance, (m - r) x m."""
+        return self._svd[0].T[self.rank :]
+
+    @property
+    def least(self) -> float:
+        """The least singular value that counts."""
+        return float(self._svd[1][self.rank - 1]) if self.rank else 1.0
+
+    @cached_property
+    def rigid_motions(self) -> Any:
+        """An orthonormal basis of the rigid motions of the system, those within the tolerance left out.
+
+        A rotation counts by what it does besides shifting, in sizes for a turn by 1: a rod's turn about its axis is 0.
+        """
+        motions = self.equations.rigid_motions(self.at)
+        if not motions.size:
+            return motions
+        sizes = np.abs(motions)
+        shift = np.array([bool(np.all(row[row > 0] == row.max())) and row.max() > 0 for row in sizes])
+        shifts = np.linalg.qr(motions[shift].T)[0].T if np.any(shift) else motions[:0]
+        turns = motions[~shift] - (motions[~shift] @ shifts.T) @ shifts
+        _, singular, right = np.linalg.svd(turns)
+        return np.vstack([shifts, right[: int(np.sum(singular > self.tolerance * SLACK))]])
+
+    @cached_property
+    def flexes(self) -> Any:
+        """An orthonormal basis of the infinitesimal motions modulo rigid motions of the system, w x n."""
+        null = self._svd[2][self.rank :]
+        if not self.rigid_motions.size or not len(null):
+            return null
+        inside = np.linalg.qr((self.rigid_motions @ null.T).T)[0]
+        _, part, right = np.linalg.svd(np.eye(len(null)) - inside @ inside.T)
+        return right[: int(np.sum(part > HALF))] @ null
+
+
+def clear_rank(j: Any, tolerance: float) -> int | None:
+    """Return the number of singular values above the tolerance, or None if one is near it."""
+    singular = np.linalg.svd(j, compute_uv=False)
+    if np.any((singular > tolerance * SLACK) & (singular < tolerance * GREY)):
+        return None
+    return int(np.sum(singular > tolerance * SLACK))
+
+
+def independent_rows(j: Any, rank: int, tolerance: float) -> list[int]:
+    """Return the first rows, in order, that are independent of those before them within the tolerance.
+
+    Rows are independent as long as their least singular value is above it, which leaving out a row never lowers.
+    """
+    rows = _separate_rows(j, rank, tolerance)
+    if _are_independent(j[rows], tolerance):
+        return rows
+    rows = []
+    for r in range(len(j)):
+        if len(rows) == rank:
+            break
+        check()
+        if _are_independent(j[[*rows, r]], tolerance):
+            rows.append(r)
+    return rows
+
+
+def _are_independent(rows: Any, tolerance: float) -> bool:
+    return not len(rows) or float(np.linalg.svd(rows, compute_uv=False)[-1]) > tolerance * SLACK
+
+
+def _separate_rows(j: Any, rank: int, tolerance: float) -> list[int]:
+    """Return the first rows whose distance from the span of those before them is above the tolerance."""
+    rows, basis = list[int](), np.zeros((0, j.shape[1]))
+    for r, row in enumerate(j):
+        if len(rows) == rank:
+            break
+        for _ in range(2):
+            row = row - basis.T @ (basis @ row)
+        distance = float(np.linalg.norm(row))
+        if distance > tolerance * SLACK:
+            rows.append(r)
+            basis = np.vstack([basis, row / distance])
+    return rows
+
+
+def is_measured(block: Block, setting: Setting) -> bool:
+    """Return whether measured numbers enter a block: geometry, or positions of particles and bodies.
+
+    Texts on coordinates that belong to no particle and no body, or to one without a position, hold no such numbers.
+    """
+    if setting.tolerance is None:
+        return False
+    if any(row.constraint in setting.geometric for row in block.rows):
+        return True
+    bodies = {c.owner for c in setting.roles if c.role not in ("x", "y", "z")}
+    placed = {c.name for c in setting.roles if c.owner and ex.coordinate(c.name) in setting.pose and
+              (setting.reference is not None or c.owner not in bodies)}  # fmt: skip
+    return not placed.isdisjoint(block.coordinates)
+
+
+def is_tree(block: Block, setting: Setting) -> bool:
+    """Return whether constraints of geometry alone join particles, bodies and the ground without a loop.
+
+    Their equations are then independent wherever they are satisfied, whatever their numbers are.
+    """
+    owners = {c.name: c.owner for c in setting.roles}
+    members: dict[int, set[str | None]] = {}
+    for row in block.rows:
+        members.setdefault(row.constraint, set()).update(owners[name] for name in coordinates_of(row.piece))
+    joined: nx.Graph = nx.Graph()
+    for constraint, ends in members.items():
+        if constraint not in setting.geometric or None in ends:
+            return False
+        pair = [*ends, GROUND] if len(ends) == 1 else [*ends]
+        joined.add_edges_from((("joint", constraint), ("member", end)) for end in pair)
+    return bool(nx.is_forest(joined)) if joined else True
+
+
+def float_point(chart: Chart, pose: Mapping[Expr, Expr]) -> dict[Expr, float] | None:
+    """Return a pose in floating point, symbols without a value at random; None if a value is undefined."""
+    ball = ball_point(chart, {**pose, ex.TIME: ex.ZERO}, random.Random("dofkit measured"))
+    return None if ball is None else {s: float(v.mid()) for s, v in ball.symbols.items()}
+
+
+def pose_of_block(chart: Chart, setting: Setting) -> Mapping[Expr, Expr] | None:
+    """Return the reference configuration, else the given positions if the equations mention no others, else None."""
+    if setting.reference is not None:
+        return setting.reference
+    mentioned = {v.key for v in chart.ring.vars if v.kind == "symbol"} - {ex.TIME}
+    return setting.pose if mentioned <= setting.pose.keys() else None
