@@ -143,7 +143,8 @@ def vanishes_on(
     """Return whether ``slope`` = 0 wherever g = 0, and how sure that is.
 
     A certified point where it is not is a proof that it is not; with ``regular_in`` g must not be stationary in these
-    symbols there. What one branch of a root or sign of an absolute value tells is not told of the others.
+    symbols there. What one factor, one branch of a root or one sign of an absolute value tells is not told of the
+    others.
     """
     still, sure = zero_and_verdict(slope, positive, engines)
     if still:
@@ -155,7 +156,8 @@ def vanishes_on(
     if point is not None:
         try:
             if values(ring, point)[rate] == 0:
-                return (True, "probable") if is_analytic(g, g.symbols, positive) else (None, "undecided")
+                whole = is_analytic(g, g.symbols, positive) and _is_irreducible(g, positive)
+                return (True, "probable") if whole else (None, "undecided")
         except NoValueError:
             return None, "undecided"
     if "balls" not in engines:
@@ -166,8 +168,20 @@ def vanishes_on(
     if real is not None and apart and real.certified:
         return False, "proved"
     if "field" not in engines:
-        return (True, "numeric") if real is not None and real.certified else (None, "undecided")
+        known = real is not None and real.certified and _is_irreducible(g, positive)
+        return (True, "numeric") if known else (None, "undecided")
     return (False, "numeric") if point is not None and apart else (None, "undecided")
+
+
+def _is_irreducible(g: Expr, positive: frozenset[Expr]) -> bool:
+    """Return whether g has one factor over the rationals; False where it is too large to be factored."""
+    try:
+        ring = Ring([g], positive)
+        node = ring.node(g)
+        canon = Canon(ring)
+        return len(canon.factors(canon.quotient(node)[0])) == 1
+    except NoValueError:
+        return False
 
 
 def _real_point(ring: Ring, node: int, g: Expr, positive: frozenset[Expr]) -> RealPoint | None:

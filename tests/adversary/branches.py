@@ -6,7 +6,7 @@ import random
 
 from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
 
-from .draws import at, nonzero
+from .draws import at, nonzero, smaller
 
 
 def _points(rng: random.Random, many: int) -> list[str]:
@@ -39,9 +39,7 @@ def hidden(rng: random.Random, size: int) -> KnownScene:
     factors = [curve, *_points(rng, rng.randint(1, 2 + 4 * size))]
     rng.shuffle(factors)
     scene = scene_of("x y z", "x = 0", f"xdot = {'*'.join(factors)}")
-    return KnownScene(
-        scene, truths(1, holonomic=True), {"dof": [0], "velocity_dof": [0]}, chart and {"x": "0", **chart}
-    )
+    return KnownScene(scene, truths(1, holonomic=True), smaller(0), chart and {"x": "0", **chart})
 
 
 def written(rng: random.Random, size: int) -> KnownScene:
@@ -50,7 +48,7 @@ def written(rng: random.Random, size: int) -> KnownScene:
     factors = [curve, *_points(rng, rng.randint(1, 4 + 3 * size))]
     rng.shuffle(factors)
     scene = scene_of("y z", f"{'*'.join(factors)} = 0")
-    return KnownScene(scene, truths(1, holonomic=True), {"dof": [0], "velocity_dof": [0]}, chart)
+    return KnownScene(scene, truths(1, holonomic=True), smaller(0), chart)
 
 
 def of_points(rng: random.Random, size: int) -> KnownScene:
@@ -66,7 +64,7 @@ def of_forms(rng: random.Random, size: int) -> KnownScene:
     factors = [*sorted(flat), rng.choice(("(zdot - y*xdot)", "(xdot + z*ydot)", "(cos(z)*ydot - sin(z)*xdot)"))]
     rng.shuffle(factors)
     scene = scene_of("x y z", f"{'*'.join(factors)} = 0")
-    return KnownScene(scene, truths(3, 2), {"dof": [2], "velocity_dof": [2]})
+    return KnownScene(scene, truths(3, 2), smaller(2))
 
 
 def spaces(rng: random.Random, size: int) -> KnownScene:

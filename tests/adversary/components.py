@@ -9,7 +9,7 @@ from math import comb
 
 from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
 
-from .draws import names, polynomial, simple_zero, smooth
+from .draws import names, polynomial, simple_zero, smaller, smooth
 
 
 def graph(names_: Sequence[str], values: Sequence[str]) -> dict[str, str]:
@@ -36,9 +36,7 @@ def ladder(rng: random.Random, size: int) -> KnownScene:
     relations = [f"y = {s}*({smooth(rng, ['u'])})"]
     relations += [f"{s}*{v[i]} = y*({smooth(rng, ['u', *v[:i]])})" for i in range(k)]
     chart = {"x": str(a), "y": "0"} | free(["u", *v])
-    return KnownScene(
-        scene_of(["x", "y", "u", *v], *relations), truths(1 + k), {"dof": [2], "velocity_dof": [2]}, chart
-    )
+    return KnownScene(scene_of(["x", "y", "u", *v], *relations), truths(1 + k), smaller(2), chart)
 
 
 def powers(rng: random.Random, size: int) -> KnownScene:
@@ -49,9 +47,7 @@ def powers(rng: random.Random, size: int) -> KnownScene:
     relations = [f"y = (x - 10)*u^{m}"]
     relations += [f"(x - 10)*{a} = y*{b}" for a, b in zip(v, [*v[1:], "u"], strict=True)]
     chart = {"x": "10", "y": "0"} | free(["u", *v])
-    return KnownScene(
-        scene_of(["x", "y", "u", *v], *relations), truths(1 + k), {"dof": [2], "velocity_dof": [2]}, chart
-    )
+    return KnownScene(scene_of(["x", "y", "u", *v], *relations), truths(1 + k), smaller(2), chart)
 
 
 def unions(rng: random.Random, size: int) -> KnownScene:
@@ -67,7 +63,7 @@ def unions(rng: random.Random, size: int) -> KnownScene:
     ]
     rng.shuffle(relations)
     n = m + k + len(w)
-    elsewhere = {"dof": [n - k], "velocity_dof": [n - k]}
+    elsewhere = smaller(n - k)
     return KnownScene(scene_of([*u, *v, *w], *relations), truths(n - m), elsewhere, free([*w, *v]) | graph(u, first))
 
 
@@ -78,7 +74,7 @@ def residual(rng: random.Random, size: int) -> KnownScene:
     height = polynomial(rng, w, 2 + size)
     relations = [f"(z - ({height}))*({a} - ({smooth(rng, w)})) = 0" for a in v]
     n = k + len(w) + 1
-    elsewhere = {"dof": [n - k], "velocity_dof": [n - k]}
+    elsewhere = smaller(n - k)
     return KnownScene(scene_of([*v, *w, "z"], *relations), truths(n - 1), elsewhere, free([*v, *w]) | {"z": height})
 
 

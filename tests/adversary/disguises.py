@@ -258,7 +258,7 @@ def split(rng: random.Random, case: KnownScene) -> KnownScene | None:
 def turned(rng: random.Random, case: KnownScene) -> KnownScene | None:
     """A drawing turned by a rational angle about z, in space about x too, and moved."""
     scene = case.scene
-    if is_plain(scene) or "dimension" not in scene or any(isinstance(c, str) for c in scene["constraints"]):
+    if is_plain(scene) or scene.get("dimension", 1) == 1 or any(isinstance(c, str) for c in scene["constraints"]):
         return None
     d, shift = scene["dimension"], [rng.randint(-3, 3) for _ in range(3)]
 
@@ -280,10 +280,13 @@ def turned(rng: random.Random, case: KnownScene) -> KnownScene | None:
         if "axes" in part:
             moved["axes"] = [placed(axis, [0, 0, 0]) for axis in part["axes"]]
         if "between" in part:
-            moved["between"] = [end if isinstance(end, str) else placed(end, shift) for end in part["between"]]
+            moved["between"] = [placed(end, shift) if isinstance(end, list) else drawn(end) for end in part["between"]]
         return moved
 
-    parts = {key: [drawn(part) for part in scene[key]] for key in ("particles", "constraints") if key in scene}
+    try:
+        parts = {key: [drawn(part) for part in scene[key]] for key in ("particles", "constraints") if key in scene}
+    except ValueError:  # a position is an expression
+        return None
     return replace(case, scene={**scene, **parts})
 
 

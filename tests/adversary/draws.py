@@ -39,6 +39,11 @@ def ratio(rng: random.Random) -> Fraction:
     return Fraction(nonzero(rng, 7), rng.randint(1, 4))
 
 
+def smaller(*dofs: int) -> Mapping[str, Sequence[int]]:
+    """Freedoms, and as many velocities, of smaller components."""
+    return {"dof": dofs, "velocity_dof": dofs}
+
+
 def at(fields: Mapping[str, Any]) -> Mapping[str, str]:
     """A reference configuration as text."""
     return {name: str(value) for name, value in fields.items()}

@@ -7,7 +7,7 @@ import random
 from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
 
 from .components import free
-from .draws import names, nonzero, simple_zero
+from .draws import names, nonzero, simple_zero, smaller
 
 
 def bipartite(rng: random.Random, size: int) -> KnownScene:
@@ -54,7 +54,7 @@ def coinciding(rng: random.Random, size: int) -> KnownScene:
             f"u{j}": f"a + 2*{d}*p{j + 2}/(1 + p{j + 2}^2)",
             f"v{j}": f"b + {d}*(1 - p{j + 2}^2)/(1 + p{j + 2}^2)",
         }
-    return KnownScene(scene_of([*chart], *relations), truths(2 + k), {"dof": [4], "velocity_dof": [4]}, chart)
+    return KnownScene(scene_of([*chart], *relations), truths(2 + k), smaller(4), chart)
 
 
 def forced(rng: random.Random, size: int) -> KnownScene:

@@ -6,7 +6,7 @@ import random
 
 from dofkit.benchmark.trials.construction import KnownScene, scene_of, truths
 
-from .draws import at, names, nonzero, polynomial, positive, smooth, substituted
+from .draws import at, names, nonzero, polynomial, positive, smaller, smooth, substituted
 
 #: Equations that say a = b over the reals, and no more.
 SAME = (
@@ -71,7 +71,7 @@ def isolated_points(rng: random.Random, size: int) -> KnownScene:
     a, k = rng.randint(1, 5), rng.choice((2, 4))
     there = rng.random() < 0.5
     scene = scene_of("x y", f"y^2 = x^{k}*(x - {a})", configuration=at({"x": 0, "y": 0}) if there else None)
-    return KnownScene(scene, truths(0 if there else 1), {} if there else {"dof": [0], "velocity_dof": [0]})
+    return KnownScene(scene, truths(0 if there else 1), {} if there else smaller(0))
 
 
 def handles(rng: random.Random, size: int) -> KnownScene:

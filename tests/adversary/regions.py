@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from dofkit.benchmark.trials.construction import IMPOSSIBLE, KnownScene, scene_of, truths
 
-from .draws import at, nonzero, positive
+from .draws import at, nonzero, positive, smaller
 
 #: Relations in x (and y) that hold on a region, or everywhere, with a point within it: none takes a freedom away.
 WITHIN = (
@@ -44,9 +44,7 @@ def empty_words(rng: random.Random, size: int) -> KnownScene:
     known = truths(len(place), redundant_equations=1, **{"c1.independent": 0})
     reference = at(place) if rng.random() < 0.4 else None
     chart = {c: f"({value}) + p{k}/100" for k, (c, value) in enumerate(place.items())}
-    return KnownScene(
-        scene_of([*place], text, configuration=reference), known, {"dof": [0, 1], "velocity_dof": [0, 1]}, chart
-    )
+    return KnownScene(scene_of([*place], text, configuration=reference), known, smaller(0, 1), chart)
 
 
 def kinks(rng: random.Random, size: int) -> KnownScene:
@@ -61,7 +59,7 @@ def kinks(rng: random.Random, size: int) -> KnownScene:
     c = least + rng.choice((0, 0, 0, -1, 1, Fraction(1, 10**6)))
     left = " + ".join(f"{w}*abs(x - ({a}))" for w, a in zip(weights, places, strict=True))
     known = IMPOSSIBLE if c < least else truths(1 + (c == least and flat))
-    return KnownScene(scene_of("x y", f"{left} = {c}"), known, {"dof": [1], "velocity_dof": [1]})
+    return KnownScene(scene_of("x y", f"{left} = {c}"), known, smaller(1))
 
 
 def repeated(rng: random.Random, size: int) -> KnownScene:
