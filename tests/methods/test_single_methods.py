@@ -284,6 +284,25 @@ def test_a_link_too_many_that_grows_is_inconsistent_although_the_reference_satis
     assert (reply.value, reply.verdict) == (-1, "proved")
 
 
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(
+    ("coordinates", "constraints"),
+    [
+        # ydot = 0 and udot = 0, so that wdot = 0: all are holonomic
+        ("x y z w u", ["abs(ydot) + abs(udot + (w + z) ydot) = 0", "(1 + x^2) wdot + ydot = 0"]),
+        ("x y z", ["-x^2 >= 0", "x dy - dz = 0"]),
+        # it has no value where all velocities are 0
+        ("x y th", ["cos(th) = xdot/sqrt(xdot^2 + ydot^2)"]),
+    ],
+)
+def test_what_a_method_does_not_read_makes_its_labels_undecided(
+    method: MethodName, coordinates: str, constraints: list[str]
+) -> None:
+    scene = {"coordinates": coordinates.split(), "constraints": constraints}
+    entries = dofkit.classify(scene, method=method).constraints
+    assert not any(e.holonomic is False and e.form == "pfaffian" for e in entries)
+
+
 def test_every_failure_is_explained_by_a_sentence() -> None:
     assert {m for m, _ in WHY} == set(METHODS)
     assert {t for _, t in WHY} <= TRAITS.keys()

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dofkit.base.deadline import OutOfTimeError
+from dofkit.base.errors import PoleError
 from dofkit.base.verdicts import OPEN as OPEN_CLAIM
 from dofkit.base.verdicts import VERDICTS, About, Claim, Verdict, weakest
 from dofkit.classification.undecided import sketch
@@ -128,4 +129,7 @@ def _without_time(e: Expr) -> bool:
     moving = [s for s in e.symbols if s.args[0] in ("velocity", "differential")]
     if "acceleration" in kinds:
         return False
-    return not moving or substitute(e, dict.fromkeys(moving, ex.ZERO)).is_zero
+    try:
+        return not moving or substitute(e, dict.fromkeys(moving, ex.ZERO)).is_zero
+    except PoleError:
+        return False
