@@ -36,8 +36,6 @@ ArgumentKey = Literal[
     "no second-order flex",
     "critical branch",
     "branch followed",
-    "initial forms apart",
-    "definite initial form",
     "singular values",
     "links in general position",
     "linear contradiction",

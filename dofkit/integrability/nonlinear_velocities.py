@@ -43,6 +43,7 @@ HIDDEN = "the constraints that are nonlinear in the velocities imply an equation
 AT_REFERENCE = (
     "at the reference configuration no regular admissible velocities were found, although they exist elsewhere"
 )
+COMPLEX = "real velocities are needed to decide the velocity freedom and whether the admissible velocities are curved"
 KINKED = "velocities occur in absolute values, so that the admissible velocities may be one-sided"
 FLAT = "the admissible velocities form linear subspaces, which were not written as linear forms"
 
@@ -52,13 +53,10 @@ def set_velocity_freedom(block: Block, setting: Setting, result: Answer) -> None
     if not block.nonlinear or result.velocity_dof is None:
         return
     states = States(block.coordinates, block.rows, result.hidden, setting)
-    if states.kinked and "balls" in setting.engines:
-        _undecided(result, KINKED)
+    if states.kinked or "balls" not in setting.engines:
+        _undecided(result, KINKED if states.kinked else COMPLEX)
         return
     point = states.draw(7)
-    if "balls" not in setting.engines:
-        _by_field_alone(states, point, result)
-        return
     real = _real(states, point, result)
     sample = point if point is not None else None if real is None or not real.certified else real.point
     if real is None or sample is None:
@@ -158,18 +156,6 @@ def _open_labels(result: Answer, why: str) -> None:
     for i, label in result.labels.items():
         if label.holonomic is False:
             result.labels[i] = HolonomyLabel(None, "undecided", why)
-
-
-def _by_field_alone(states: States, point: FieldPoint | None, result: Answer) -> None:
-    """The velocity freedom over the complex numbers; whether the allowed velocities bend is left open."""
-    result.dof = None
-    _open_labels(result, "real velocities are needed to decide whether the set of admissible velocities is curved")
-    if point is None or not states.independent:
-        result.velocity_dof, result.verdict = None, "undecided"
-        return
-    whole, moving, finite = states.ranks(point)
-    result.velocity_dof = len(states.rates) - moving if whole - moving == finite else None
-    result.verdict = weakest(result.verdict, "probable" if result.velocity_dof is not None else "undecided")
 
 
 def _bends(states: States, point: BallPoint) -> bool:

@@ -1,10 +1,9 @@
-"""Relations are put into each other while they stay short; forms that are not known say nothing."""
+"""Relations are put into each other while they stay short."""
 
 from __future__ import annotations
 
 import dofkit
 from dofkit.configuration.cases import MAX_NODES, _linear
-from dofkit.configuration.local.initial_forms import InitialForms, have_no_common_zero
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import coordinate
 
@@ -19,10 +18,6 @@ def test_a_coordinate_is_not_put_into_a_long_relation() -> None:
     moving = frozenset({X, Y})
     assert {(g, s) for _, g, s, _ in _linear([short, other], moving)} == {(short, X), (short, Y)}
     assert list(_linear([short, long], moving)) == []
-
-
-def test_no_forms_at_all_are_no_forms_without_a_common_zero() -> None:
-    assert not have_no_common_zero(InitialForms([[1, 0], [0, 1]], [], {}))
 
 
 def test_a_case_is_a_part_of_the_set_and_says_nothing_of_what_passes_through_its_point() -> None:

@@ -52,8 +52,6 @@ CASES: list[tuple[str, Case]] = [
     ("no second-order flex", Case(on_plane(2, "x^2 - y^2", "x y"), 0)),
     ("critical branch", Case(on_plane(3, "x^2", "y^2"), 1)),
     ("branch followed", Case(on_plane(3, "x y", "x z"), 2)),  # a plane and a line
-    ("initial forms apart", Case(on_plane(2, "x^3 + y^5", "y^3"), 0)),
-    ("definite initial form", Case(on_plane(2, "x^4 + y^4"), 0)),
 ]
 KEYS = [criterion.key for criterion in CRITERIA]
 

@@ -13,7 +13,7 @@ from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.notes import INSTANT_NOTE
-from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian, Piece
+from dofkit.relations.normal.pieces import Clause, Finite, Normal, Pfaffian, Piece
 from dofkit.relations.setting import Setting
 from dofkit.report import Form
 
@@ -40,7 +40,9 @@ class EntryTraits(NamedTuple):
     by: str | None = None
 
 
-def timed_in_system(piece: Piece, block: Block | None, answer: Answer, others: Others, setting: Setting) -> TraitAnswer:
+def timed_in_system(
+    piece: Clause, block: Block | None, answer: Answer, others: Others, setting: Setting
+) -> TraitAnswer:
     """Return whether t occurs in what a form integrates to with the others: not where its dt term is 0 on their set."""
     sure: Verdict = "proved" if others.identically else "probable"
     if others.timed is False or not isinstance(piece, Pfaffian) or block is None:

@@ -185,24 +185,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "numeric",
         higher_order.branch_followed,
     ),
-    Criterion(
-        "initial forms apart",
-        "CurveSelection",
-        "two motions remain besides the rigid motions of the system, and the initial forms have no common complex zero",
-        higher_order.of_two_variables,
-        "rigidity",
-        "probable",
-        higher_order.no_common_zero,
-    ),
-    Criterion(
-        "definite initial form",
-        "CurveSelection",
-        "two motions remain besides the rigid motions of the system, and one initial form has no real zero",
-        higher_order.of_two_variables,
-        "rigidity",
-        "probable",
-        higher_order.definite_initial_form,
-    ),
 )
 
 

@@ -14,9 +14,8 @@ from typing import NamedTuple
 from flint import arb
 
 from dofkit.base.verdicts import Verdict
-from dofkit.configuration.local import critical_set, degrees, initial_forms, quadratic_cone
+from dofkit.configuration.local import critical_set, degrees, quadratic_cone
 from dofkit.configuration.local.critical_set import Split
-from dofkit.configuration.local.initial_forms import InitialForms
 from dofkit.configuration.local.manifold import Form, Manifold, is_zero
 from dofkit.configuration.local.neighbourhood import holds_away
 from dofkit.exact.points.series import Series
@@ -160,12 +159,6 @@ class Germ:
             value = series.coefficient(self.remainder_order)
             found |= set() if value.contains(0) else {1 if value > 0 else -1}
         return found
-
-    @cached_property
-    def initial_forms(self) -> InitialForms:
-        """The lowest-order parts of the dependent relations on a plane across the motions of the whole."""
-        assert self.field is not None
-        return initial_forms.initial_forms(self.field)
 
     def ahead(self) -> list[float]:
         """A random direction of N in which it is looked at from a distance."""

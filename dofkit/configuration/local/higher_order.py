@@ -1,17 +1,16 @@
-"""What is decided beyond the second order: on the critical set N of dependent relations, by a branch, by initial forms.
+"""What is decided beyond the second order: on the critical set N of dependent equations, or by a branch.
 
-For one relation f = Q(y) + g(z) in suitable coordinates, Q its second-order part, N = {y = 0} and g its values on N
-(splitting lemma). Q of one sign and g = 0: the set is N. Both signs together: the set has dimension m - 1. One sign,
-and g a function of one variable across the motions of the whole: these are all. For several, N is a branch of the set
-where all of them vanish on it, and the second-order cone bounds what else there is; so it is with a branch that is
-followed in numbers. In two variables across the motions of the whole, initial forms without a common zero leave these.
+For one equation f = Q(y) + g(z) in suitable coordinates, Q its second-order part, N = {y = 0} and g its values on N
+(splitting lemma). If Q has one sign and g = 0, the set is N. If they take both signs together, the set has dimension
+m - 1. If they have one sign and g is a function of one variable modulo rigid motions of the system, the set consists of
+those motions. Of several equations, N is a branch of the set if all of them vanish on it, and the second-order cone
+bounds what else there is; the same holds for a branch that is continued numerically.
 """
 
 from __future__ import annotations
 
 from dofkit.configuration.local.branches import largest_branch
 from dofkit.configuration.local.germ import CRITICAL_ORDER, Conclusion, Germ
-from dofkit.configuration.local.initial_forms import definite_degree, have_no_common_zero
 from dofkit.configuration.local.neighbourhood import holds_on_critical
 from dofkit.configuration.local.second_order import one_form
 
@@ -71,27 +70,6 @@ def branch_followed(germ: Germ) -> Conclusion | None:
         return None
     why = "a finite motion was continued from here to high precision, and the second-order condition allows no more"
     return Conclusion(germ.cone, why)
-
-
-def of_two_variables(germ: Germ) -> bool:
-    """m - mu = 2, over both engines, and time is no column."""
-    return germ.exact and germ.ball is not None and germ.time is None and germ.m - germ.rigid == 2
-
-
-def no_common_zero(germ: Germ) -> Conclusion | None:
-    """A curve of the set leaves along a common zero of the initial forms, and there is none [CurveSelection]."""
-    if not have_no_common_zero(germ.initial_forms):
-        return None
-    return Conclusion(germ.rigid, "the initial forms of the dependent equations have no common zero: no finite motion")
-
-
-def definite_initial_form(germ: Germ) -> Conclusion | None:
-    """One initial form alone has no real zero [CurveSelection]."""
-    degree = None if germ.ball is None else definite_degree(germ.ball, germ.initial_forms)
-    if degree is None:
-        return None
-    why = f"the lowest-order term of a dependent equation is a definite form of degree {degree}: no finite motion"
-    return Conclusion(germ.rigid, why)
 
 
 def _vanishes_on_critical(germ: Germ) -> bool:
