@@ -78,7 +78,9 @@ KINDS: Mapping[str, Generator] = {
 }
 
 #: Kinds, and files of `found/`, whose answers are known to be wrong, with why: the short run leaves them out.
-OPEN: Mapping[str, str] = {}
+OPEN: Mapping[str, str] = {
+    "charts/size and place, with tolerance": "a linkage smaller than its tolerance, and far away, is told to be rigid",
+}
 
 
 def drawn(kind: str, seed: int, size: int) -> KnownScene:
