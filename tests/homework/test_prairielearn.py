@@ -220,4 +220,4 @@ def test_points_go_back_by_prairielearns_own_table_only(sheet: Path) -> None:
     arguments = ["grade", str(sheet), str(sheet.parent / "class.csv"), "--format", "prairielearn", "--out", str(out)]
     done = CliRunner().invoke(app, arguments)
     assert done.exit_code == 2
-    assert "by its own table" in done.output
+    assert "in its own table" in done.output

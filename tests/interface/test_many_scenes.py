@@ -164,7 +164,7 @@ def test_without_a_constraint(door: str, capsys: pytest.CaptureFixture[str]) -> 
     assert "lower" in out.partition("Constraints\n")[2].partition("Why")[0]
     assert "upper" not in out.partition("Constraints\n")[2].partition("Why")[0]
     _, out, _ = called(capsys, "classify", "--without", "upper,lower", door)
-    assert "Without upper, lower\n  degrees of freedom: 1 -> 6\n  velocities: 1 -> 6\n" in out
+    assert "Without upper, lower\n  degrees of freedom: 1 -> 6\n  velocity freedom: 1 -> 6\n" in out
     _, out, _ = called(capsys, "classify", "--json", "--without", "lower", door)
     assert [entry["name"] for entry in json.loads(out)["constraints"]] == ["upper"]
     status, _, err = called(capsys, "classify", "--without", "uper", door)

@@ -290,7 +290,6 @@ def test_a_link_too_many_that_grows_is_inconsistent_although_the_reference_satis
     [
         # ydot = 0 and udot = 0, so that wdot = 0: all are holonomic
         ("x y z w u", ["abs(ydot) + abs(udot + (w + z) ydot) = 0", "(1 + x^2) wdot + ydot = 0"]),
-        ("x y z", ["-x^2 >= 0", "x dy - dz = 0"]),
         # it has no value where all velocities are 0
         ("x y th", ["cos(th) = xdot/sqrt(xdot^2 + ydot^2)"]),
     ],

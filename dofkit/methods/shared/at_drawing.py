@@ -64,7 +64,8 @@ def _believed(looked: SampledPoints, numbers: Decider, dependent: int, where: st
 def _labels(looked: SampledPoints, numbers: Decider, sure: Verdict, trusted: bool) -> dict[int, MethodLabel]:
     written = looked.rows.written
     generic = written.system.reference is not None or not written.finite
-    good = trusted and generic and not written.others and regular(looked, numbers)
+    complete = set(written.others.values()) <= {"inequality"}
+    good = trusted and generic and complete and regular(looked, numbers)
     told: dict[int, MethodLabel] = {}
     for (i, _), passes in zip(looked.rows.forms, looked.passing, strict=True):
         if i in written.others:
