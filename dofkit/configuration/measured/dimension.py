@@ -41,6 +41,7 @@ NEAR, FAR_AWAY = 2.0, 30.0
 DIRECTIONS, FARTHER = 3, 3.0
 
 FOLLOWED = "the motion was continued for a finite step within the tolerance"
+ROUNDED = "so far from the origin the rounding of floating-point numbers exceeds the tolerance"
 MISSED = (
     "the measured reference configuration does not satisfy the equations within the tolerance, and the "
     "tolerance is meaningful only near it"
@@ -109,6 +110,8 @@ def _within_tolerance(chart: Chart, at: Mapping[Expr, float], setting: Setting) 
     n = chart.coordinates
     if not chart.nodes:
         return MeasuredFreedom(n, n, [], (), float("inf"), "")
+    if equations.rounding(at) > tolerance:
+        return MeasuredFreedom(None, None, [], (), float("inf"), ROUNDED)
     f, timed = equations.system(at)
     if float(np.max(np.abs(f))) > tolerance * SLACK:
         return MeasuredFreedom(None, None, [], (), float("inf"), MISSED)
@@ -121,9 +124,7 @@ def _within_tolerance(chart: Chart, at: Mapping[Expr, float], setting: Setting) 
     least = tolerance * SLACK / (lever * lever if lever > NEAR else 1.0)
     if np.any((singular > least) & (singular < tolerance * GREY)):
         return MeasuredFreedom(None, None, [], (), gap, "a singular value near the tolerance leaves the rank undecided")
-    problem = _Problem(
-        MeasuredPose(equations, at, timed, rank, tolerance), lever > FAR_AWAY or equations.rounding(at) > tolerance
-    )
+    problem = _Problem(MeasuredPose(equations, at, timed, rank, tolerance), lever > FAR_AWAY)
     conclusion = next(c for criterion in CRITERIA if (c := criterion(problem)) is not None)
     bound = problem.bound if conclusion.reason == OPEN else None
     if chart.time is not None:

@@ -60,8 +60,9 @@ class ScaledEquations:
         return float(np.max(turned[mixed] / shifted[mixed], initial=1.0))
 
     def rounding(self, at: Point) -> float:
-        """Return a bound of the residuals that rounding of the positions causes."""
-        positions = np.abs(self._vector(at)[self.lengths] / self.scale[self.lengths])
+        """Return a bound of the residuals that rounding of the positions, and of the bodies' arms, causes."""
+        numbers = np.maximum(np.abs(self._vector(at)), np.abs(self._arms.values(at)))
+        positions = numbers[self.lengths] / self.scale[self.lengths]
         return ROUNDING_GROWTH * float(np.finfo(float).eps) * float(np.max(positions, initial=0.0))
 
     def rigid_motions(self, at: Point) -> Any:
