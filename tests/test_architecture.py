@@ -225,7 +225,7 @@ def unknown_jobs() -> Iterator[str]:
 
 
 #: Rooms so small, or so clear from the names in them, that a list of modules would say nothing.
-UNLISTED = {"motion_checker", "base", "configuration", "integrability", "interface", "relations"}
+UNLISTED = {"motion_checker"}
 
 
 def unlisted_modules() -> Iterator[str]:

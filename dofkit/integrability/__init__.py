@@ -1,4 +1,24 @@
-"""Codistributions: the Lie algebra of admissible velocities, the derived flag, hidden relations, integrals.
+"""Integrability: which differential constraints are consequences of equations between coordinates, and what are these?
 
-`first_integrals` and `traits` stand in files of their own names, which hide a function that a room would hand on.
+The rows of a block are one-forms: the differentials of its finite relations and its Pfaffian forms. They span the
+codistribution I, whose kernel D holds the admissible velocities. A constraint is holonomic where its form lies in the
+last term of the derived flag of I.
+
+Types
+    `PfaffianSystem` (`pfaffian_system`) has the one-forms of a block; `Integrability` (`single_form`) is the proof
+    for one form on its own; a `HolonomyLabel` is what is known of a row in the system.
+
+Mechanisms, in the order in which they are tried
+    1. `single_form`: few variables, a closed form, w ^ dw = 0 by an identity, an integral that was found.
+    2. `lie_algebra` computes D and its brackets along one generic curve over GF(p), `lie_algebra_at_points` at points
+       and in balls; the dimension of the Lie algebra is the freedom, the dimensions on the way are the
+       `growth_vector`. `shared_forms` does this once for many questions, `regular_reference` at the reference
+       configuration itself.
+    3. `prolongation` finds hidden equations: where dt lies in the span of the rows, motion is confined to a locus.
+    4. `labels_by_field` and `labels_by_balls` label every row of a block with either engine.
+    5. `nonlinear_velocities`: what is not linear in the velocities restricts them where the fibres are curved at a
+       certified state; `modulo_others` asks whether the others make it linear.
+    6. `integrals` searches potentials and integrating factors (`first_integrals` of several forms together); every
+       result is proved by differentiation. `accelerations` integrates second derivatives once.
+    7. `traits` are the labels that a piece carries by itself: scleronomic, catastatic, exact.
 """
