@@ -37,5 +37,5 @@ def test_the_homework_is_graded_as_it_says(tmp_path: Path) -> None:
     result = dofkit.grade(folder / "sheet.yaml", folder / "ada.yaml")
     assert (result.score, result.max_score) == (7, 9)
     told = (SITE / "guide" / "homework.md").read_text(encoding="utf-8")
-    assert "Ada gets 7 of 9: 2 is the number of the disc's velocities" in told
+    assert "Ada gets 7 of 9: 2 is the number of independent generalized velocities of the disc" in told
     assert result.items[0].codes[0] == "OTHER_CONVENTION"

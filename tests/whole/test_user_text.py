@@ -77,7 +77,6 @@ def test_a_sheet_with_an_odd_title() -> None:
 #: Files that format templates which they or their tables hold, under a name that does not say so.
 OWN_TEMPLATES = {
     "base/documents/syntax_faults.py",
-    "classification/labels/one_sided.py",
     "expressions/text/printing.py",
     "homework/sentences/said.py",
     "scene/constraints/base.py",
