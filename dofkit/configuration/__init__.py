@@ -24,4 +24,5 @@ Mechanisms, in the order in which they are tried
 
 `finite_blocks` puts these together for blocks of finite relations; `rigid_motions` are the motions of the system as
 one body, and `level_bodies` the bodies whose Euler angles are singular.
+`implied_relations` asks whether a dependent relation is implied by others near the reference configuration.
 """

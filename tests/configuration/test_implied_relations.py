@@ -8,8 +8,8 @@ import pytest
 
 import dofkit
 from dofkit.classification.freedom.preparation import prepared
-from dofkit.configuration.drawing import implied_relations
-from dofkit.configuration.drawing.implied_relations import BESIDE, ImpliedRelations
+from dofkit.configuration import implied_relations
+from dofkit.configuration.implied_relations import BESIDE, ImpliedRelations
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.scene.lowering import lower

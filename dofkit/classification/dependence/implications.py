@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from dofkit.classification.dependence.implication import follows
-from dofkit.configuration.drawing.implied_relations import ImpliedRelations
+from dofkit.configuration.implied_relations import ImpliedRelations
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, coordinates_of
