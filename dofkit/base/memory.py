@@ -15,7 +15,7 @@ OF_EACH = 100
 
 
 @contextmanager
-def unhurried(constraints: int = 0) -> Iterator[None]:
+def gc_rarely(constraints: int = 0) -> Iterator[None]:
     """Garbage is looked for seldom: expressions are trees, and to look through millions of them takes half the time.
 
     What was made before, and what stays of what is made within, is looked through as seldom as all that is old. Of many
@@ -32,7 +32,7 @@ def unhurried(constraints: int = 0) -> Iterator[None]:
 
 
 @contextmanager
-def undisturbed() -> Iterator[None]:
+def gc_paused() -> Iterator[None]:
     """No garbage is looked for: for what makes hardly any beside what it was asked for, and stays."""
     if not gc.isenabled():
         yield

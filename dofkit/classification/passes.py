@@ -8,13 +8,13 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import DEFAULT_SECONDS, limited, part, unless_late
-from dofkit.base.memory import unhurried
+from dofkit.base.memory import gc_rarely
 from dofkit.base.verdicts import weakest
 from dofkit.classification import report as fields
 from dofkit.classification.agreements import agreed
 from dofkit.classification.claims import claims, freedom
 from dofkit.classification.counts import counts_beside
-from dofkit.classification.feasibility.told import inequalities_together
+from dofkit.classification.feasibility.feasibility_fields import inequalities_together
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
@@ -239,7 +239,7 @@ def examined(
     passes: Iterable[Pass] = PASSES,
 ) -> Examined:
     """All that some engines find of a system in so many seconds, with some ``reductions``. Raises OutOfTimeError."""
-    with limited(seconds), precise_for(system.longest), unhurried(len(system.constraints)):
+    with limited(seconds), precise_for(system.longest), gc_rarely(len(system.constraints)):
         with part(SOLVING):
             found = study(system, engines, reductions)
         return Examined(found, report_of(found, passes))

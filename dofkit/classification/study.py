@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import part, unless_late
 from dofkit.base.verdicts import About, least
-from dofkit.classification.dependence.circuits import Redundancies, left_open
+from dofkit.classification.dependence.circuits import Redundancies, undecided_dependence
 from dofkit.classification.dependence.conflicts import Conflict, conflict
 from dofkit.classification.dependence.redundancy import all_needed, redundancies
 from dofkit.classification.freedom.branches import Outcome, solve
@@ -71,7 +71,7 @@ class Study:
     @cached_property
     def dependence(self) -> Dependence:
         """What conflicts and what depends on what, in a share of the time."""
-        nothing = left_open(i for i, r in enumerate(self.reduced) if r.normals)
+        nothing = undecided_dependence(i for i, r in enumerate(self.reduced) if r.normals)
         conflicting = Conflict([])
         with part(DEPENDENCE):
             if self.outcome.consistent is False:

@@ -27,12 +27,12 @@ from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.relations.beside_others import form_rate, rate
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.chart_of_block import aliases
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
+from dofkit.relations.velocity_reductions import form_rate, rate
 
 #: Draws of one state from which the one that is taken has to come.
 TRIES = 3

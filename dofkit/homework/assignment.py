@@ -19,7 +19,7 @@ from dofkit.homework.key.own_coordinates import faults_of_own
 from dofkit.homework.problem import Problem, Variants, faults_of_names, weighted
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.review.rows import Decisions
-from dofkit.homework.sentences.said import Language
+from dofkit.homework.sentences.translations import Language
 from dofkit.homework.statement import faults_of_places
 from dofkit.homework.variants.structure import Structure, structures
 from dofkit.scene.fields import WrittenModel, exact, fault_error, faults_of

@@ -36,7 +36,7 @@ from dofkit.homework.result import Item, Result
 from dofkit.homework.runs.batch import Orders
 from dofkit.homework.runs.keeper import MODULES, Keeper
 from dofkit.homework.runs.review_files import TABLE, RunReview
-from dofkit.homework.sentences.said import Language
+from dofkit.homework.sentences.translations import Language
 from dofkit.homework.stand_ins import list_open
 
 #: A longer file of a platform is not read.

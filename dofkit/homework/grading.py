@@ -42,7 +42,7 @@ from dofkit.homework.result import Item, PossibleReading, Result
 from dofkit.homework.review.filled_table import read_table
 from dofkit.homework.review.identity import answer_id
 from dofkit.homework.review.rows import Decision
-from dofkit.homework.sentences.said import Said, in_language, say
+from dofkit.homework.sentences.translations import Said, in_language, say
 
 #: Seconds of processor time for one answer; what is not decided then needs a review.
 ANSWER_SECONDS = 5.0

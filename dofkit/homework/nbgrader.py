@@ -27,7 +27,7 @@ from collections.abc import Mapping
 from dofkit.homework.formats.wording import points as told_points
 from dofkit.homework.formats.wording import remark, stand_in, title
 from dofkit.homework.notebooks import Source, item_of
-from dofkit.homework.sentences.said import in_language
+from dofkit.homework.sentences.translations import in_language
 from dofkit.homework.stand_ins import list_open
 
 HALF = "It counts half of the points until a person has reviewed it."

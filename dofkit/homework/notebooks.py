@@ -16,7 +16,7 @@ from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.grading import Grader
 from dofkit.homework.result import Item
-from dofkit.homework.sentences.said import Language
+from dofkit.homework.sentences.translations import Language
 
 #: An assignment: its path, or what was made of it.
 Source = str | os.PathLike[str] | Mapping[str, Any] | Prepared

@@ -23,7 +23,7 @@ from dofkit.homework.notebooks import QuestionError
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.repairs import nearest_reading
 from dofkit.homework.result import Item
-from dofkit.homework.sentences.said import Language, in_language
+from dofkit.homework.sentences.translations import Language, in_language
 from dofkit.scene.reading import load
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from dofkit.base.errors import Fault
 from dofkit.expressions.text.typesetting import typeset
-from dofkit.homework.sentences.said import Language, described
+from dofkit.homework.sentences.translations import Language, described
 from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.fields import as_written, suggestion
 from dofkit.scene.names import coordinate_table

@@ -33,10 +33,10 @@ from dofkit.integrability.lie_algebra import Span
 from dofkit.integrability.lie_algebra_at_points import ball_span, span_at
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution
 from dofkit.relations.answer import Answer, HolonomyLabel
-from dofkit.relations.beside_others import RewrittenRow
 from dofkit.relations.blocks import Block, coordinates_of
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
+from dofkit.relations.velocity_reductions import RewrittenRow
 
 #: Velocities of the Lie algebra that are tried at a point, and states at which a reduction is checked.
 VECTORS, CHECKED = 3, 2

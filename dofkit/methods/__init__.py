@@ -22,7 +22,7 @@ The methods, each in a file of its name; `dispatch` asks them one by one
         dofkit's engines: both, or one of them alone.
     `shared` has what several of them need: the drawing, the equations as written, replies.
 
-Around them: `stages` gives a report in which all is undecided at once and refines it; `in_worker` classifies in a
+Around them: `stages` gives a report in which all is undecided at once and refines it; `worker_reports` classifies in a
 worker that can be killed; `unread` says what is left of a scene that could not be read; `certificates` searches for
 the evidence that `dofkit.checker` rechecks.
 """

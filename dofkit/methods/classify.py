@@ -12,10 +12,10 @@ from dofkit.base.errors import ArgumentError, Fault, SceneError
 from dofkit.classification.study import study
 from dofkit.exact.points.balls import precise_for
 from dofkit.methods.certificates import lowering
-from dofkit.methods.in_worker import in_worker
 from dofkit.methods.names import MethodName
 from dofkit.methods.stages import classified
 from dofkit.methods.table import METHODS
+from dofkit.methods.worker_reports import report_from_worker
 from dofkit.report import Report
 from dofkit.scene.lowering import lower
 from dofkit.scene.reading import SceneLike, scene_or_system
@@ -124,7 +124,7 @@ def _classified(given: Scene | System, budget: float | None, method: MethodName)
     if budget is None:
         return classified(given, DEFAULT_SECONDS, method)
     seconds = seconds_of(budget)
-    report = in_worker(given, seconds, method)
+    report = report_from_worker(given, seconds, method)
     if report is not None:
         return report
     report = classified(given, seconds, method)

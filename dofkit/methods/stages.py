@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, limited
-from dofkit.base.memory import unhurried
+from dofkit.base.memory import gc_rarely
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.passes import PASSES, PLAIN, examined
@@ -39,7 +39,7 @@ def stages(scene: Scene | System, seconds: float, method: MethodName = "auto") -
     yield _classified(system, until - time.monotonic(), method)
 
 
-@unhurried()
+@gc_rarely()
 def classified(scene: Scene | System, seconds: float, method: MethodName = "auto") -> Report:
     """The last of the `stages`."""
     until = time.monotonic() + seconds

@@ -12,8 +12,8 @@ Mechanisms, in the order in which an equation meets them
        roots by the signs of their arguments; extreme values of sines and cosines; analytic functions with known
        zeros; relations quadratic in the velocities whose discriminant is a square, as linear branches. What it does
        not know stays as it is.
-    2. `beside_others` reduces relations nonlinear in the velocities by the linear ones. `integration_constants` gives
-       every integrated form dC = 0 its constant as a coordinate.
+    2. `velocity_reductions` reduces relations nonlinear in the velocities by the linear ones.
+       `integration_constants` gives every integrated form dC = 0 its constant as a coordinate.
     3. `blocks` separates what shares no coordinate; `piece_shapes` recognises equations that are equal up to names.
        `joint_equations` leaves the equations of a joint unwritten until they are needed. `reductions` is the table of
        what need not be modelled, with the reason why no answer changes.

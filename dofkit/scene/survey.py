@@ -12,7 +12,7 @@ from itertools import chain
 from typing import Any, Protocol
 
 from dofkit.base.errors import Fault
-from dofkit.base.memory import unhurried
+from dofkit.base.memory import gc_rarely
 from dofkit.expressions.text import Names
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.vectors import Vec
@@ -72,7 +72,7 @@ class Survey:
         return self.drawing.vocabulary.names
 
 
-@unhurried()
+@gc_rarely()
 def survey(scene: Surveyed, euler: bool = False) -> Survey:
     """Read everything; nothing is raised for what is at fault.
 

@@ -15,7 +15,7 @@ from dofkit.homework.answers.attribution import by_platform, by_roster
 from dofkit.homework.answers.roster import Participant, Roster, RosterError, load_roster
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, FormatError
-from dofkit.homework.formats.apart import apart_path
+from dofkit.homework.formats.unplaced_results import apart_path
 from dofkit.homework.formats.wording import standing
 from dofkit.homework.result import Item, Result
 

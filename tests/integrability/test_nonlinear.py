@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.classification.dependence import by_implication, redundancy
+from dofkit.classification.dependence import implied_constraints, redundancy
 
 ROLLING = ("dx = a cos(theta) dphi", "dy = a sin(theta) dphi")
 SIZES = {"a": "positive", "b": "positive", "w": "positive"}
@@ -329,7 +329,7 @@ def test_the_reason_tells_what_is_left_of_it() -> None:
 
 def test_more_constraints_than_are_tried_one_by_one_are_left_open(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is not sought is not denied: that the last follows from the first."""
-    for module in (by_implication, redundancy):
+    for module in (implied_constraints, redundancy):
         monkeypatch.setattr(module, "MAX_CHOICES", 2)
     report = report_of(scene("x y z u", "zdot = y xdot", "udot = x ydot", "zdot^2 = y^2 xdot^2"))
     assert (report["redundant_equations"], report["redundant"], report["verdict"]) == (1, None, "undecided")

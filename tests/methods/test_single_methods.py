@@ -19,7 +19,7 @@ from dofkit.report import Report
 
 HOME = Path(dofkit.methods.__file__).parent
 #: Modules of the package that are no method.
-SHARED = {"__init__", "ask", "classify", "dispatch", "engine", "in_worker", "names", "stages", "table", "unread"}
+SHARED = {"__init__", "ask", "classify", "dispatch", "engine", "worker_reports", "names", "stages", "table", "unread"}
 RIVALS: tuple[MethodName, ...] = tuple(m for m in METHODS if not METHODS[m].engines)
 #: Rivals that are quick enough for every scene.
 QUICK: tuple[MethodName, ...] = tuple(m for m in RIVALS if m != "symbolic")

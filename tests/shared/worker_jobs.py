@@ -60,7 +60,7 @@ def stuck(path: str = "") -> None:
 
 def sketched(payload: Any) -> Iterator[Any]:
     """What a scene is asked for, hanging inside a library after the sketch."""
-    from dofkit.methods.in_worker import classified
+    from dofkit.methods.worker_reports import classified
 
     yield next(classified(payload))
     stuck()

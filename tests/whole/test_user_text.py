@@ -78,7 +78,7 @@ def test_a_sheet_with_an_odd_title() -> None:
 OWN_TEMPLATES = {
     "base/documents/syntax_faults.py",
     "expressions/text/printing.py",
-    "homework/sentences/said.py",
+    "homework/sentences/translations.py",
     "scene/constraints/base.py",
     "scene/tagged_union.py",
 }

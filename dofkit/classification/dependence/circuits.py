@@ -62,7 +62,7 @@ class Redundancies:
         return replace(self, redundant=redundant, circuits=circuits)
 
 
-def left_open(constraints: Iterable[int]) -> Redundancies:
+def undecided_dependence(constraints: Iterable[int]) -> Redundancies:
     """Nothing is known of these constraints."""
     return Redundancies({}, [], [], {}, tuple(sorted(set(constraints))))
 

@@ -14,18 +14,18 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.classification.freedom.branches import in_time
-from dofkit.classification.freedom.through_reference import all_of, conditional, through_reference
+from dofkit.classification.freedom.reference_branches import all_of, branches_at_reference, conditional
 from dofkit.configuration.states import States, value_at, vanishes
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.beside_others import MAX_WAYS, Way, form_rate, ways_of
 from dofkit.relations.blocks import Row, coordinates_of, split
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.no_solution import hold_nowhere, no_solution
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian, Piece
 from dofkit.relations.setting import Setting
+from dofkit.relations.velocity_reductions import MAX_WAYS, Way, form_rate, ways_of
 
 #: No coordinate has this name.
 SLACK = "_s"
@@ -48,10 +48,10 @@ class AskedBranch(NamedTuple):
 def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool | None:
     """Does a relation hold on every branch of the others? None where that was not decided."""
     here = replace(setting, reference=None, pose={}, grows=False, flag=False)
-    relation = through_reference(normal, setting)
+    relation = branches_at_reference(normal, setting)
     if conditional(relation):
         return None
-    choices = list(cartesian(*(through_reference(o, setting).branches for o in others)))
+    choices = list(cartesian(*(branches_at_reference(o, setting).branches for o in others)))
     if len(choices) > MAX_CHOICES:
         return None
     told: list[bool | None] = []

@@ -9,13 +9,19 @@ from functools import partial
 
 from dofkit.base.components import components
 from dofkit.base.deadline import unless_late
-from dofkit.classification.dependence import by_leaving_out, implications
-from dofkit.classification.dependence.by_implication import MAX_CHOICES, implied
-from dofkit.classification.dependence.by_rank import analysed, at_a_point, holds_where, joined_parts, without_hidden
-from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse, left_open
+from dofkit.classification.dependence import constraint_removal, implications
+from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse, undecided_dependence
+from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, implied
+from dofkit.classification.dependence.rank_dependence import (
+    analysed,
+    at_a_point,
+    holds_where,
+    joined_parts,
+    without_hidden,
+)
 from dofkit.classification.dependence.regions import is_conditional, is_region, of_regions
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.through_reference import through_reference
+from dofkit.classification.freedom.reference_branches import branches_at_reference
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition
@@ -50,7 +56,7 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
 def _or_open(work: Callable[[], list[Redundancies]], numbers: Sequence[int]) -> list[Redundancies]:
     """What is found of some constraints; where there is no time for it they are left open."""
     found = unless_late(work, None)
-    return [left_open(numbers)] if found is None else found
+    return [undecided_dependence(numbers)] if found is None else found
 
 
 def all_needed(found: Sequence[Redundancies], reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
@@ -113,7 +119,7 @@ def _of_relations(
     settled = [a for a in answered if isinstance(a, Redundancies)]
     needed = set[int]().union(*(r.needed for r in settled))
     by_rank = [
-        unless_late(partial(analysed, group, needed), left_open(o for rows in group for o in rows.owners))
+        unless_late(partial(analysed, group, needed), undecided_dependence(o for rows in group for o in rows.owners))
         for group in joined_parts([a for a in answered if isinstance(a, OwnedRows)])
     ]
     if any(_conditional(reduced[i]) for r in by_rank for i in r.redundant):
@@ -146,7 +152,7 @@ def _as_free(found: Redundancies, reduced: Sequence[Reduced], blocks: Sequence[t
     equations = sum(reduced[i].equations for i in found.independent)
     if sum(found.independent.values()) <= taken and _hold_the_others(found, equations):
         return found
-    parts = [OwnedRows(a.matrix, by_leaving_out.owners_of(b), _finite_rows(b), a.modulus) for b, a in blocks]
+    parts = [OwnedRows(a.matrix, constraint_removal.owners_of(b), _finite_rows(b), a.modulus) for b, a in blocks]
     known = all(len(part.matrix) == len(part.owners) for part in parts)
     by_rank = analyse(parts) if known else Redundancies({}, [], [], {})
     with_rows = {owner for part in parts for owner in part.owners}
@@ -178,7 +184,7 @@ def _measured_by_rank(
 ) -> bool:
     """Does the rank of rows measure dependence: one branch, and nothing nonlinear or hidden (constants apart)?"""
     normals = [n for i in numbers for n in reduced[i].normals]
-    if any(len(through_reference(n, setting).branches) > 1 for n in normals):
+    if any(len(branches_at_reference(n, setting).branches) > 1 for n in normals):
         return False
     bent = any(isinstance(p, Nonlinear) for n in normals for p in n.pieces)
     hidden = any(a.hidden for _, a in blocks) and len(numbers) <= MAX_CHOICES
@@ -190,16 +196,16 @@ def _of_block(
 ) -> Iterator[Redundancies | OwnedRows]:
     """What is settled of a block at once, or its rows where their rank tells."""
     nullity = len(block.rows) - (len(block.coordinates) - (a.velocity_dof or 0))
-    owners = by_leaving_out.owners_of(block)
+    owners = constraint_removal.owners_of(block)
     equations = [numbered.get(id(r.piece), -1) for r in block.rows]
     matrix = without_hidden(block, a)
     if nullity <= 0 and a.hidden and not a.degenerate:
         yield _independent(dict(Counter(owners)))
     elif a.degenerate and "balls" not in setting.engines:
-        yield left_open(owners)
+        yield undecided_dependence(owners)
     elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
         yield unless_late(
-            partial(by_leaving_out.by_leaving_out, block, setting, a, nullity, equations), left_open(owners)
+            partial(constraint_removal.by_removal, block, setting, a, nullity, equations), undecided_dependence(owners)
         )
     else:
         finite = _finite_rows(block)

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dofkit.base.deadline import check
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.dependence.implication import SLACK
-from dofkit.classification.freedom.through_reference import all_of
+from dofkit.classification.freedom.reference_branches import all_of
 from dofkit.configuration.states import States, value_at
 from dofkit.exact.ring.instructions import Scalar
 from dofkit.expressions import tree as ex

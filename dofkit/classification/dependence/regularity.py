@@ -20,7 +20,6 @@ from dofkit.exact.zero.identity import is_proved_zero
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.differentials import in_velocities
 from dofkit.expressions.tree import Expr
-from dofkit.relations.beside_others import eliminated, form_rate
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.normal.normal_form import velocities_of
@@ -28,6 +27,7 @@ from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian, Piece
 from dofkit.relations.normal.polynomial_zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
+from dofkit.relations.velocity_reductions import eliminated, form_rate
 
 #: Choices of branches on which gradients are looked at.
 MAX_BRANCHES = 16

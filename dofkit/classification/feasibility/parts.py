@@ -11,13 +11,13 @@ from dofkit.base.components import components
 from dofkit.classification.feasibility.refutation import SignClaim
 from dofkit.expressions.differentials import accelerations_of
 from dofkit.expressions.tree import Expr
-from dofkit.relations.beside_others import form_rate, rate
 from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.integration_constants import with_rows
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Pfaffian, Still
 from dofkit.relations.reduced import Reduced
+from dofkit.relations.velocity_reductions import form_rate, rate
 
 #: Choices of branches that are looked at.
 MAX_CHOICES = 16

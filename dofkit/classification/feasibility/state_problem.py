@@ -20,12 +20,12 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import has_call
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
-from dofkit.relations.beside_others import form_rate, rate
 from dofkit.relations.blocks import Row
 from dofkit.relations.linear import presolve
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
+from dofkit.relations.velocity_reductions import form_rate, rate
 
 
 @dataclass(frozen=True)

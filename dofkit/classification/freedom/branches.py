@@ -15,12 +15,11 @@ from dofkit.classification.freedom.common_point import at_one_point
 from dofkit.classification.freedom.copies import copies
 from dofkit.classification.freedom.domain import restricted_to_domain
 from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses
-from dofkit.classification.freedom.through_reference import crossing_at, through_reference, ways_through_reference
+from dofkit.classification.freedom.reference_branches import branches_at_reference, crossing_at, reductions_at_reference
 from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.modulo_others import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.relations.answer import Answer, AnsweredPart
-from dofkit.relations.beside_others import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.relations.blocks import Block, Row, blocks_of, split, with_boundaries
 from dofkit.relations.integration_constants import names_in, with_rows
 from dofkit.relations.joint_equations import JointEquation
@@ -29,6 +28,7 @@ from dofkit.relations.normal.one_sided import holds_somewhere
 from dofkit.relations.normal.pieces import Normal, Still
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
+from dofkit.relations.velocity_reductions import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.system import System
 
 #: Choices of branches that are looked at.
@@ -135,7 +135,7 @@ def _bound(block: Block, a: Answer) -> int:
 
 def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outcome:
     """The largest of the branches, answered block by block."""
-    normals = [(i, through_reference(normal, setting)) for i, r in enumerate(reduced) for normal in r.normals]
+    normals = [(i, branches_at_reference(normal, setting)) for i, r in enumerate(reduced) for normal in r.normals]
     options = [range(len(normal.branches)) or (None,) for _, normal in normals]
     positive = setting.positive
     never, unsettled = _one_sided(reduced, positive)
@@ -156,7 +156,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
                 rows += [Row(i, p) for p in normal.branches[branch]]
         ways = ways_of(with_boundaries(with_rows(rows, constants)), positive)
         why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
-        for way in ways_through_reference(ways, setting):
+        for way in reductions_at_reference(ways, setting):
             names = [*(c.name for c in system.coordinates), *names_in(way.rows, constants)]
             outcome = _answered(names, way.rows, impossible, domain, setting, known)
             outcome.reduced, outcome.divided = way.reduced, way.divided
@@ -295,7 +295,7 @@ class AnsweredBlocks:
         key, names = likenesses.of(block)
         known = self._alike.get(key)
         if known is not None:
-            return known.told_of(block, names)
+            return known.answer_of_twin(block, names)
         found = in_time(block, setting)
         found.kind = len(self._alike)
         self._alike[key] = AnsweredBlock(block, names, found)

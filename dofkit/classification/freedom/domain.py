@@ -28,7 +28,6 @@ from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
-from dofkit.relations.beside_others import given_by
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.chart import Chart
 from dofkit.relations.chart_of_block import make_chart
@@ -36,6 +35,7 @@ from dofkit.relations.normal.domain import DomainCondition, holds_at
 from dofkit.relations.normal.no_solution import hold_nowhere
 from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
+from dofkit.relations.velocity_reductions import given_by
 
 #: Searches for a point, each from other starts and, but for the first, at a time later or earlier by such a factor.
 SEEDS, LATER = 6, 4.0

@@ -82,7 +82,7 @@ class AnsweredBlock(NamedTuple):
     names: tuple[str, ...]
     answer: Answer
 
-    def told_of(self, twin: Block, names: tuple[str, ...]) -> Answer:
+    def answer_of_twin(self, twin: Block, names: tuple[str, ...]) -> Answer:
         """The answer for a twin with other names."""
         a = copy(self.answer)
         renaming = Renaming(dict(zip(self.names, names, strict=True)))
@@ -109,4 +109,4 @@ class AnsweredBlock(NamedTuple):
             tuple([rows[id(r)] for r in part.block.rows]),
             tuple([conditions[id(c)] for c in part.block.conditions]),
         )
-        return AnsweredPart(own, AnsweredBlock(part.block, self.names, part.answer).told_of(own, names))
+        return AnsweredPart(own, AnsweredBlock(part.block, self.names, part.answer).answer_of_twin(own, names))

@@ -13,12 +13,12 @@ from dofkit.base.verdicts import Claim, Verdict, weakest
 from dofkit.base.wording import verb
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.labels.by_itself import by_itself
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.equation_names import in_words
 from dofkit.classification.labels.reasons import Others
 from dofkit.classification.labels.shared_entries import SharedEntries
+from dofkit.classification.labels.single_constraint_labels import by_itself
 from dofkit.integrability.modulo_others import label_modulo_others
 from dofkit.relations.answer import GAP
 from dofkit.relations.blocks import Row

@@ -21,9 +21,9 @@ from collections.abc import Iterator
 
 from dofkit.homework.answers.roster import Participant, Roster
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.formats.apart import beside, with_rows
 from dofkit.homework.formats.base import Format, FormatError, Target
 from dofkit.homework.formats.cells import cell
+from dofkit.homework.formats.unplaced_results import beside, with_rows
 from dofkit.homework.formats.wording import line, number
 from dofkit.homework.result import Result
 

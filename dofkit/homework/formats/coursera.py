@@ -15,7 +15,7 @@ from dofkit.homework.formats.base import Format, Target
 from dofkit.homework.formats.documents import write_documents
 from dofkit.homework.formats.wording import OPEN_SHARE, feedback, number, stand_in
 from dofkit.homework.result import Result
-from dofkit.homework.sentences.said import Language, in_language
+from dofkit.homework.sentences.translations import Language, in_language
 
 
 def provisional(result: Result) -> float:

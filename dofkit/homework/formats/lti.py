@@ -16,7 +16,7 @@ from dofkit.homework.formats.base import Format, Target
 from dofkit.homework.formats.documents import write_documents
 from dofkit.homework.formats.wording import decided, feedback, identity
 from dofkit.homework.result import Result
-from dofkit.homework.sentences.said import Language
+from dofkit.homework.sentences.translations import Language
 
 
 def document(result: Result, timestamp: str, language: Language = "en") -> dict[str, Any]:

@@ -23,9 +23,9 @@ from itertools import chain
 
 from dofkit.homework.answers.roster import Participant, Roster
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.formats.apart import beside, with_rows
 from dofkit.homework.formats.base import Format, Target
 from dofkit.homework.formats.cells import cell, is_cell
+from dofkit.homework.formats.unplaced_results import beside, with_rows
 from dofkit.homework.formats.wording import feedback, line, number
 from dofkit.homework.result import Result
 

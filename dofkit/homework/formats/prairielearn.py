@@ -18,7 +18,7 @@ from dofkit.homework.formats.documents import text, write_documents
 from dofkit.homework.formats.prairielearn_scores import write_scores
 from dofkit.homework.formats.wording import line, plain, remark, shortened, standing, title
 from dofkit.homework.result import Item, Result
-from dofkit.homework.sentences.said import Language, in_language
+from dofkit.homework.sentences.translations import Language, in_language
 
 #: PrairieLearn takes no more than a megabyte; and the characters of one text where that is too much.
 MOST_BYTES, MOST_CHARACTERS = 1_000_000, 1000

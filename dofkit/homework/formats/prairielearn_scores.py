@@ -17,12 +17,12 @@ from dofkit.homework.answers.prairielearn import SubmittedRow
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.answers.sources import submitted_in
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.formats.apart import beside, unfit
 from dofkit.homework.formats.base import FormatError, Handback
 from dofkit.homework.formats.cells import cell
+from dofkit.homework.formats.unplaced_results import beside, unfit
 from dofkit.homework.formats.wording import number, plain, points, title
 from dofkit.homework.result import Item, Result
-from dofkit.homework.sentences.said import Language
+from dofkit.homework.sentences.translations import Language
 from dofkit.homework.statement import marked
 
 #: Less than this makes no difference to a percentage.

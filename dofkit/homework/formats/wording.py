@@ -7,7 +7,7 @@ import re
 from typing import NamedTuple
 
 from dofkit.homework.result import Item, Result, Status
-from dofkit.homework.sentences.said import Language, in_language
+from dofkit.homework.sentences.translations import Language, in_language
 
 #: The share of its points that stands for an answer that could not be decided where a number has to stand.
 OPEN_SHARE = 0.5

@@ -18,7 +18,7 @@ from dofkit.homework.key.key import Key
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.questions.equations import EquationQuestion
-from dofkit.homework.sentences.said import Language, described, say
+from dofkit.homework.sentences.translations import Language, described, say
 from dofkit.homework.statement import ALL, filled, marked, places, shown
 from dofkit.scene.fields import as_written
 from dofkit.scene.names import coordinate_table

@@ -17,7 +17,7 @@ from dofkit.homework.judgement import HALF, NOTHING, Given, JudgedReading, Judge
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import renamed, without_own
 from dofkit.homework.key.second_derivatives import held_accelerations
-from dofkit.homework.sentences.said import say
+from dofkit.homework.sentences.translations import say
 from dofkit.scene.added_equations import Read, with_equations
 from dofkit.scene.lowering import lower
 from dofkit.system import System

@@ -12,7 +12,7 @@ from pydantic import BeforeValidator, Field
 from dofkit.base.errors import Fault
 from dofkit.homework.judgement import Given, Judgement, Sentence
 from dofkit.homework.key.key import Key
-from dofkit.homework.sentences.said import Said, say
+from dofkit.homework.sentences.translations import Said, say
 from dofkit.scene.fields import Number, WrittenModel, exact, fault_error
 
 #: The numbers that a student gave to earlier questions of the same problem, by what was asked.

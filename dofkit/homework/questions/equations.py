@@ -18,7 +18,7 @@ from dofkit.homework.key.compared_integrals import integral_judgement
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.stated_equations import equations_of
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.homework.sentences.said import say
+from dofkit.homework.sentences.translations import say
 from dofkit.scene.fields import Listed, suggestion
 
 

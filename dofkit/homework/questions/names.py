@@ -12,7 +12,7 @@ from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_coordinates import chosen_coordinates
 from dofkit.homework.key.selection import can_be_dropped, determine
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.homework.sentences.said import say
+from dofkit.homework.sentences.translations import say
 
 
 class Coordinates(QuestionBase):

@@ -7,7 +7,7 @@ from contextlib import suppress
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.own_sheets import NobodysSheetError, SheetDrawer
 from dofkit.homework.review.queue import Queue, QueuedAnswer
-from dofkit.homework.sentences.said import say
+from dofkit.homework.sentences.translations import say
 from dofkit.homework.statement import named
 
 #: Answers whose variants are told: each may take a sheet to be made again.

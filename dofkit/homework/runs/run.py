@@ -23,7 +23,7 @@ from dofkit.homework.answers.roster import Roster, load_roster
 from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
-from dofkit.homework.formats.apart import apart_path
+from dofkit.homework.formats.unplaced_results import apart_path
 from dofkit.homework.result import Result
 from dofkit.homework.runs.appeals import Appeals
 from dofkit.homework.runs.batch import Orders, ResultLine

@@ -12,7 +12,7 @@ from dofkit.homework.own_sheets import NobodysSheetError, own
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, Result, Status
-from dofkit.homework.sentences.said import Language, in_language
+from dofkit.homework.sentences.translations import Language, in_language
 
 
 class Badge(NamedTuple):

@@ -8,10 +8,10 @@ from typing import Literal
 from dofkit.base.components import components
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import About
-from dofkit.classification.dependence.by_implication import MAX_CHOICES, constraint_follows
 from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse
 from dofkit.classification.dependence.implication import SLACK
-from dofkit.classification.freedom.through_reference import algebraic, all_of
+from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows
+from dofkit.classification.freedom.reference_branches import algebraic, all_of
 from dofkit.configuration.states import States
 from dofkit.exact.matrices.sparse import SparseRow
 from dofkit.exact.ring.ring import Ring

@@ -22,10 +22,10 @@ from dofkit.scene.scene import Scene
 from dofkit.system import System
 
 #: The function that a worker is asked for, `classified` below.
-CLASSIFIED = "dofkit.methods.in_worker:classified"
+CLASSIFIED = "dofkit.methods.worker_reports:classified"
 
 
-def in_worker(scene: Scene | System, budget: float, method: MethodName) -> Report | None:
+def report_from_worker(scene: Scene | System, budget: float, method: MethodName) -> Report | None:
     """The report on a scene, from a worker; None where no process can be started here.
 
     Raises SceneError with the faults of the scene, RuntimeError where the classification itself fails.

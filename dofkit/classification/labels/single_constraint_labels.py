@@ -11,7 +11,7 @@ from dofkit.classification.freedom.block import alone
 from dofkit.classification.freedom.branches import MAX_CHOICES
 from dofkit.classification.freedom.domain import restricted_to_domain
 from dofkit.classification.freedom.parts import AnsweredParts
-from dofkit.classification.freedom.through_reference import through_reference
+from dofkit.classification.freedom.reference_branches import branches_at_reference
 from dofkit.classification.labels.entry import LabelledRow
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, coordinates_of
@@ -45,7 +45,7 @@ def _largest(i: int, r: Reduced, parts: AnsweredParts) -> Answer | None:
     mentioned = {name for n in r.normals for b in n.branches for p in b for name in coordinates_of(p)}
     mentioned -= {*r.constants}
     constants = {c: Row(i, Still(c)) for c in r.constants}
-    normals = [through_reference(normal, parts.setting) for normal in r.normals]
+    normals = [branches_at_reference(normal, parts.setting) for normal in r.normals]
     best: tuple[tuple[int, int, int], Answer, bool] | None = None
     seen_all = True
     for number, choice in enumerate(islice(cartesian(*(n.branches for n in normals)), MAX_CHOICES + 1)):

@@ -12,18 +12,18 @@ from itertools import combinations
 
 from dofkit.base.deadline import OutOfTimeError, check, limited
 from dofkit.base.verdicts import Verdict, weakest
-from dofkit.classification.dependence.by_implication import LEAVING_SECONDS
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.dependence.equation_count import Freedoms, counted, freedoms
 from dofkit.classification.dependence.implications import Everywhere, NearDrawing, is_drawn
-from dofkit.classification.freedom.through_reference import all_of
+from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
+from dofkit.classification.freedom.reference_branches import all_of
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.pieces import Finite, Still
 from dofkit.relations.setting import Setting
 
 
-def by_leaving_out(block: Block, setting: Setting, a: Answer, nullity: int, numbered: Sequence[int]) -> Redundancies:
+def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered: Sequence[int]) -> Redundancies:
     """What can go, the last in the order first, without changing the freedom of the block nor its set.
 
     ``nullity``: rows too many by the freedom, where nothing else tells; ``numbered``: the equation each row is of.

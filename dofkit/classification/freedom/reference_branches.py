@@ -15,7 +15,6 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.differentials import accelerations_of, in_velocities
 from dofkit.expressions.tree import Expr
-from dofkit.relations.beside_others import Way
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart_of_block import make_chart
 from dofkit.relations.joint_equations import JointEquation
@@ -25,9 +24,10 @@ from dofkit.relations.normal.pieces import Finite, Normal, Piece
 from dofkit.relations.normal.signs import arguments_of, by_signs
 from dofkit.relations.normal.zero_set import zero_set
 from dofkit.relations.setting import Setting
+from dofkit.relations.velocity_reductions import Way
 
 
-def through_reference(normal: Normal, setting: Setting) -> Normal:
+def branches_at_reference(normal: Normal, setting: Setting) -> Normal:
     """The branches that hold at the reference configuration; all of them where none is given, or none holds there."""
     if setting.reference is None:
         return normal
@@ -39,7 +39,7 @@ def through_reference(normal: Normal, setting: Setting) -> Normal:
     return normal._replace(branches=kept) if kept else normal
 
 
-def ways_through_reference(ways: Sequence[Way], setting: Setting) -> Sequence[Way]:
+def reductions_at_reference(ways: Sequence[Way], setting: Setting) -> Sequence[Way]:
     """The ways in which rows read beside others that hold at the reference; all where none is given, or none does."""
     if setting.reference is None or len(ways) < 2:
         return ways

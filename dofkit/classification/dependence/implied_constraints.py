@@ -9,9 +9,9 @@ from itertools import combinations
 
 from dofkit.base.deadline import unless_late
 from dofkit.base.verdicts import About
-from dofkit.classification.dependence.circuits import Redundancies, left_open
+from dofkit.classification.dependence.circuits import Redundancies, undecided_dependence
 from dofkit.classification.dependence.implication import follows
-from dofkit.classification.freedom.through_reference import all_of
+from dofkit.classification.freedom.reference_branches import all_of
 from dofkit.relations.normal.pieces import Finite, Normal
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
@@ -23,8 +23,8 @@ MAX_CHOICES, LEAVING_SECONDS = 40, 5.0
 def implied(reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> Redundancies:
     """By implication; left open where the constraints are too many or there is no time left for them."""
     if len(numbers) > MAX_CHOICES:
-        return left_open(numbers)
-    return unless_late(partial(_by_implication, reduced, setting, numbers), left_open(numbers))
+        return undecided_dependence(numbers)
+    return unless_late(partial(_by_implication, reduced, setting, numbers), undecided_dependence(numbers))
 
 
 def _by_implication(reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int]) -> Redundancies:
