@@ -9,8 +9,11 @@ whether the velocities that it allows are curved (`integrability.nonlinear_veloc
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from math import prod
+from fractions import Fraction
+from math import gcd, isqrt, lcm, prod
 from typing import Any, NamedTuple
+
+from flint import fmpq
 
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, divided, lowest_terms
@@ -72,7 +75,8 @@ def _completed(
     slope = whole.derivative(place)
     lead = slope.derivative(place)
     discriminant = canon.reduce(slope * slope - 2 * lead * whole)
-    root = prod((f ** (k // 2) for f, k in canon.factors(discriminant)), start=canon.one)
+    content = canon.one * _square_content(discriminant)
+    root = prod((f ** (k // 2) for f, k in canon.factors(discriminant)), start=content)
     radicand = divided(discriminant, root * root)
     common = slope.gcd(root)
     left, under = lowest_terms(lead, common * common)
@@ -84,6 +88,15 @@ def _completed(
     if any(_has(u, velocities) for u in (square.radicand, *factors, *slopes)):
         return None
     return square if all(_vanishes_nowhere(u, positive) for u in factors) else None
+
+
+def _square_content(poly: Any) -> fmpq:
+    """Return a rational number whose square, divided out of a polynomial, leaves integer coefficients."""
+    coefficients = [Fraction(int(c.p), int(c.q)) for c in poly.to_dict().values()]
+    below = lcm(*(c.denominator for c in coefficients))
+    whole = gcd(*(int(c * below) for c in coefficients)) * below
+    is_square = whole > 0 and isqrt(whole) ** 2 == whole
+    return fmpq(isqrt(whole) if is_square else 1, below)
 
 
 def _branches(square: _Square, positive: frozenset[Expr]) -> list[LinearBranch]:
