@@ -29,7 +29,7 @@ TOP = {
     "pictures", "site", "system.py", "report.py", "__init__.py", "__main__.py", "py.typed", "THEOREMS.md",
 }  # fmt: skip
 
-LONGEST_FUNCTION, MOST_PARAMETERS, LONGEST_CLASS, LONGEST_FILE, MOST_METHODS = 40, 6, 200, 350, 20
+LONGEST_FUNCTION, MOST_PARAMETERS, LONGEST_CLASS, LONGEST_FILE, MOST_METHODS = 40, 6, 200, 400, 20
 #: Heavy, optional, or what nothing but this needs: imported where they are used.
 LATE_IMPORTS = frozenset({"sympy", "rich", "matplotlib", "numba", "distributed", "jinja2", "flint", "mujoco", "typst"})
 #: Where one bad file or answer must not stop the others, whatever it does.
