@@ -68,7 +68,7 @@ JOINED: Mapping[type[ast.AST], tuple[str, str]] = {
 #: The file, the line as it is and as it is changed: why no answer is another one.
 SAME: Mapping[tuple[str, str, str], str] = {
     (
-        "dofkit/classification/dependence/equation_count.py",
+        "dofkit/classification/dependence/removal.py",
         "bent = False",
         "bent = True",
     ): "that one such row takes freedom follows from the count at the end",

@@ -28,10 +28,8 @@ from dofkit.system import BINDING, System
 def instantaneous_dof(study: Study) -> int | None:
     """Velocities allowed to first order at the reference configuration; None without one, or where branches cross."""
     outcome = study.outcome
-    if study.system.reference is None or outcome.consistent is not True or outcome.kinked:
+    if study.system.reference is None or outcome.consistent is not True or outcome.crossing:
         return None
-    if outcome.crossing:
-        return outcome.first_order
     parts = [a.instantaneous for a in outcome.answers]
     if any(p is None for p in parts):
         return None

@@ -15,7 +15,7 @@ from itertools import combinations
 from dofkit.base.components import components
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import About, Verdict
-from dofkit.classification.dependence.sufficient_sets import Implication, SufficientSets
+from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets
 from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing
 
 #: Sets of constraints are searched exhaustively up to this many members of a group.
@@ -82,7 +82,7 @@ class OwnedRows:
     p: int
     equations: Sequence[int] = ()
     supports: Supports | None = None
-    implication: Implication | None = None
+    implication: NearDrawing | Everywhere | None = None
 
     def of(self, owners: frozenset[int] | set[int], finite_only: bool = False) -> list[SparseRow]:
         """The rows that some constraints wrote."""

@@ -25,14 +25,10 @@ from dofkit.relations.normal.zero_set import never_vanishes
 
 @dataclass(frozen=True)
 class DomainCondition:
-    """``expr`` >= 0, > 0 or != 0: no relation, but a part of the space outside of which the relation says nothing.
-
-    ``adjoining``: > 0 or != 0, and where it is 0 the branch goes on into another, which says what holds there.
-    """
+    """``expr`` >= 0, > 0 or != 0: no relation, but a part of the space outside of which the relation says nothing."""
 
     expr: Expr
     sense: DomainSense
-    adjoining: bool = False
 
     @property
     def strict(self) -> bool:
@@ -87,26 +83,22 @@ def _always(c: DomainCondition, positive: frozenset[Expr]) -> bool:
     return never_holds(-c.expr, c.sense == ">=", positive)
 
 
-def holds_at(c: DomainCondition, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> bool | None:
-    """Does a condition hold at a configuration? None where its sign there is not known."""
+def holds_at(
+    c: DomainCondition, configuration: Mapping[Expr, Expr], positive: frozenset[Expr], strictly: bool = False
+) -> bool | None:
+    """Return whether a condition is satisfied at a configuration, ``strictly`` for > also in place of >=.
+
+    None where its sign there is not known.
+    """
     try:
-        sign = _sign(substitute(c.expr, known), positive)
+        sign = _sign(substitute(c.expr, configuration), positive)
     except NoValueError:
         return False
     if sign is None:
         return None
     if sign == 0:
-        return c.adjoining or c.sense == ">="
+        return c.sense == ">=" and not strictly
     return sign > 0 or c.sense == "!="
-
-
-def has_value(c: DomainCondition, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> bool:
-    """Has what is asked for a value at a configuration? A pole has none."""
-    try:
-        _sign(substitute(c.expr, known), positive)
-    except NoValueError:
-        return False
-    return True
 
 
 def _sign(e: Expr, positive: frozenset[Expr]) -> int | None:

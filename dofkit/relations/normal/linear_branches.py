@@ -2,8 +2,8 @@
 
 Completing the square in a velocity v with the leading coefficient a gives 4 a e = L^2 - D with L = de/dv and the
 discriminant D. Where D = r s^2, r free of velocities and s linear in them, e = 0 says L = sqrt(r) s or L = -sqrt(r) s
-where r >= 0, and L = s = 0 where r < 0. What has no such discriminant stays nonlinear, and states of motion show
-whether the velocities that it allows are curved (`integrability.nonlinear_velocities`).
+if r >= 0 everywhere, and L = 0 and s = 0 or r = 0 if r <= 0 everywhere. What has no such discriminant stays nonlinear, and
+states of motion show whether the velocities that it allows are curved (`integrability.nonlinear_velocities`).
 """
 
 from __future__ import annotations
@@ -22,17 +22,12 @@ from dofkit.exact.zero.identity import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.domain import DomainCondition, conditions_of
-from dofkit.relations.normal.elimination import by_velocities
+from dofkit.relations.normal.polynomial_zeros import Conjunction
 from dofkit.relations.normal.semidefinite import Signs, weak_sign
-from dofkit.relations.normal.zero_set import never_vanishes, sign_as_written, zero_set
+from dofkit.relations.normal.zero_set import never_vanishes, zero_set
 
-
-class LinearBranch(NamedTuple):
-    """Expressions linear in the velocities, or free of them, that vanish together where ``conditions`` hold."""
-
-    relations: tuple[Expr, ...]
-    conditions: tuple[DomainCondition, ...] = ()
+#: A monomial in what depends on velocities: (generator, exponent) pairs.
+Monomial = tuple[tuple[int, int], ...]
 
 
 class _Square(NamedTuple):
@@ -44,17 +39,18 @@ class _Square(NamedTuple):
     sign: int
 
 
-def linear_branches(e: Expr, velocities: Sequence[Expr], positive: frozenset[Expr]) -> list[LinearBranch] | None:
+def linear_branches(e: Expr, velocities: Sequence[Expr], positive: frozenset[Expr]) -> list[Conjunction] | None:
     """Return the branches of ``e = 0``; None where it is not known to consist of branches linear in the velocities.
 
-    They are those of the numerator of ``e``: what is below it vanishes nowhere that ``e`` has a value.
+    A branch consists of expressions linear in the velocities, or free of them, that vanish together. The branches are
+    those of the numerator of ``e``: its denominator vanishes nowhere that ``e`` has a value.
     """
     ring = Ring([e], positive)
     node = ring.node(e)
     try:
         canon = Canon(ring)
         whole = canon.quotient(node)[0]
-        terms = by_velocities(canon, whole)
+        terms = _by_velocities(canon, whole)
         if any(sum(k for _, k in m) > 2 or any(ring.var_expr[i] not in velocities for i, _ in m) for m in terms):
             return None
         squares = (_completed(canon, whole, i, velocities, positive) for m in terms for i, k in m if k == 2)
@@ -62,6 +58,19 @@ def linear_branches(e: Expr, velocities: Sequence[Expr], positive: frozenset[Exp
     except NoValueError:
         return None
     return None if square is None else _branches(square, positive)
+
+
+def _by_velocities(canon: Canon, polynomial: Any) -> dict[Monomial, Any]:
+    """A polynomial as coefficients of the monomials in what depends on velocities."""
+    n = len(canon.ring.vars)
+    moves = [any(s.args[0] == "velocity" for s in e.symbols) for e in canon.ring.var_expr]
+    coefficients: dict[Monomial, Any] = {}
+    for exponents, coefficient in polynomial.to_dict().items():
+        moving = tuple((n - 1 - i, int(k)) for i, k in enumerate(exponents) if k and moves[n - 1 - i])
+        rest = tuple(0 if moves[n - 1 - i] else k for i, k in enumerate(exponents))
+        term = canon.ctx.from_dict({rest: coefficient})
+        coefficients[moving] = coefficients[moving] + term if moving in coefficients else term
+    return coefficients
 
 
 def _completed(
@@ -99,73 +108,16 @@ def _square_content(poly: Any) -> fmpq:
     return fmpq(isqrt(whole) if is_square else 1, below)
 
 
-def _branches(square: _Square, positive: frozenset[Expr]) -> list[LinearBranch]:
-    """Return the branches of L^2 = r s^2."""
+def _branches(square: _Square, positive: frozenset[Expr]) -> list[Conjunction] | None:
+    """Return the branches of L^2 = r s^2; None where the sign of r depends on the configuration."""
     linear, radicand, root, sign = square
-    size, moving = ex.sqrt(radicand) * root, _moving(radicand)
-    lines = [LinearBranch((linear - size,)), LinearBranch((linear + size,))]
-    if sign == 1 or (sign == 0 and not moving):
-        return lines
-    both = [LinearBranch((*zero, linear)) for zero in zero_set(root, positive, _moving(root))[0]]
-    edges = [LinearBranch((*zero, linear)) for zero in zero_set(radicand, positive, moving)[0]] if moving else []
-    if sign == -1:
-        return [*both, *edges]
-    inside = DomainCondition(radicand, ">" if edges else ">=", bool(edges))
-    outside = DomainCondition(-radicand, ">")
-    within = [b._replace(conditions=(inside,)) for b in lines]
-    return [*within, *(b._replace(conditions=(outside,)) for b in both), *edges]
-
-
-def squares_compared(e: Expr, velocities: Sequence[Expr], positive: frozenset[Expr]) -> Expr | None:
-    """Return f^2 - g^2 for f - g = 0 with roots and absolute values f, g >= 0 as written; None for anything else."""
-    terms = e.args if e.op == "add" else ()
-    if len(terms) != 2 or {sign_as_written(term, positive) for term in terms} != {1, -1}:
+    if sign == 1 or (sign == 0 and not _moving(radicand)):
+        size = ex.sqrt(radicand) * root
+        return [(linear - size,), (linear + size,)]
+    if sign == 0:
         return None
-    moving = [t for t in terms if _has(t, velocities)]
-    if not any(_is_rooted(f) and _has(f, velocities) for t in moving for f in _factors(t)):
-        return None
-    implied = _radicand(moving[0], positive) if len(moving) == 1 else None
-    if any(_has(c.expr, velocities) and c.expr != implied for c in conditions_of(e, positive)):
-        return None
-    difference = terms[0] * terms[0] - terms[1] * terms[1]
-    ring = Ring([difference], positive)
-    node = ring.node(difference)
-    try:
-        canon = Canon(ring)
-        return canon.to_expr(canon.quotient(node)[0])
-    except NoValueError:
-        return None
-
-
-def without_arctangent(
-    e: Expr, velocities: Sequence[Expr], positive: frozenset[Expr]
-) -> tuple[Expr, tuple[DomainCondition, ...]] | None:
-    """Return u - tan(w) and that -pi/2 < w < pi/2 for atan(u) = w, w free of velocities; None for anything else."""
-    terms = [t for t in (e.args if e.op == "add" else (e,)) if _has(t, velocities)]
-    number, inner = terms[0].args if terms[0].op == "mul" and len(terms[0].args) == 2 else (ex.ONE, terms[0])
-    if len(terms) > 1 or number.op != "num" or inner.op != "fn" or inner.args[0] != "atan":
-        return None
-    w = (terms[0] - e) / number
-    within = DomainCondition(ex.PI * ex.PI / 4 - w * w, ">")
-    return inner.args[1] - ex.fn("tan", w), (within, *conditions_of(w, positive))
-
-
-def _radicand(term: Expr, positive: frozenset[Expr]) -> Expr | None:
-    """Return u of k sqrt(u) with a positive constant k: k^2 u = g^2 implies u >= 0."""
-    roots = [f for f in _factors(term) if f.op != "num" and f.op != "const" and f not in positive]
-    only = roots[0] if len(roots) == 1 else None
-    return only.args[0] if only is not None and only.op == "pow" and only.args[1] == ex.HALF else None
-
-
-def _factors(term: Expr) -> Sequence[Expr]:
-    return term.args if term.op == "mul" else (term,)
-
-
-def _is_rooted(e: Expr) -> bool:
-    """Return whether an expression is an absolute value or a power that is no polynomial."""
-    if e.op == "pow":
-        return e.args[1].op == "num" and bool(e.args[1].args[0].denominator > 1)
-    return e.op == "fn" and e.args[0] == "abs"
+    factors = [root, *([radicand] if _moving(radicand) else [])]
+    return [(*zeros, linear) for factor in factors for zeros in zero_set(factor, positive, _moving(factor))[0]]
 
 
 def _has(e: Expr, symbols: Collection[Expr]) -> bool:

@@ -21,15 +21,13 @@ from dofkit.expressions.terms import without_cancelled
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.exact_zeros import SOLE_NOTE, sole_zero
-from dofkit.relations.normal.linear_branches import linear_branches, squares_compared, without_arctangent
+from dofkit.relations.normal.linear_branches import linear_branches
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.notes import (
-    COMPARED_NOTE,
     NOWHERE_NOTE,
     QUADRATIC_NOTE,
     REGION_NOTE,
     SQUARED_NOTE,
-    UNDONE_NOTE,
 )
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian, Piece, with_constants
 from dofkit.relations.normal.polynomial_zeros import Conjunction
@@ -167,9 +165,6 @@ def _squared(e: Expr, positive: frozenset[Expr]) -> Normal:
 
 def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
     """What a relation nonlinear in the velocities says, by its factors; one with velocities in abs() stays whole."""
-    polynomial = squares_compared(e, velocities_of(e), positive)
-    if polynomial is not None and polynomial != e:
-        return _with_note(normalise(polynomial, positive, True), COMPARED_NOTE)
     if any(velocities_of(u) for u in arguments_of(e)):
         return Normal(((Nonlinear(e),),))
     moving = frozenset(s for s in e.symbols if s.args[0] in ("velocity", "coordinate", "time"))
@@ -183,10 +178,6 @@ def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
     return Normal(tuple(found), tuple(dict.fromkeys(said)))
 
 
-def _with_note(normal: Normal, note: str) -> Normal:
-    return normal._replace(notes=tuple(dict.fromkeys((note, *normal.notes))))
-
-
 def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Piece, ...]], str]:
     """The branches of one irreducible relation in velocities, and what was done."""
     velocities = velocities_of(e)
@@ -195,13 +186,10 @@ def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Pie
     form = linear_form(e)
     if form is not None:
         return [(form if form.coefficients else Finite(form.dt),)], ""
-    undone = without_arctangent(e, velocities, positive)
-    if undone is not None:
-        return [(*b, *undone[1]) for b in normalise(undone[0], positive, True).branches], UNDONE_NOTE
-    found = linear_branches(e, velocities, positive)
-    if found is None:
+    branches = linear_branches(e, velocities, positive)
+    if branches is None:
         return [(Nonlinear(e),)], ""
-    return [(*map(_linear_piece, b.relations), *b.conditions) for b in found], QUADRATIC_NOTE
+    return [tuple(map(_linear_piece, branch)) for branch in branches], QUADRATIC_NOTE
 
 
 def _linear_piece(e: Expr) -> Finite | Pfaffian:

@@ -67,14 +67,12 @@ class Normal(NamedTuple):
     """What a relation says, and what was done to see it.
 
     ``constants``: coordinates that stand for constants of an integration by time, which ``once`` tells.
-    ``kinked``: told apart by the signs of what vanishes at the reference configuration: there is no gradient there.
     """
 
     branches: Branches
     notes: tuple[str, ...] = ()
     constants: tuple[str, ...] = ()
     once: str = ""
-    kinked: bool = False
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
