@@ -103,7 +103,7 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "for k in range(first, len(net.order) - 1):",
     ): "a rigid cluster stays in one piece without its last joint: its links are compared at the others",
     (
-        "dofkit/relations/normal/extremes.py",
+        "dofkit/relations/normal/polynomial_zeros.py",
         "return [(index, -1 if (weight > 0) == (constant > 0) else 1) for index, weight in weights.items()]",
         "return [(index, -1 if (weight > 0) == (constant >= 0) else 1) for index, weight in weights.items()]",
     ): "the constant is not 0: its absolute value is a sum of weights that are not",

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from dofkit.benchmark.record import ALL, AUTO, ChartRun, Score, Step
-from dofkit.relations.reductions import REDUCTIONS
+from dofkit.relations.setting import REDUCTIONS
 
 #: `auto` should take no more than so many times the fastest method that is right.
 TWICE = 2

@@ -123,7 +123,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "an inequality is satisfied nowhere",
         "Sylvester1852",
         "its expression has one sign",
-        "dofkit.relations.normal.one_sided.holds_somewhere",
+        "dofkit.relations.normal.no_solution.holds_somewhere",
         "a sum of squares, or boxes",
     ),
     "outside the domain": Argument(
@@ -295,7 +295,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "every constraint of the set is needed",
         "",
         "without any one of them the others can be satisfied",
-        "dofkit.classification.dependence.conflicts.conflict",
+        "dofkit.classification.dependence.implied_constraints.conflict",
         "a point for each",
     ),
     "count": Argument(

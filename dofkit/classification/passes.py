@@ -14,15 +14,14 @@ from dofkit.classification import report as fields
 from dofkit.classification.agreements import agreed
 from dofkit.classification.claims import claims, freedom
 from dofkit.classification.counts import counts_beside
-from dofkit.classification.feasibility.feasibility_fields import inequalities_together
+from dofkit.classification.feasibility.feasibility import inequalities_together
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import precise_for
 from dofkit.mobility.kutzbach import without_drives
-from dofkit.relations.reductions import ALL, Reductions
-from dofkit.relations.setting import Setting
+from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.report import FieldVerdict, Mobility, Report
 from dofkit.system import System
 

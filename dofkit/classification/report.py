@@ -10,7 +10,7 @@ from dofkit.base.wording import many, verb
 from dofkit.classification.dependence.redundancy import merged
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.generalized_coordinates import generalized
-from dofkit.classification.labels.integrable_part import integrable_part
+from dofkit.classification.labels.companions import integrable_part
 from dofkit.classification.study import Study
 from dofkit.classification.turned_coordinates import partly_turned, turned_together
 from dofkit.expressions.text import to_text
@@ -18,8 +18,7 @@ from dofkit.mobility import tree_pose
 from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.mobility.textbook_count import CountedFacts, count
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import uses_time
-from dofkit.relations.integration_constants import about_constants
+from dofkit.relations.blocks import about_constants, uses_time
 from dofkit.relations.normal.pieces import Finite
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, Count, ForceEntry, IntegrablePart, Redundancy
 from dofkit.system import BINDING, System

@@ -6,7 +6,7 @@ import pytest
 
 import dofkit
 from dofkit.expressions import tree as ex
-from dofkit.relations.normal import one_sided
+from dofkit.relations.normal import no_solution
 from dofkit.report import Report
 
 
@@ -63,5 +63,5 @@ def test_time_enters_where_a_point_shows_it(text: str, scleronomic: bool) -> Non
 
 def test_so_many_points_are_tried_as_are_told() -> None:
     """The simple ones, then two kinds at each draw."""
-    tried = list(one_sided._points(ex.coordinate("x"), frozenset()))
-    assert len(tried) == len(one_sided._SIMPLE) + 2 * one_sided.POINTS
+    tried = list(no_solution._points(ex.coordinate("x"), frozenset()))
+    assert len(tried) == len(no_solution._SIMPLE) + 2 * no_solution.POINTS

@@ -13,7 +13,7 @@ from matplotlib.ticker import FuncFormatter, NullLocator
 
 from dofkit.benchmark.figures.style import sheet
 from dofkit.benchmark.record import ChartRun, ReductionCost
-from dofkit.relations.reductions import REDUCTIONS
+from dofkit.relations.setting import REDUCTIONS
 
 MADE_FOR, OTHERS = "#0072B2", "#B5B5B5"
 Pairs = Sequence[tuple[ReductionCost, ReductionCost]]

@@ -26,9 +26,7 @@ from dofkit.exact.points.balls import precise_for
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.notes import UNDONE_NOTE
-from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.normal.pieces import UNDONE_NOTE, Finite, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System
 

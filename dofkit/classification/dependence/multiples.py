@@ -16,8 +16,7 @@ from dofkit.exact.ring.canonical import Canon, Poly
 from dofkit.exact.ring.instructions import POW
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import ZERO, Expr
-from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian, Reduced
 
 #: Generators of a ring that have a value everywhere.
 _ENTIRE = frozenset({"symbol", "cos", "sin", "exp", "pi"})

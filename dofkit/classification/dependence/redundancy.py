@@ -20,8 +20,7 @@ from dofkit.exact.matrices.sparse import SparseRow
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Reduced
 from dofkit.relations.setting import Setting
 
 #: Functions that may state one branch only.

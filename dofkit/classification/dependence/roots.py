@@ -13,8 +13,7 @@ from dofkit.classification.dependence.inequalities import same_side
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, replace_nodes, substitute
 from dofkit.expressions.tree import HALF, MINUS_ONE, ZERO, Expr
-from dofkit.relations.normal.pieces import Finite, Inequality, Normal
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.normal.pieces import Finite, Inequality, Normal, Reduced
 from dofkit.relations.setting import Setting
 
 _ROOT = ex.parameter("value of a root")

@@ -19,8 +19,7 @@ from dofkit.exact.solving.linear_inequalities import LinearCondition, solution
 from dofkit.expressions import tree as ex
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.one_sided import holds_somewhere
+from dofkit.relations.normal.no_solution import holds_somewhere, no_solution
 
 #: Inequalities of which products, and sums, are taken; equations times symbols; symbols whose differences are squared.
 MAX_FACTORS, MAX_SUMMED, MAX_MULTIPLES, MAX_SQUARED = 8, 4, 24, 4

@@ -11,9 +11,8 @@ from itertools import product as cartesian
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.common_point import at_one_point
-from dofkit.classification.freedom.copies import copies
 from dofkit.classification.freedom.domain import restricted_to_domain
-from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses
+from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses, copies
 from dofkit.classification.freedom.reference_branches import (
     branches_at_reference,
     has_kink_at_reference,
@@ -23,13 +22,10 @@ from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.modulo_others import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.relations.answer import Answer, AnsweredPart
-from dofkit.relations.blocks import Block, Row, blocks_of, with_boundaries
-from dofkit.relations.integration_constants import names_in, with_rows
-from dofkit.relations.joint_equations import JointEquation
+from dofkit.relations.blocks import Block, Row, blocks_of, names_in, with_boundaries, with_rows
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.one_sided import holds_somewhere
-from dofkit.relations.normal.pieces import Still
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.normal.no_solution import holds_somewhere
+from dofkit.relations.normal.pieces import JointEquation, Reduced, Still
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.system import System

@@ -26,9 +26,8 @@ from dofkit.expressions.text import Names, parse_expression, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, expressions, uses_time
-from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.pieces import Finite
+from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import Setting
 
 APART = "each part of the system can be satisfied at some time, but no common time was found"

@@ -13,11 +13,9 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, coordinates_of
-from dofkit.relations.chart_of_block import make_chart
-from dofkit.relations.joint_equations import JointEquation
-from dofkit.relations.normal.domain import DomainCondition, holds_at
-from dofkit.relations.normal.pieces import Finite, Normal, Piece
-from dofkit.relations.normal.signs import arguments_of
+from dofkit.relations.chart import make_chart
+from dofkit.relations.normal.domain import DomainCondition, arguments_of, holds_at
+from dofkit.relations.normal.pieces import Finite, JointEquation, Normal, Piece
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import Way
 

@@ -14,10 +14,8 @@ from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.freedom.reference_branches import branches_at_reference
 from dofkit.classification.labels.entry import LabelledRow
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Row, coordinates_of
-from dofkit.relations.integration_constants import with_rows
-from dofkit.relations.normal.pieces import Nonlinear, Pfaffian, Still
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.blocks import Block, Row, coordinates_of, with_rows
+from dofkit.relations.normal.pieces import Nonlinear, Pfaffian, Reduced, Still
 
 #: Up to this many coordinates, those of one constraint are listed in the scene's order.
 LISTED = 2000

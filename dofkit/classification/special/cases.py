@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from dofkit.base.deadline import OutOfTimeError, expired, limited
@@ -12,12 +12,10 @@ from dofkit.base.errors import DofkitError
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.isomorphic_blocks import Likenesses
-from dofkit.classification.special.branch_dimensions import branch_dimensions
+from dofkit.classification.special.branch_dimensions import branch_dimensions, meetings
 from dofkit.classification.special.candidates import Candidates, candidates
-from dofkit.classification.special.common_zeros import Leaf
-from dofkit.classification.special.integrals import undefined_integrals
+from dofkit.classification.special.common_zeros import Leaf, drop, flag, order_of, where
 from dofkit.classification.special.loci import Locus, place, undefined
-from dofkit.classification.special.meeting_branches import meetings
 from dofkit.classification.special.minors import MinorTable, table_of
 from dofkit.classification.special.parameters import (
     ParameterCondition,
@@ -27,16 +25,14 @@ from dofkit.classification.special.parameters import (
     changed,
     differences,
 )
-from dofkit.classification.special.wording import drop, flag, order_of, where
 from dofkit.exact.ring.canonical import Canon, Poly
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, expressions
-from dofkit.relations.normal.pieces import Inequality
+from dofkit.relations.normal.pieces import Inequality, Reduced
 from dofkit.relations.normal.semidefinite import never_holds
-from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import Report, SpecialCase
 from dofkit.system import System
@@ -123,8 +119,6 @@ def special_cases(
         if not found:
             return {"special_cases": cases} if cases else {}
         conditions = [ParameterCondition(leaf, f.table.reals) for f in found for leaf in f.candidates.values]
-        with suppress(*_UNFINISHED):
-            conditions += undefined_integrals(system, report)
         for part in (
             _values(conditions, told, again),
             meetings(system, reduced, setting, outcome),
@@ -276,8 +270,7 @@ def _bending(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, seen: Locus)
         return
     forms = tuple(sorted({r.constraint for r in found.block.forms}))
     what, grown = flag(told.report.growth_vector, own, there, vanishes)
-    known = not grown or (len(there) == 3 and seen.least == there and there[2] == len(found.table.symbols))
-    sure: Verdict = "proved" if vanishes and seen.regular and known else "probable"
+    sure: Verdict = "proved" if vanishes and seen.regular and not grown else "probable"
     yield from _locus(found, told, leaf, what, forms, sure)
 
 
@@ -306,8 +299,7 @@ def _values(conditions: Sequence[ParameterCondition], told: GenericAnswer, again
     different: dict[str, ParameterCondition] = {}
     for condition in conditions:
         at = where(condition.reals.canon, condition.leaf, told.order)
-        known = different.get(at, condition)
-        different[at] = replace(known, integrals=tuple(dict.fromkeys((*known.integrals, *condition.integrals))))
+        different.setdefault(at, condition)
     left = MAX_VALUES
     found: dict[frozenset[str], str] = {}
     for at, condition in sorted(different.items(), key=lambda pair: pair[0].count(" and ")):
@@ -332,11 +324,11 @@ def _at_values(
             reports.append(again(at_values(system, way)))
         except (DofkitError, *_UNFINISHED):
             return None
-        becomes = differences(told.report, reports[-1], condition.integrals)
+        becomes = differences(told.report, reports[-1])
         said = said or becomes
         if not becomes or becomes != said:
             return None
-    names = changed(told.report, reports[0]) or list(condition.integrals)
+    names = changed(told.report, reports[0])
     if not names:
         symbols = frozenset().union(*(way.keys() for way in ways))
         names = [c.name for c in system.constraints if any(not symbols.isdisjoint(r.expr.symbols) for r in c.relations)]

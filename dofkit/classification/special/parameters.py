@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import product as cartesian
 
 from dofkit.base.wording import many, verb
-from dofkit.classification.special.common_zeros import Leaf, Reals
-from dofkit.classification.special.wording import tuple_of
+from dofkit.classification.special.common_zeros import Leaf, Reals, tuple_of
 from dofkit.exact.ring.canonical import Canon, Poly
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
@@ -29,11 +28,10 @@ MAX_VALUES = 4
 
 @dataclass(frozen=True)
 class ParameterCondition:
-    """Conditions on parameters alone; ``integrals``: the constraints whose integrals are not defined under them."""
+    """Conditions on parameters alone."""
 
     leaf: Leaf
     reals: Reals
-    integrals: tuple[str, ...] = ()
 
 
 def assignments(condition: ParameterCondition, signs: Mapping[str, Sign]) -> list[dict[Expr, Expr]]:
@@ -124,18 +122,15 @@ def at_values(system: System, values: Values) -> System:
     )
 
 
-def differences(generic: Report, special: Report, integrals: Sequence[str] = ()) -> list[str]:
-    """What the answer becomes, in words: only where both are decided and differ.
-
-    ``integrals``: constraints whose integrals are not defined as they are written.
-    """
+def differences(generic: Report, special: Report) -> list[str]:
+    """Return what the answer becomes, in words, where both are decided and differ."""
     if generic.consistent is None or special.consistent is None:
         return []
     if generic.consistent != special.consistent:
         if special.consistent:
             return [f"{_all(generic.conflicting)} can be satisfied, with {_degrees(special.dof)}"]
         return [f"{_all(special.conflicting)} cannot be satisfied"]
-    said = [*_branches(generic, special), *_labels(generic, special), *_integrals(special, integrals)]
+    said = [*_branches(generic, special), *_labels(generic, special)]
     fields = (("degrees of freedom", "dof"), ("velocity freedom", "velocity_dof"))
     numbers = {name: (getattr(generic, f), getattr(special, f)) for name, f in fields}
     differ = {name: pair for name, pair in numbers.items() if None not in pair and pair[0] != pair[1]}
@@ -157,16 +152,6 @@ def _branches(generic: Report, special: Report) -> list[str]:
     """Constraints that fall into branches."""
     told = [(e.name, BRANCH_WARNING.format(name=e.name)) for e in special.constraints]
     return [f"{name} has several branches" for name, w in told if w in special.warnings and w not in generic.warnings]
-
-
-def _integrals(special: Report, names: Sequence[str]) -> list[str]:
-    """The integrals instead of those that are not defined."""
-    said = []
-    for entry in special.constraints:
-        if entry.name in names and entry.holonomic:
-            instead = entry.integral or "not found in closed form"
-            said.append(f"the integral of {entry.name} is {instead}")
-    return said
 
 
 def _all(names: Sequence[str]) -> str:
