@@ -46,15 +46,19 @@ CAR = ["x", "y", "theta", "phi"]
 LOCI: list[tuple[str, dict[str, Any], list[Case]]] = [
     ("sin and cos never vanish together", scene(KNIFE, coordinates=CAR[:3]), []),
     ("the contact form has curvature 1", scene("dz = y dx"), []),
-    ("-2y dy^dx; [X, [X, Y]] = 2 d/dz", scene("dz = y^2 dx"), [("y = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "proved")]),
-    ("Martinet's form", scene("dz - y^2 dx/2 = 0"), [("y = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "proved")]),
+    (
+        "-2y dy^dx; [X, [X, Y]] = 2 d/dz",
+        scene("dz = y^2 dx"),
+        [("y = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "probable")],
+    ),
+    ("Martinet's form", scene("dz - y^2 dx/2 = 0"), [("y = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "probable")]),
     (
         "-3y^2 dy^dx: two more brackets are needed",
         scene("dz = y^3 dx"),
         [("y = 0", flat("(2, 2, 2, 3)", "(2, 3)"), ONE, "probable")],
     ),
-    ("2y - 1 = 0", scene("dz = y*(y - 1) dx"), [("y = 1/2", flat("(2, 2, 3)", "(2, 3)"), ONE, "proved")]),
-    ("-x dy^dx", scene("dz = x y dx"), [("x = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "proved")]),
+    ("2y - 1 = 0", scene("dz = y*(y - 1) dx"), [("y = 1/2", flat("(2, 2, 3)", "(2, 3)"), ONE, "probable")]),
+    ("-x dy^dx", scene("dz = x y dx"), [("x = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "probable")]),
     ("exp never vanishes", scene("dz = exp(y) dx"), []),
     ("1 + y^2 never vanishes", scene("dz = (y + y^3/3) dx"), []),
     ("curvatures 1 and 2y are never both 0", scene("dz = y dx", "dw = y^2 dx", coordinates=[*XYZ, "w"]), []),
@@ -138,7 +142,7 @@ LOCI: list[tuple[str, dict[str, Any], list[Case]]] = [
     (
         "an inequality that lets it in",
         scene("dz = y^2 dx", "y >= 0"),
-        [("y = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "proved")],
+        [("y = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "probable")],
     ),
     ("an unknown function may vanish or not", scene("h(x)*dz = dx", functions={"h": ["x"]}), []),
     ("nonlinear in velocities: not searched", scene("xdot^2 + ydot^2 = zdot^2"), []),
@@ -247,7 +251,7 @@ PARAMETERS: list[tuple[str, dict[str, Any], list[Case]]] = [
         [
             ("a = 0", f"{INTEGRABLE}; degrees of freedom 2 instead of 3", ONE, "proved"),
             ("a = b", f"{INTEGRABLE}; degrees of freedom 2 instead of 3", ONE, "proved"),
-            ("sin(y*a) = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "proved"),
+            ("sin(y*a) = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "probable"),
         ],
     ),
     ("a line of any direction", scene("x sin(b) = y cos(b)", coordinates=["x", "y"], parameters=["b"]), []),
@@ -288,11 +292,6 @@ PARAMETERS: list[tuple[str, dict[str, Any], list[Case]]] = [
         "no oscillation",
         scene("x = cos(w t)", coordinates=["x"], parameters=["w"]),
         [("w = 0", "c1 is scleronomic", ONE, "proved")],
-    ),
-    (
-        "y = sin(k t)/k + C is y = t + C",
-        scene("ydot = cos(k t)", coordinates=["y"], parameters=["k"]),
-        [("k = 0", "the integral of c1 is y - t = C", ONE, "proved")],
     ),
     (
         "a pendulum whose support slides: no length is 0",

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from dofkit.base.verdicts import OPEN, VERDICTS, Claim, Verdict, weakest
+from dofkit.classification.freedom.reference_branches import all_of
 from dofkit.classification.labels.reasons import Labels, Others, joined, reason_of
 from dofkit.classification.labels.time_labels import (
     EntryLabels,
@@ -257,12 +258,6 @@ def _proofs(form: Form, forms: Sequence[Pfaffian], by_itself: Answer | None, set
     return [integrability(f, setting.positive, single) for f in forms]
 
 
-def _together(labels: Sequence[bool | None]) -> bool | None:
-    if any(label is False for label in labels):
-        return False
-    return None if any(label is None for label in labels) else True
-
-
 def _labels(in_system: bool | None, own: bool | None, told: Sequence[LabelledRow]) -> Labels:
     undecided = [t.label.reason for t in told if t.label and t.label.holonomic is None and t.label.reason]
     late = [why for t in told if t.answer.late for why in t.answer.reasons]
@@ -294,7 +289,7 @@ def label_in_system(
         else:
             labels.append(t.label.holonomic)
             verdicts.append(t.label.verdict)
-    together = _together(labels)
+    together = all_of(labels)
     if together is False:
         return False, _strongest(told, proved)
     return together, weakest(*verdicts)
@@ -328,7 +323,7 @@ def _alone(
     labels = list(by_itself.labels.values())
     if by_itself.consistent is not True or not labels:
         return None, "undecided"
-    together = _together([label.holonomic for label in labels])
+    together = all_of(label.holonomic for label in labels)
     if together is False:
         return False, min((x.verdict for x in labels if x.holonomic is False), key=VERDICTS.index, default="proved")
     return together, weakest(*(x.verdict for x in labels))

@@ -2,7 +2,7 @@
 
 Space is cut into boxes; a box is excluded where interval evaluation of the relations leaves nothing [Moore1966]. If
 every box is excluded there is no solution. Two descriptions of the same set are tried: the relations as written, and
-polynomials in their generators with linear combinations of these.
+polynomials in their generators with linear combinations and resultants of these.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import random
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
+from itertools import combinations, islice
 from typing import Any, NamedTuple
 
 from flint import ctx, fmpq_mat, fmpz_poly
@@ -42,8 +43,8 @@ MAX_STEPS, BITS = 60_000, 64
 SOON = 6_000
 #: A box thinner than this, or this far out, is not cut any further.
 THINNEST, FARTHEST = 1e-7, 1e7
-#: Polynomials are combined up to this size.
-MAX_TABLE = 4000
+#: Polynomials are combined up to this size, and resultants are taken of so many pairs.
+MAX_TABLE, MAX_RESULTANT_TERMS, MAX_RESULTANT_DEGREE, MAX_PAIRS = 4000, 40, 8, 60
 ZERO: Interval = (0.0, 0.0)
 UNIT: Interval = (-1.0, 1.0)
 
@@ -172,7 +173,7 @@ def _polynomials(relations: Sequence[Expr], positive: frozenset[Expr]) -> Polyno
         own = [p for p in own if p != 0]
     present = {i for p in own for i in canon.generators_in(p)}
     own += [g for g in canon.relations if not present.isdisjoint(canon.generators_in(g))]
-    everything = _combined(canon, own)
+    everything = _resultants(_combined(canon, own))
     count = len(ring.vars)
     symbols = tuple(ex.parameter(f"generator {count - 1 - i}") for i in range(count))
     ranges = {symbols[count - 1 - v.index]: _range(v, ring) for v in ring.vars}
@@ -214,6 +215,20 @@ def _combined(canon: Canon, polynomials: Sequence[Poly]) -> list[Poly]:
         for r in range(rank)
     ]
     return [*polynomials, *(row for row in rows if row not in polynomials)]
+
+
+def _resultants(polynomials: list[Poly]) -> list[Poly]:
+    """The polynomials and the resultants of pairs: they vanish wherever both do."""
+    found = list(polynomials)
+    for a, b in islice(combinations(polynomials, 2), MAX_PAIRS):
+        if len(a) + len(b) > MAX_RESULTANT_TERMS:
+            continue
+        for i, (j, k) in enumerate(zip(a.degrees(), b.degrees(), strict=True)):
+            if j and k and j + k <= MAX_RESULTANT_DEGREE:
+                eliminated = a.resultant(b, i)
+                if eliminated != 0 and len(eliminated) <= MAX_RESULTANT_TERMS and eliminated not in found:
+                    found.append(eliminated)
+    return found
 
 
 def _without_real_roots(p: Poly) -> bool:
