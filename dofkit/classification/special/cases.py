@@ -15,7 +15,7 @@ from dofkit.classification.freedom.isomorphic_blocks import Likenesses
 from dofkit.classification.special.branch_dimensions import branch_dimensions, meetings
 from dofkit.classification.special.candidates import Candidates, candidates
 from dofkit.classification.special.common_zeros import Leaf, drop, flag, order_of, where
-from dofkit.classification.special.loci import Locus, place, undefined
+from dofkit.classification.special.loci import Locus, place
 from dofkit.classification.special.minors import MinorTable, table_of
 from dofkit.classification.special.parameters import (
     ParameterCondition,
@@ -25,7 +25,7 @@ from dofkit.classification.special.parameters import (
     changed,
     differences,
 )
-from dofkit.exact.ring.canonical import Canon, Poly
+from dofkit.exact.ring.canonical import Canon
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
@@ -168,7 +168,7 @@ def _search(block: Block, a: Answer, told: GenericAnswer) -> SearchedBlock | Non
     if expired():
         return None
     nonzero = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "nonzero")
-    rank = None if a.velocity_dof is None else len(block.coordinates) - a.velocity_dof
+    rank = len(block.coordinates) - (a.velocity_dof or 0)
     curvature = a.growth[1] - a.growth[0] if a.growth and len(a.growth) > 1 else 0
     try:
         table = table_of(block, a.hidden, told.setting, nonzero)
@@ -186,7 +186,7 @@ def _small(block: Block, a: Answer) -> bool:
         and sum(len(e.args) if e.op == "add" else 1 for e in expressions(block)) <= MAX_TERMS
         and not block.nonlinear
         and not a.degenerate
-        and (a.velocity_dof is not None or a.consistent is False)
+        and a.velocity_dof is not None
     )
 
 
@@ -214,7 +214,7 @@ def _places(found: SearchedBlock, told: GenericAnswer) -> Iterator[SpecialCase]:
 
 
 def _located(found: SearchedBlock, told: GenericAnswer) -> Iterator[tuple[Leaf, SpecialCase]]:
-    """Yield ranks that drop, then curvature that vanishes elsewhere, then coefficients without a value."""
+    """Yield ranks that drop, then curvature that vanishes elsewhere."""
     if told.report.velocity_dof is None:
         return
     dropped: list[Leaf] = []
@@ -227,9 +227,6 @@ def _located(found: SearchedBlock, told: GenericAnswer) -> Iterator[tuple[Leaf, 
         seen = None if leaf in dropped else _locus_of(found, told, leaf, found.rank)
         if seen is not None:
             yield from ((leaf, case) for case in _bending(found, told, leaf, seen))
-    for row, below in found.candidates.poles[:MAX_PLACES]:
-        leaf = found.table.reals.leaf(below)
-        yield from ((leaf, case) for case in _pole(found, told, row, below))
 
 
 def _locus_of(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, grows: int) -> Locus | None:
@@ -272,21 +269,6 @@ def _bending(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, seen: Locus)
     what, grown = flag(told.report.growth_vector, own, there, vanishes)
     sure: Verdict = "proved" if vanishes and seen.regular and not grown else "probable"
     yield from _locus(found, told, leaf, what, forms, sure)
-
-
-def _pole(found: SearchedBlock, told: GenericAnswer, row: int, below: Poly) -> Iterator[SpecialCase]:
-    """Coefficients of a form that have no value where their denominator is 0."""
-    block, canon = found.block, found.table.canon
-    given = len(block.finite) + len(found.answer.hidden)
-    if row < given:
-        return
-    tops = [canon.to_expr(p) for p in found.table.rows[row] if p != 0]
-    relations = [canon.to_expr(g) for g in found.table.relations]
-    sure = undefined(block, told.setting, relations, canon.to_expr(below), tops)
-    if sure is not None:
-        leaf = found.table.reals.leaf(below)
-        owner = block.forms[row - given].constraint
-        yield from _locus(found, told, leaf, "the coefficients are not defined there", [owner], sure)
 
 
 # -- parameters -----------------------------------------------------------------------------------

@@ -184,26 +184,6 @@ def _dimensions(flows: Sequence[AdmissibleCurve]) -> tuple[int, ...]:
     return tuple(found)
 
 
-def undefined(
-    block: Block, setting: Setting, relations: Sequence[Expr], below: Expr, tops: Sequence[Expr]
-) -> Verdict | None:
-    """How sure it is that coefficients ``tops`` / ``below`` have no value where ``below`` = 0; None where it is not."""
-    chart = _chart(block, setting, [*relations, below], tops)
-    found = points_of(chart)
-    if found is None:
-        return None
-    try:
-        nodes = [chart.ring.node(e) for e in tops]
-        at = values(chart.ring, found.field)
-        with ctx.workprec(PRECISION):
-            balls = values(chart.ring, found.real)
-    except NoValueError:
-        return None
-    if not any(at[node] != 0 and not balls[node].contains(0) for node in nodes):
-        return None
-    return "proved" if found.regular else "probable"
-
-
 def meeting(coordinates: Sequence[str], setting: Setting, relations: Sequence[Expr]) -> Verdict | None:
     """How sure it is that real configurations satisfy relations; None where none was found."""
     found = points_of(_chart(Block(tuple(coordinates), ()), setting, relations, ()))
