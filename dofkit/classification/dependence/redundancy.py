@@ -236,12 +236,11 @@ def _of_block(
     matrix = _without_hidden(block, a)
     if nullity <= 0 and a.hidden and not a.degenerate:
         yield _independent(dict(Counter(owners)))
-    elif a.degenerate and "balls" not in setting.engines:
-        yield undecided_dependence(owners)
     elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
-        yield unless_late(
-            partial(removal.by_removal, block, setting, a, nullity, equations), undecided_dependence(owners)
-        )
+        undecided = undecided_dependence(owners)
+        drawn = "balls" in setting.engines and block_implication.is_drawn(block, a, setting)
+        removed = partial(removal.by_removal, block, setting, a, nullity, equations)
+        yield unless_late(removed, undecided) if drawn else undecided
     else:
         finite = _finite_rows(block)
         implied = (

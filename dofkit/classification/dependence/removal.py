@@ -26,47 +26,43 @@ from typing import NamedTuple
 from dofkit.base.components import components
 from dofkit.base.deadline import OutOfTimeError, check, limited
 from dofkit.base.verdicts import Verdict, weakest
-from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets, is_drawn
+from dofkit.classification.dependence.block_implication import NearDrawing, SufficientSets
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
 from dofkit.classification.freedom.block import answer
-from dofkit.classification.freedom.reference_branches import all_of
 from dofkit.exact.matrices.sparse import echelon
-from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, split
-from dofkit.relations.normal.pieces import Finite, Still
 from dofkit.relations.setting import Setting
 
 
 def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered: Sequence[int]) -> Redundancies:
-    """What can go, the last in the order first, without changing the freedom of the block nor its set.
+    """Return what is redundant in a block of finite equations at a singular reference, the last written first.
 
-    ``nullity``: rows too many by the freedom, where nothing else tells; ``numbered``: the equation each row is of.
+    ``nullity``: dependent rows by the freedom; ``numbered``: the equation each row belongs to.
     """
-    differential = {r.constraint for r in block.rows if not isinstance(r.piece, Finite)}
-    integrated = {r.constraint for r in block.rows if _constant(r) is not None}
     owners = owners_of(block)
-    order = sorted(dict.fromkeys(owners), key=lambda o: (o in differential) + (o in integrated))
-    left = LeftOut(block, setting, a)
+    order = list(dict.fromkeys(owners))
+    removal = Removal(block, setting, a)
     with limited(LEAVING_SECONDS):
-        found = _dispensable(left, order)
-        circuits = _circuits(left, order, found.redundant)
-    nullity = max(nullity, sum(o in found.redundant for o in owners))
-    groups = [(nullity, sorted(order))] if found.redundant else []
-    told = replace(found, groups=groups, circuits=circuits, verdict=left.verdict)
-    count = counted(block, setting, a, numbered) if is_drawn(block, a, setting) else None
+        redundancies = _largest_redundant_set(removal, order)
+        circuits = _circuits(removal, order, redundancies.redundant)
+    nullity = max(nullity, sum(o in redundancies.redundant for o in owners))
+    groups = [(nullity, sorted(order))] if redundancies.redundant else []
+    answer = replace(redundancies, groups=groups, circuits=circuits, verdict=removal.verdict)
+    count = counted(block, setting, a, numbered)
     if count is not None:
-        groups = groups or count.groups
-        counts = replace(told, independent=count.independent, equations=count.equations, seen=count.seen)
-        return replace(counts, groups=groups, verdict=weakest(told.verdict, "numeric" if count.seen else "proved"))
+        verdict = weakest(answer.verdict, "numeric" if count.seen else "proved")
+        counts = replace(answer, independent=count.independent, equations=count.equations, seen=count.seen)
+        return replace(counts, groups=groups or count.groups, verdict=verdict)
     independent = {o: 0 for o, circuit in circuits.items() if circuit and max(circuit) < o}
-    independent |= {o: 1 for o in order if owners.count(o) == 1 and o not in (*found.redundant, *found.undecided)}
-    uncounted = tuple(o for o in order if o not in independent and o not in found.undecided)
-    return replace(told, independent=independent, uncounted=uncounted)
+    open_ = {*redundancies.redundant, *redundancies.undecided}
+    independent |= {o: 1 for o in order if owners.count(o) == 1 and o not in open_}
+    uncounted = tuple(o for o in order if o not in independent and o not in redundancies.undecided)
+    return replace(answer, independent=independent, uncounted=uncounted)
 
 
-def _dispensable(left: LeftOut, order: Sequence[int]) -> Redundancies:
+def _largest_redundant_set(removal: Removal, order: Sequence[int]) -> Redundancies:
     """As many constraints as can go together, the last in the order first, and those of which it is not known.
 
     What can go together can go one by one. Of constraints that can go one by one as many are tried as could be more.
@@ -74,15 +70,15 @@ def _dispensable(left: LeftOut, order: Sequence[int]) -> Redundancies:
     gone, single, open_ = list[int](), list[int](), list[int]()
     try:
         for owner in reversed(order):
-            alone = left.can_go([owner])
-            together = left.can_go([*gone, owner]) if alone else alone
+            alone = removal.is_redundant([owner])
+            together = removal.is_redundant([*gone, owner]) if alone else alone
             single += [owner] if alone else []
             gone += [owner] if together else []
             open_ += [owner] if together is None else []
         while len(gone) < len(single):
             more = combinations(single, len(gone) + 1)
-            better = next((choice for choice in more if left.can_go(choice) is not False), None)
-            if better is None or left.can_go(better) is None:
+            better = next((choice for choice in more if removal.is_redundant(choice) is not False), None)
+            if better is None or removal.is_redundant(better) is None:
                 open_ += better or ()
                 break
             gone = list(better)
@@ -91,14 +87,14 @@ def _dispensable(left: LeftOut, order: Sequence[int]) -> Redundancies:
     return Redundancies({}, sorted(gone), [], {}, tuple(sorted(set(open_) - set(gone))))
 
 
-def _circuits(left: LeftOut, order: Sequence[int], redundant: Sequence[int]) -> dict[int, list[int]]:
+def _circuits(removal: Removal, order: Sequence[int], redundant: Sequence[int]) -> dict[int, list[int]]:
     """For each constraint that can go a minimal set of those kept from which it follows; none where that is open."""
     found = {}
     for owner in redundant:
         kept = [o for o in order if o not in redundant]
         try:
             for other in reversed(kept):
-                if left.can_go([owner], [o for o in kept if o != other]):
+                if removal.is_redundant([owner], [o for o in kept if o != other]):
                     kept = [o for o in kept if o != other]
         except OutOfTimeError:
             break
@@ -112,67 +108,43 @@ def owners_of(block: Block) -> list[int]:
 
 
 @dataclass
-class LeftOut:
-    """A block without some of its constraints; each choice is asked once. ``verdict``: of the weakest argument."""
+class Removal:
+    """A block without some of its constraints; ``verdict``: that of the weakest argument so far."""
 
     block: Block
     setting: Setting
     whole: Answer
     verdict: Verdict = "proved"
-    _told: dict[tuple[frozenset[int], frozenset[int]], bool | None] = field(default_factory=dict)
-    _freedom: dict[frozenset[int], Freedoms | None] = field(default_factory=dict)
+    _answers: dict[tuple[frozenset[int], frozenset[int]], bool | None] = field(default_factory=dict)
+    _dofs: dict[frozenset[int], int | None] = field(default_factory=dict)
 
-    def __post_init__(self) -> None:
-        a = self.whole
-        if a.dof is not None and a.velocity_dof is not None:
-            self._freedom[frozenset(owners_of(self.block))] = Freedoms(a.dof, a.velocity_dof, {*a.hidden})
+    def is_redundant(self, owners: Collection[int], others: Collection[int] | None = None) -> bool | None:
+        """Return whether the set near the reference is the same without some constraints; None: undecided.
 
-    def can_go(self, owners: Collection[int], others: Collection[int] | None = None) -> bool | None:
-        """Is the set that some constraints and ``others`` cut out the same without the former? None: not decided.
-
-        ``others``: where none are given, all other constraints of the block.
+        ``others``: the constraints that remain; without it all others of the block.
         """
-        gone = frozenset(owners)
-        kept = frozenset(o for o in owners_of(self.block) if o not in gone) if others is None else frozenset(others)
-        if (gone, kept) not in self._told:
+        removed = frozenset(owners)
+        kept = frozenset(owners_of(self.block)) - removed if others is None else frozenset(others)
+        if (removed, kept) not in self._answers:
             check()
-            same = self._same_freedom(gone, kept)
-            self._told[gone, kept] = self._same_set(gone, kept) if same else same
-        return self._told[gone, kept]
+            before, after = self._dof(removed | kept), self._dof(kept)
+            same = None if before is None or after is None else before == after
+            self._answers[removed, kept] = self._is_same_set(removed, kept) if same else same
+        return self._answers[removed, kept]
 
-    def _same_freedom(self, gone: frozenset[int], kept: frozenset[int]) -> bool | None:
-        """Are the freedoms the same, and are the hidden relations there too?"""
-        before, after = self._freedoms(gone | kept), self._freedoms(kept)
-        if before is None or after is None:
-            return None
-        needed = {g for g in before.hidden if not any(s.args[1] in self._constants(gone) for s in g.symbols)}
-        return (before.dof, before.velocity_dof) == (after.dof, after.velocity_dof) and after.hidden >= needed
-
-    def _freedoms(self, kept: frozenset[int]) -> Freedoms | None:
-        """The freedoms that some constraints leave, without the constants of integration of the others."""
-        if kept not in self._freedom:
-            gone = self._constants(frozenset(owners_of(self.block)) - kept)
-            names = [c for c in self.block.coordinates if c not in gone]
+    def _dof(self, kept: frozenset[int]) -> int | None:
+        """Return the freedom that some constraints leave."""
+        if kept not in self._dofs:
             rows = [r for r in self.block.rows if r.constraint in kept]
-            self._freedom[kept] = freedoms(names, rows, self.setting)
-        return self._freedom[kept]
+            whole = len(rows) == len(self.block.rows)
+            self._dofs[kept] = self.whole.dof if whole else freedom(self.block.coordinates, rows, self.setting)
+        return self._dofs[kept]
 
-    def _constants(self, owners: frozenset[int]) -> set[str | None]:
-        return {_constant(r) for r in self.block.rows if r.constraint in owners} - {None}
-
-    def _same_set(self, gone: frozenset[int], kept: frozenset[int]) -> bool | None:
-        """Does what is left out follow? It does near a drawing where nothing but motions of the whole is left there.
-
-        What holds for some constant of integration is told by the freedom, and the relations it hides, alone.
-        """
-        rows, others = ([i for i, r in enumerate(self.block.rows) if r.constraint in own] for own in (gone, kept))
-        if not is_drawn(self.block, self.whole, self.setting):
-            everywhere = Everywhere(self.block, self.setting)
-            self.verdict = weakest(self.verdict, "probable")
-            return True if self._constants(gone) else all_of(everywhere.follows(i, others) for i in rows)
+    def _is_same_set(self, removed: frozenset[int], kept: frozenset[int]) -> bool | None:
+        """Return whether what is removed is implied: always where only rigid motions of the system are left."""
+        rows, others = ([i for i, r in enumerate(self.block.rows) if r.constraint in own] for own in (removed, kept))
         near = NearDrawing(self.block, self.setting)
-        after = self._freedoms(kept)
-        if near.is_orbit(others, None if after is None else after.dof):
+        if near.is_orbit(others, self._dof(kept)):
             return True
         if near.imply(others, rows, self.whole):
             self.verdict = weakest(self.verdict, "probable")
@@ -181,30 +153,11 @@ class LeftOut:
         return near.seem_to_imply(others, rows) or None
 
 
-def _constant(row: Row) -> str | None:
-    """The constant of integration C of a row dC = 0."""
-    return next(iter(row.piece.coefficients)) if isinstance(row.piece, Still) else None
-
-
-class Freedoms(NamedTuple):
-    """Of some rows on some coordinates, with the hidden relations they force."""
-
-    dof: int
-    velocity_dof: int
-    hidden: set[Expr]
-
-
-def freedoms(coordinates: Sequence[str], rows: Sequence[Row], setting: Setting) -> Freedoms | None:
-    """The freedom that some rows leave; None where it is not known."""
+def freedom(coordinates: Sequence[str], rows: Sequence[Row], setting: Setting) -> int | None:
+    """Return the freedom that some rows leave; None where it is undecided."""
     blocks, untouched = split(coordinates, rows)
-    dof = velocity = len(untouched)
-    hidden: set[Expr] = set()
-    for block in blocks:
-        found = answer(block, setting)
-        if found.dof is None or found.velocity_dof is None:
-            return None
-        dof, velocity, hidden = dof + found.dof, velocity + found.velocity_dof, hidden | {*found.hidden}
-    return Freedoms(dof, velocity, hidden)
+    dofs = [answer(block, setting).dof for block in blocks]
+    return None if None in dofs else len(untouched) + sum(dof for dof in dofs if dof is not None)
 
 
 class EquationCount(NamedTuple):
@@ -316,5 +269,5 @@ class _Counting:
     def _takes_freedom(self, row: int) -> bool:
         """Do the rows before this one, but for those that follow, leave less freedom with it than without it?"""
         rows = [self.block.rows[k] for k in range(row + 1) if k not in self.following]
-        before, after = (freedoms(self.block.coordinates, some, self.setting) for some in (rows[:-1], rows))
-        return before is not None and after is not None and after.dof < before.dof
+        before, after = (freedom(self.block.coordinates, some, self.setting) for some in (rows[:-1], rows))
+        return before is not None and after is not None and after < before
