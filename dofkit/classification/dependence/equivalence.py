@@ -14,7 +14,7 @@ from functools import cached_property
 
 from dofkit.base.deadline import part, unless_late
 from dofkit.classification.dependence.implication import follows
-from dofkit.classification.dependence.inequalities import same_side
+from dofkit.classification.dependence.inequalities import bounds, loses_nothing, same_side, unsound
 from dofkit.classification.dependence.multiples import power_of, same_up_to_numbers
 from dofkit.classification.dependence.regularity import Regularity
 from dofkit.classification.freedom.branches import Outcome, solve
@@ -218,7 +218,10 @@ class Equivalence:
             return Sameness.SAME
         if _turned(self._given, self._answer):
             return Sameness.UNDECIDED
-        return Sameness.UNDECIDED if any(r.inequalities for r in self._rest) else Sameness.BRANCH
+        sides = bounds(self._all_wanted, self._rest)
+        lost = unsound(self._given, self._sound) if sides else []
+        whole = [loses_nothing(e, self._all_wanted, self._others, sides, self.setting) for e in lost]
+        return Sameness.BRANCH if not sides else Sameness.SAME if whole and all(whole) else Sameness.UNDECIDED
 
     # differentials
 

@@ -8,7 +8,7 @@ from itertools import chain, count, islice
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.parts import AnsweredParts
+from dofkit.classification.labels.single_constraint_labels import AnsweredParts
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import TIME

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -13,98 +13,17 @@ from dofkit.base.verdicts import Claim, Verdict, weakest
 from dofkit.base.wording import verb
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.reasons import Others, in_words
 from dofkit.classification.labels.single_constraint_labels import by_itself
-from dofkit.expressions.tree import TIME
 from dofkit.integrability.modulo_others import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
-from dofkit.relations.answer import GAP, Answer
+from dofkit.relations.answer import GAP
 from dofkit.relations.blocks import Row, fixed_constants
-from dofkit.relations.normal.pieces import INSTANT_NOTE, Clause, Finite, JointEquation, Nonlinear, Pfaffian, Reduced
-from dofkit.relations.piece_shapes import shape_together
+from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Reduced
 from dofkit.relations.setting import Setting
-from dofkit.report import ConstraintEntry, FieldVerdict, with_values
-
-#: Of the equations of a joint that is not driven.
-STILL = Traits((True, "proved"))
-
-
-class SharedEntries:
-    """What was found of constraints, to be told again of others of the same kind."""
-
-    def __init__(self, setting: Setting, parts: AnsweredParts) -> None:
-        self._setting, self._parts = setting, parts
-        self._traits: dict[Hashable, Traits] = {}
-        self._entries: dict[Hashable, ConstraintEntry] = {}
-        self._sure: dict[int, tuple[Answer, Hashable]] = {}
-
-    def traits(self, piece: Clause) -> Traits:
-        """The labels that a piece carries by itself."""
-        if isinstance(piece, JointEquation):
-            return STILL
-        key: Hashable = shape_together((piece,)) if isinstance(piece, Pfaffian) else piece
-        found = self._traits.get(key)
-        if found is None:
-            opened = isinstance(piece, Pfaffian) and self._parts.is_open(piece)
-            found = self._traits[key] = traits(piece, self._setting.positive, self._setting.engines, opened)
-        return found
-
-    def kind(self, r: Reduced, told: Sequence[LabelledRow], *beside: Hashable) -> Hashable:
-        """Equal for constraints of which the same is told, names apart; None for one that is looked at by itself.
-
-        ``beside``: what else is known of it. Where it holds a form its shape goes in, else only what its finite
-        relations and inequalities carry by themselves: no more of these is told.
-        """
-        every = [p for n in r.normals for p in n.pieces]
-        if [id(p) for p in every] != [id(t.row.piece) for t in told]:
-            every += [t.row.piece for t in told]
-        kinds = {type(p) for p in every}
-        if Nonlinear in kinds or r.constants or [t for t in told if t.reduced or (t.label and t.label.modulo)]:
-            return None
-        return (
-            r.constraint.type,
-            tuple([(tuple(map(len, n.branches)), INSTANT_NOTE in n.notes) for n in r.normals]),
-            len(every),
-            shape_together(every) if any(issubclass(kind, Pfaffian) for kind in kinds) else self._plain_kinds(every),
-            self._plain_kinds(r.inequalities),
-            tuple([(t.label, self._sureness(t.answer)) for t in told]),
-            beside,
-        )
-
-    def _sureness(self, a: Answer) -> Hashable:
-        """What an entry tells of its blocks' answers; kept with the answer itself, so that no other is taken for it."""
-        known = self._sure.get(id(a))
-        if known is None:
-            told = a.verdict, a.argument, a.bits, a.gap, a.about, a.curved, a.late, a.consistent
-            known = self._sure[id(a)] = a, told
-        return known[1]
-
-    def _plain_kinds(self, pieces: Iterable[Clause]) -> Hashable:
-        return tuple([(type(p).__name__, None if _is_still(p) else self.traits(p)) for p in pieces])
-
-    def known(self, kind: Hashable, r: Reduced) -> ConstraintEntry | None:
-        """What was told of another constraint of that kind, told of this one."""
-        found = None if kind is None else self._entries.get(kind)
-        if found is None:
-            return None
-        return with_values(found, name=r.constraint.name, text=r.constraint.text)
-
-    def keep(self, kind: Hashable, made: ConstraintEntry) -> None:
-        """Tell the same of others of that kind, where all of it is decided and nothing in it has a name."""
-        decided = None not in (made.holonomic, made.holonomic_alone, made.scleronomic)
-        nameless = made.integral is None and made.integrating_factor is None and made.circuit is None
-        plain = made.form in ("finite", "inequality") or (made.form == "pfaffian" and made.holonomic is False)
-        if kind is not None and decided and nameless and plain:
-            self._entries[kind] = made
-
-
-def _is_still(piece: Clause) -> bool:
-    """Is it a finite relation without time? All that it carries by itself is known then."""
-    return isinstance(piece, JointEquation) or (isinstance(piece, Finite) and TIME not in piece.expr.symbols)
-
+from dofkit.report import ConstraintEntry, FieldVerdict
 
 #: What is said of dependence that is open, or not on what was written before.
 OPEN = "Whether it is implied by the others was not decided."
@@ -128,27 +47,28 @@ def entries_of(
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
-    shared, entries = SharedEntries(setting, company.parts), list[ConstraintEntry]()
-    consistent = outcome.consistent
+    entries = list[ConstraintEntry]()
+    traits_of = partial(_traits_of, setting)
     for i, r in enumerate(reduced):
         number = known.independent.get(i, None if told[i] else 0)
         circuit = None if i not in known.circuits else [names[j] for j in known.circuits[i]]
         try:
             check()
+            beside = partial(_with_others, i, told[i], company, names)
+            alone = by_itself(i, r, told[i], company.parts)
             copied = i in outcome.copies
-            kind = None if known.says_more_of(i) else shared.kind(r, told[i], number, copied, i in known.following)
-            made = shared.known(kind, r)
-            if made is None:
-                beside = partial(_with_others, i, told[i], company, names)
-                alone = by_itself(i, r, told[i], company.parts)
-                evidence = Evidence(told[i], alone, number, circuit, constants, shared.traits, beside, copied)
-                made = entry(r, evidence, setting, consistent)
-                made = _with_dependence(made, i, r, known)
-                shared.keep(kind, made)
-            entries.append(made)
+            evidence = Evidence(told[i], alone, number, circuit, constants, traits_of, beside, copied)
+            entries.append(_with_dependence(entry(r, evidence, setting, outcome.consistent), i, r, known))
         except OutOfTimeError as error:
             entries.append(unfinished(r, str(error)))
     return entries
+
+
+def _traits_of(setting: Setting, piece: Clause) -> Traits:
+    """Return the labels that a piece carries on its own; the equations of a joint that is not driven hold no time."""
+    if isinstance(piece, JointEquation):
+        return Traits((True, "proved"))
+    return traits(piece, setting.positive, setting.engines, False)
 
 
 class _Dependence(NamedTuple):
@@ -164,10 +84,6 @@ class _Dependence(NamedTuple):
     following: Mapping[int, set[int]]
     seen: frozenset[int]
     on_component: frozenset[int]
-
-    def says_more_of(self, i: int) -> bool:
-        """Is anything known of a constraint beyond how many of its equations are independent: all of them?"""
-        return i in self.circuits or i in self.gone or i in self.open or bool(self.following.get(i))
 
 
 def _dependence(dependent: Sequence[Redundancies], outcome: Outcome) -> _Dependence:
