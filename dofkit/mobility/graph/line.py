@@ -25,7 +25,7 @@ class LineGraph:
                 self.redundant.append(i)
             else:
                 trees.union(a, b)
-                self._forest.add_edge(a, b, link=i)
+                self._forest.add_edge(a, b, number=i)
 
     def circuits(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
         parent: dict[int, int] = {}
@@ -40,7 +40,7 @@ class LineGraph:
             while a != b:
                 if depth[a] < depth[b]:
                     a, b = b, a
-                path.append(self._forest.edges[a, parent[a]]["link"])
+                path.append(self._forest.edges[a, parent[a]]["number"])
                 a = parent[a]
             yield i, sorted(path)
 
