@@ -135,6 +135,7 @@ def _sentence(text: str) -> str:
 def _type(name: str, cls: type[ConstraintBase]) -> Explanation:
     about = " ".join((cls.__doc__ or "").split())
     fields = [f"{key} ({field.description})" for key, field in cls.model_fields.items() if key not in ("type", "name")]
+    spaces = series([str(d) for d in cls.dimensions])
     told = (
         f"{about} Defined in {spaces} dimensions. Fields: {'; '.join(fields)}. `dofkit catalog '{name}'` finds scenes."
     )
