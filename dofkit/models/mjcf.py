@@ -51,7 +51,6 @@ _LINE = re.compile(r"line (\d+)")
 _NOISE = re.compile(r"^(?:XML )?Error: (?:Error: )?|,? ?line \d+\s*$|\bElement name '', id -?\d+")
 
 
-
 def read(file: ModelFile) -> ModelDocument:
     """The scene of an MJCF file. Raises SceneError for what the compiler does not take."""
     found = compiled(file)

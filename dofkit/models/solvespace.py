@@ -143,8 +143,9 @@ class _SketchScene:
         (x, y), (u, v) = up.drawn, over.drawn
         ratio = figures((u * y - v * x) / ((x * x + y * y) or 1.0))
         for name, side in (("bottom", over), ("top", Arrow(a, c))):
-            texts = f"{side.components[0]} = {ratio}*{up.components[1]}", (
-                f"{side.components[1]} = -({ratio})*{up.components[0]}"
+            texts = (
+                f"{side.components[0]} = {ratio}*{up.components[1]}",
+                f"{side.components[1]} = -({ratio})*{up.components[0]}",
             )
             for axis, text in zip("uv", texts, strict=True):
                 self._equation(f"{drawn_name(handle)}-{name}-{axis}", record, text)

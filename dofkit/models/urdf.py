@@ -56,7 +56,6 @@ _SLIDING = ("prismatic", "cylindrical")
 _BALLS = ("ball", "spherical")
 
 
-
 def read(file: ModelFile) -> ModelDocument:
     """The scene of a URDF file. Raises SceneError with all that is at fault, each in its line."""
     robot = read_robot(file)
