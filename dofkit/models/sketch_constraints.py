@@ -252,7 +252,7 @@ def _tangent_curves(m: SketchMentions) -> Iterable[Written]:
 KINDS: Mapping[int, SketchKind] = {
     20: SketchKind("points-coincident", ((2, 0, 0),),
                    lambda m: [{"type": "coincident", "between": [p.written for p in m.points]}]),
-    30: SketchKind("pt-pt-distance", ((2, 0, 0),), lambda m: [_link(*m.points, m.value)]),
+    30: SketchKind("pt-pt-distance", ((2, 0, 0),), lambda m: [_link(m.points[0], m.points[1], m.value)]),
     32: SketchKind("pt-line-distance", ((1, 1, 0),), _line_distance),
     42: SketchKind("pt-on-line", ((1, 1, 0),), lambda m: [f"{cross(m.line, m.arms()[0])} = 0"]),
     50: SketchKind("eq-length", ((0, 2, 0),), lambda m: [f"{m.lines[0].squared} = {m.lines[1].squared}"]),
@@ -272,7 +272,7 @@ KINDS: Mapping[int, SketchKind] = {
     90: SketchKind("diameter", ((0, 0, 1),), _diameter),
     100: SketchKind("pt-on-circle", ((1, 0, 1),),
                     lambda m: [f"{Arrow(m.rounds[0].centre, m.points[0]).squared} = {m.rounds[0].squared}"]),
-    120: SketchKind("angle", ((0, 2, 0),), lambda m: [at_angle(*m.lines, m.value)]),
+    120: SketchKind("angle", ((0, 2, 0),), lambda m: [at_angle(m.lines[0], m.lines[1], m.value)]),
     121: SketchKind("parallel", ((0, 2, 0),), lambda m: [f"{cross(*m.lines)} = 0"]),
     122: SketchKind("perpendicular", ((0, 2, 0),), lambda m: [f"{dot(*m.lines)} = 0"]),
     123: SketchKind("arc-line-tangent", ((0, 1, 1),), _tangent_line),
