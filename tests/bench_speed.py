@@ -92,7 +92,7 @@ def model(wheel: str, name: str, rounds: int = 3) -> Measured:
     """A model inside a wheel, read before; its freedom is MuJoCo's own."""
     from models.test_wheels import folder
 
-    from dofkit.models.compiled_by_mujoco import compiled
+    from dofkit.models.mjcf import compiled
     from dofkit.models.model_document import ModelFile
 
     path = next(folder(wheel).rglob(name))

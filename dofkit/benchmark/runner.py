@@ -23,7 +23,7 @@ from dofkit.benchmark.failures import explained
 from dofkit.benchmark.record import Outcome, TrialLine
 from dofkit.benchmark.statistics import grouped
 from dofkit.benchmark.tasks import TrialTask
-from dofkit.methods.shared.reply import Knobs, MethodReply
+from dofkit.methods.reply import Knobs, MethodReply
 
 # In a worker
 

@@ -11,9 +11,8 @@ from typing import Any, NamedTuple, get_args
 from dofkit.benchmark.record import ChartError
 from dofkit.benchmark.statistics import grouped
 from dofkit.benchmark.trials.construction import Trial
-from dofkit.methods.names import Question
-from dofkit.methods.shared.reply import Knobs
-from dofkit.methods.table import METHODS
+from dofkit.methods.reply import Knobs
+from dofkit.methods.table import METHODS, Question
 from dofkit.scene.fields import suggestion
 
 #: Trials of each family and question, at most, where nothing is said; and in a quick run.

@@ -23,7 +23,7 @@ from dofkit.benchmark.sentences import summary
 from dofkit.benchmark.tasks import Selection
 from dofkit.benchmark.trials.construction import Trial
 from dofkit.interface.cli import app
-from dofkit.methods.shared.reply import Knobs
+from dofkit.methods.reply import Knobs
 
 RAN = Ran(
     version="0",

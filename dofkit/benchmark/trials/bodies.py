@@ -80,7 +80,7 @@ def loops(quick: bool) -> Iterator[KnownScene]:
 
 
 def named_loops(quick: bool) -> Iterator[KnownScene]:
-    """Loops with a name."""
+    """Loops with a name [Bennett1903]."""
     for row in tables("poses.yaml")["loops"][:: 2 if quick else 1]:
         n = len(row["hinges"])
         made = _loop(row["hinges"], n - 1)

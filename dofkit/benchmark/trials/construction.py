@@ -11,7 +11,7 @@ from typing import Any, TypedDict, Unpack
 
 import yaml
 
-from dofkit.methods.names import Question
+from dofkit.methods.table import Question
 
 #: ``dof``: a number (-1: the constraints contradict each other); ``integrability``: whether each constraint is
 #: holonomic in the system, by name; ``redundancy``: the names of what can be dropped, sorted; ``equivalence``: whether
