@@ -91,7 +91,10 @@ def _unimodular(rng: random.Random, n: int) -> list[list[str]]:
 
 
 def together(quick: bool) -> Iterator[KnownScene]:
-    """Forms with their system: the label of each is one of the whole."""
+    """Forms with their system: the label of each is one of the whole.
+
+    Among them are five variables of growth 2, 3, 5 [Cartan1910].
+    """
     return map(tabled, tables("forms.yaml")["together"][: 9 if quick else None])
 
 
