@@ -16,9 +16,9 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from dofkit.base.version import __version__
+from dofkit.base import __version__
+from dofkit.base.runs import cores
 from dofkit.base.workers import Job
-from dofkit.base.workers.pool import cores
 from dofkit.benchmark import runner, storing, tasks
 from dofkit.benchmark import trial_job as asking
 from dofkit.benchmark.failures import explained

@@ -10,9 +10,9 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Protocol
 
+from dofkit.base.runs import Cluster, Crew, Pool, StoppedError
 from dofkit.base.workers import MEMORY, Job
 from dofkit.base.workers import JobOutcome as Ended
-from dofkit.base.workers.pool import Cluster, Crew, Pool, StoppedError
 from dofkit.benchmark.judging import outcome_of
 from dofkit.benchmark.record import Outcome, TrialLine
 from dofkit.benchmark.tasks import TrialTask

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from dofkit.base.workers import Json
-from dofkit.base.workers.child import LateError, function_named, interrupting
+from dofkit.base.process_limits import LateError, interrupting
+from dofkit.base.workers import Json, function_named
 from dofkit.methods.shared.reply import Knobs, MethodReply
 
 #: What is shorter, in seconds, is done again, so many times, and the least is taken.

@@ -6,8 +6,7 @@ import time
 from collections.abc import Iterator
 from typing import Any
 
-from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, limited
-from dofkit.base.memory import gc_rarely
+from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, gc_rarely, limited
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.passes import PASSES, PLAIN, examined

@@ -11,8 +11,8 @@ from typing import Any
 
 from dofkit.base.deadline import limit
 from dofkit.base.errors import Fault, SceneError
+from dofkit.base.runs import shared
 from dofkit.base.workers import Job, Json
-from dofkit.base.workers.pool import shared
 from dofkit.classification.undecided import sketch, undecided
 from dofkit.methods.names import MethodName
 from dofkit.methods.stages import stages

@@ -14,7 +14,7 @@ import pytest
 from shared import chart_methods
 from typer.testing import CliRunner
 
-from dofkit.base.workers.pool import Pool
+from dofkit.base.runs import Pool
 from dofkit.benchmark import command, runner, statistics, storing, table, tasks
 from dofkit.benchmark.figures import table as figures_table
 from dofkit.benchmark.judging import outcome_of

@@ -15,9 +15,8 @@ from shared.command_line import called
 from shared.late import LONG
 
 import dofkit
-from dofkit.base.journal import BusyError, Journal
+from dofkit.base.runs import BusyError, Journal, Pool
 from dofkit.base.workers import Job, JobOutcome
-from dofkit.base.workers.pool import Pool
 from dofkit.interface.many.run import Helpers, answer, kept_reports
 from dofkit.interface.many.scene_files import SceneGiven
 from dofkit.interface.named_files import named_files
