@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from decimal import Decimal
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, NoReturn, TypeAlias
 
 import yaml
 from yaml.events import (
@@ -139,7 +139,7 @@ class ComposedText:
     def _fault(self, event: Any, message: str, hint: str) -> None:
         self.faults.append((event.start_mark.index, Fault(message, hint=hint)))
 
-    def _give_up(self, event: Any, message: str, hint: str) -> None:
+    def _give_up(self, event: Any, message: str, hint: str) -> NoReturn:
         self._fault(event, message, hint)
         raise UnreadableError
 
@@ -161,8 +161,7 @@ class ComposedText:
         self._check_tag(event)
         path = self._path(event)
         if path is None:
-            self._take_key(event, None)
-            return
+            self._give_up(event, "a key must be a text", "write 'key: value'")
         if len(self._stack) >= DEEPEST:
             self._give_up(event, "brackets or lists are nested too deep", f"at most {DEEPEST} levels are read")
         value: Any = {} if isinstance(event, MappingStartEvent) else []
@@ -183,7 +182,7 @@ class ComposedText:
         self._add(done.value, done.size)
 
     def _alias(self, event: AliasEvent) -> None:
-        name = event.anchor
+        name = str(event.anchor)
         if name not in self._anchors:
             inside = any(part.anchor == name for part in self._stack)
             message = f"'*{name}' occurs inside the value that it names" if inside else f"nothing is named '&{name}'"
@@ -236,7 +235,6 @@ class ComposedText:
     def _take_key(self, event: Any, key: str | None) -> None:
         if key is None:
             self._give_up(event, "a key must be a text", "write 'key: value'")
-            return
         top = self._stack[-1]
         top.key, top.key_at = key, event.start_mark.index
         top.skipping = key in top.value

@@ -192,10 +192,10 @@ def _model_document(file: ModelFile) -> Document:
     try:
         model = read_model(file)
     except SceneError as error:
-        return Document(file.name, file.text, None, error.faults, lambda places: None)
+        return Document(file.name, file.text, None, error.faults)
     found = {path: (starts[line - 1], -1) for path, line in model.lines.items() if line <= len(starts)}
     value = {"name": file.name, **model.value}
-    return Document(file.name, file.text, value, (), lambda places: places.update(found))
+    return Document(file.name, file.text, value, (), lambda: found)
 
 
 def _from_mapping(source: Mapping[str, Any], name: str | None) -> Scene:

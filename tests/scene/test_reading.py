@@ -13,8 +13,9 @@ import pytest
 import yaml
 
 import dofkit
-from dofkit.base.documents import compose, read_document
+from dofkit.base.documents import read_document
 from dofkit.base.errors import Fault, SceneError
+from dofkit.base.yaml_events import ComposedText, compose
 from dofkit.interface.explanations import explanations_of
 from dofkit.scene.found_files import find
 from dofkit.scene.reading import MOST_FAULTS, SceneFile, load, loads
