@@ -39,6 +39,15 @@ def verb(number: int, singular: str = "is", plural: str = "are") -> str:
     return singular if number == 1 else plural
 
 
+def series(words: Sequence[str]) -> str:
+    """Return words as a series.
+
+    >>> series(["1", "2", "3"]), series(["2", "3"]), series(["3"])
+    ('1, 2 and 3', '2 and 3', '3')
+    """
+    return " and ".join([part for part in (", ".join(words[:-1]), *words[-1:]) if part])
+
+
 def gap_in_words(gap: float, what: str) -> str:
     """Return a sentence about the ratio that separates the numbers that are kept from those that are taken as zero.
 
