@@ -19,8 +19,7 @@ from rich.table import Table
 
 from dofkit.base import __version__
 from dofkit.base.runs import cores
-from dofkit.base.workers import Job
-from dofkit.base.workers.child import function_named
+from dofkit.base.workers import Job, function_named
 from dofkit.benchmark import record, runner, tasks
 from dofkit.benchmark.record import ALL, AUTO, ChartError, ChartRun, Data, Ran, ReductionCost, Score
 from dofkit.benchmark.sentences import TWICE, summary
