@@ -23,8 +23,8 @@ from typing import TYPE_CHECKING
 
 import lazy_loader as lazy
 
+from dofkit.base import __version__
 from dofkit.base.errors import DofkitError, SceneError, TextError
-from dofkit.base.version import __version__
 
 if TYPE_CHECKING:
     from dofkit.homework.assignment import load_assignment
