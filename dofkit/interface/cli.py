@@ -16,9 +16,9 @@ import typer
 from typer.main import get_command_name
 from typer.models import CommandInfo
 
-from dofkit.base.endings import format_of_path, is_folder_path
+from dofkit.base import __version__
+from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.errors import ArgumentError
-from dofkit.base.version import __version__
 from dofkit.interface import options
 from dofkit.interface.assignment_commands import assignment_app
 from dofkit.interface.catalog_commands import catalog
@@ -29,7 +29,7 @@ from dofkit.interface.presentation import Telling
 
 if TYPE_CHECKING:
     from dofkit.interface.supervised import Printed
-    from dofkit.methods.names import MethodName
+    from dofkit.methods.table import MethodName
 
 Handler = TypeVar("Handler", bound=Callable[..., Any])
 
@@ -266,7 +266,7 @@ def chart(
 ) -> None:
     """Compare methods by speed and accuracy on known scenes."""
     from dofkit.benchmark.command import ChartOptions, chart
-    from dofkit.benchmark.selecting import Selection
+    from dofkit.benchmark.tasks import Selection
 
     selection = Selection(question or (), families or (), methods or (), quick, most)
     with failures_of("chart"):

@@ -129,13 +129,13 @@ def differences(generic: Report, special: Report) -> list[str]:
         return [] if special.consistent == generic.consistent else [f"{names} cannot be satisfied"]
     changes = [*_labels(generic, special)]
     numbers = [
-        (title, getattr(special, name), getattr(generic, name))
-        for title, name in (("degrees of freedom", "dof"), ("velocity freedom", "velocity_dof"))
+        (subject, getattr(special, name), getattr(generic, name))
+        for subject, name in (("the degrees of freedom are", "dof"), ("the velocity freedom is", "velocity_dof"))
     ]
     differ = [row for row in numbers if None not in row and row[1] != row[2]]
     if len(differ) == 2 and differ[0][1:] == differ[1][1:]:
-        differ = [(f"{differ[0][0]} and {differ[1][0]}", *differ[0][1:])]
-    changes += [f"{title} {after} instead of {before}" for title, after, before in differ]
+        differ = [("the degrees of freedom and velocity freedom are", *differ[0][1:])]
+    changes += [f"{subject} {after} instead of {before}" for subject, after, before in differ]
     before, after = generic.redundant, special.redundant
     more = [] if before is None or after is None else [name for name in after if name not in before]
     return changes + ([f"{', '.join(more)} {_is(more)} redundant"] if more else [])
