@@ -393,7 +393,7 @@ def test_our_wheel(tmp_path: Path) -> None:
         record = packed.read("dofkit-0.1.0.dist-info/RECORD").decode()
         listed = dict(line.split(",", 1) for line in record.splitlines())
         assert set(listed) == names
-        for name in ("dofkit/interface/cli.py", "dofkit/homework/formats/html/templates/base.html"):
+        for name in ("dofkit/interface/cli.py", "dofkit/homework/formats/templates/base.html"):
             data = packed.read(name)
             digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
             assert listed[name] == f"sha256={digest},{len(data)}"

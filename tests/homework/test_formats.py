@@ -18,7 +18,7 @@ import pytest
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, FormatError
 from dofkit.homework.formats.base import MOST_CHARACTERS, cell
-from dofkit.homework.formats.html.overview import Overview
+from dofkit.homework.formats.overview import Overview
 from dofkit.homework.formats.prairielearn import MOST_BYTES
 from dofkit.homework.formats.wording import FileNames, identity
 from dofkit.homework.result import Item, Result, Status

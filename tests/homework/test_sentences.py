@@ -28,10 +28,9 @@ TOLD = [
 #: Whose sentences stand among other texts.
 SHOWN = [
     *(ROOM / "formats").glob("*.py"),
-    *(ROOM / "formats" / "html").glob("*.py"),
     *(ROOM / name for name in ("autograder.py", "grading.py", "runs/batch.py")),
 ]
-STUDENT_PAGE = ROOM / "formats" / "html" / "templates" / "student.html"
+STUDENT_PAGE = ROOM / "formats" / "templates" / "student.html"
 #: Calls whose texts are for lecturers, or are no sentences.
 OTHERS = {"Field", "Fault", "TextError", "compile", "UnknownNameError", "words", "suggestion"}
 SENTENCE = re.compile(r".*\s.*[.:?}]", re.DOTALL)

@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import cell
-from dofkit.homework.formats.html.pages import problem_title, question_text, rendered
+from dofkit.homework.formats.pages import problem_title, question_text, rendered
 from dofkit.homework.formats.wording import unmarked
 from dofkit.homework.result import Result
 from dofkit.homework.review.filled_table import FilledTable, read_table

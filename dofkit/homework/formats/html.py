@@ -13,8 +13,8 @@ from pathlib import Path
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, FormatError, Target
-from dofkit.homework.formats.html.overview import Overview
-from dofkit.homework.formats.html.pages import rendered, student_page
+from dofkit.homework.formats.overview import Overview
+from dofkit.homework.formats.pages import rendered, student_page
 from dofkit.homework.formats.review import write_page
 from dofkit.homework.formats.wording import FileNames
 from dofkit.homework.result import Result

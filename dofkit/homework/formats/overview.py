@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.formats.html.pages import BADGES, percent, question_text
+from dofkit.homework.formats.pages import BADGES, percent, question_text
 from dofkit.homework.formats.wording import number
 from dofkit.homework.key.misconceptions import CODES
 from dofkit.homework.result import Item, Result, Status
