@@ -34,8 +34,8 @@ LONGEST_FUNCTION, MOST_PARAMETERS, LONGEST_CLASS, LONGEST_FILE, MOST_METHODS = 4
 LATE_IMPORTS = frozenset({"sympy", "rich", "matplotlib", "numba", "distributed", "jinja2", "flint", "mujoco", "typst"})
 #: Where one bad file or answer must not stop the others, whatever it does.
 CATCH_ALL = frozenset(
-    {"base/workers/child.py", "homework/assignment.py", "homework/grading.py",
-     "interface/one_file.py", "benchmark/trial_job.py"}
+    {"base/workers/child.py", "homework/assignment.py", "homework/grading.py", "interface/one_file.py",
+     "benchmark/runner.py"}
 )  # fmt: skip
 
 
