@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from io import StringIO
 from itertools import chain, islice
 
-from dofkit.base.spelling import nearest
+from dofkit.base.wording import nearest
 from dofkit.homework.answers.roster import DELIMITERS, identity_column
 from dofkit.homework.answers.submission import clean
 

@@ -11,7 +11,7 @@ from io import StringIO
 from pathlib import Path
 
 from dofkit.base.errors import DofkitError, Fault
-from dofkit.base.spelling import nearest
+from dofkit.base.wording import nearest
 from dofkit.homework.review.queue import COLUMNS, SOMEONE, Decision, ReviewRow, mark_of, question_mark
 
 #: What a person writes may be so long; faults of a table that are told; bytes that are read.

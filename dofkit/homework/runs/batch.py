@@ -10,9 +10,9 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any, NamedTuple
 
+from dofkit.base.process_limits import allow_processor
+from dofkit.base.runs import Pool, StoppedError
 from dofkit.base.workers import Job, JobOutcome, Json
-from dofkit.base.workers.child import allow_processor
-from dofkit.base.workers.pool import Pool, StoppedError
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.answers.submission import Submission
 from dofkit.homework.assignment import Prepared
