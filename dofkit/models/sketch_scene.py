@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from dofkit.expressions.text.limits import MAX_CHARACTERS
+from dofkit.expressions.text.bounds import MAX_CHARACTERS
 from dofkit.models.model_document import COARSEST, FINEST, ModelDocument, SceneDraft, listed
 from dofkit.models.sketch_file import Record, SketchFile
 from dofkit.models.sketch_relations import KINDS, Written

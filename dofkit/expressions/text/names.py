@@ -9,8 +9,8 @@ from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
 from dofkit.base.errors import TextError
+from dofkit.expressions.text.bounds import MAX_NAME
 from dofkit.expressions.text.characters import DOT, TWO_DOTS, check_name_characters, spelled
-from dofkit.expressions.text.limits import MAX_NAME
 from dofkit.expressions.tree import DT, FUNCTIONS, PI, TIME, E, Expr, coordinate, differential, sym, velocity
 
 SYNONYMS: dict[str, str] = {

@@ -8,9 +8,9 @@ from fractions import Fraction
 from typing import NamedTuple, NoReturn
 
 from dofkit.base.errors import TextError
+from dofkit.expressions.text.bounds import MAX_CHARACTERS, MAX_DIGITS, MAX_EXPONENT, MAX_NODES, MAX_TEXT_BITS
 from dofkit.expressions.text.characters import DEGREE, DOT, FRACTIONS, GREEK_LETTERS, SUPERSCRIPTS, TWO_DOTS, fold
 from dofkit.expressions.text.latex import FRACTION_MARK, unlatex
-from dofkit.expressions.text.limits import MAX_CHARACTERS, MAX_DIGITS, MAX_EXPONENT, MAX_NODES, MAX_TEXT_BITS
 from dofkit.expressions.text.names import VARIATION, Lookup, Meaning
 from dofkit.expressions.text.words import read_word
 from dofkit.expressions.tree import PI, Expr, mul, num, sym

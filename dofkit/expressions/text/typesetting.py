@@ -10,6 +10,7 @@ import re
 from typing import NamedTuple
 
 from dofkit.base.errors import TextError
+from dofkit.expressions.text.bounds import MAX_CHARACTERS
 from dofkit.expressions.text.characters import (
     DOT,
     FRACTIONS,
@@ -21,7 +22,6 @@ from dofkit.expressions.text.characters import (
     fold,
 )
 from dofkit.expressions.text.latex import unlatex
-from dofkit.expressions.text.limits import MAX_CHARACTERS
 from dofkit.expressions.text.names import ELEMENTARY
 
 _WORD = rf"[A-Za-z{GREEK_LETTERS}][A-Za-z0-9_{GREEK_LETTERS}{DOT}{TWO_DOTS}]*"
