@@ -123,10 +123,10 @@ def root(parser: Parser, token: Token) -> Expr:
     return _applied(parser, token, "sqrt", [first.expr])
 
 
-def fraction(parser: Parser, _: Token) -> Expr:
+def fraction(parser: Parser, token: Token) -> Expr:
     """Read LaTeX's fraction of two groups in braces."""
-    groups = []
-    for _ in range(2):
+    groups, brace = list[Expr](), token
+    for _ in "ab":
         brace = parser.next
         if brace.kind != "(" or parser.text[brace.start] != "{":
             parser.fail("a fraction needs two groups in braces", brace, "write `(a)/(b)`")
