@@ -59,9 +59,9 @@ BUGS: Mapping[str, Bug] = {
         "tests/scenes/corners/wall-that-nothing-satisfies.yaml",
     ),
     "boxes": Bug(
-        "exact/boxes/intervals.py",
-        "    return hull((meet_or_none(x, size), meet_or_none(x, negative(size))))",
-        "    return hull((meet_or_none(x, size),))",
+        "exact/boxes.py",
+        "    return _hull((_meet_or_none(x, size), _meet_or_none(x, negative(size))))",
+        "    return _hull((_meet_or_none(x, size),))",
         "tests/scenes/corners/place-told-twice.yaml",
     ),
     "brackets": Bug(
