@@ -14,7 +14,7 @@ from itertools import product as cartesian
 
 from dofkit.base.errors import TextError
 from dofkit.exact.errors import raising_no_value
-from dofkit.exact.zero.identity import certainly_nonzero, zero_and_verdict
+from dofkit.exact.zero import certainly_nonzero, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.differentials import NOT_LINEAR, SOLVE_FOR_IT, accelerations_of, by_time, in_velocities

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass
 
-from dofkit.exact.engines import BALLS, FIELD, Engines
 from dofkit.exact.points.balls import balls_of
 from dofkit.exact.points.field import primes_of
+from dofkit.exact.zero import BALLS, FIELD, Engines
 from dofkit.methods.ask import Reply, answered_by
 from dofkit.methods.names import Question
 from dofkit.methods.shared.reply import Knobs, MethodReply

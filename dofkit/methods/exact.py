@@ -9,10 +9,9 @@ from fractions import Fraction
 from flint import fmpq, fmpq_mat, fmpz
 
 from dofkit.exact.errors import NoValueError, PoleError, raising_no_value
-from dofkit.exact.ring.instructions import Scalar, Var
-from dofkit.exact.ring.program import value_of
+from dofkit.exact.independence import independent_generators
+from dofkit.exact.ring.program import Scalar, Var, value_of
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr

@@ -12,7 +12,7 @@ from functools import partial
 from importlib import import_module
 from typing import Any
 
-from dofkit.exact.engines import BALLS, BOTH, FIELD, Engines
+from dofkit.exact.zero import BALLS, BOTH, FIELD, Engines
 from dofkit.methods.names import MethodName
 from dofkit.methods.shared.row import Method, Use
 

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dofkit.base.errors import TextError
-from dofkit.exact.zero.identity import is_zero
+from dofkit.exact.zero import is_zero
 from dofkit.expressions.terms import content
 from dofkit.expressions.text import Names, parse_expression, to_text
 from dofkit.expressions.tree import (

@@ -19,13 +19,13 @@ from dofkit.base.verdicts import Verdict
 from dofkit.classification.feasibility.state_problem import StateProblem
 from dofkit.exact.boxes import WHOLE, BoxProgram, EmptyError, Interval, bounds
 from dofkit.exact.errors import NoValueError
+from dofkit.exact.linear_inequalities import LinearCondition, solution
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.linear_inequalities import LinearCondition, solution
-from dofkit.exact.zero.identity import zero_and_verdict
+from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate, interval_of

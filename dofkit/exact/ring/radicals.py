@@ -1,14 +1,15 @@
-"""Roots, absolute values and signs as a ring writes them: over primes, out of squares, nested ones undone."""
+"""Roots, signs, logarithms and inverse functions as a ring writes them: over primes, of factors, of one sign."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from fractions import Fraction
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly_ctx, fmpz, fmpz_poly
 from flint.utils.flint_exceptions import DomainError
 
-from dofkit.exact.ring.instructions import Builder
+from dofkit.exact.ring.program import Instructions
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import interval_of, is_constant
 from dofkit.expressions.terms import content, linear_terms, sorted_sum
@@ -19,7 +20,7 @@ MAX_SQUARE = 40
 Key = tuple[Any, int]
 
 
-def root(ring: Builder, radicand: Expr, degree: int) -> int:
+def root(ring: Instructions, radicand: Expr, degree: int) -> int:
     """The real ``degree``-th root; of a product, the product of the roots; of an integer, over its primes."""
     if radicand.op == "mul":
         apart, rest = known_signs(ring, radicand)
@@ -37,7 +38,7 @@ def root(ring: Builder, radicand: Expr, degree: int) -> int:
     return _new_root(ring, (sorted_sum(radicand), degree), radicand, ring.node(radicand))
 
 
-def _root_of_sum(ring: Builder, radicand: Expr, degree: int) -> int:
+def _root_of_sum(ring: Instructions, radicand: Expr, degree: int) -> int:
     number, rest = content(radicand)
     if number != 1:
         return ring.product(root_of_number(ring, number, degree), root(ring, rest, degree))
@@ -50,7 +51,7 @@ def _root_of_sum(ring: Builder, radicand: Expr, degree: int) -> int:
     return _new_root(ring, (sorted_sum(radicand), degree), radicand, ring.node(radicand))
 
 
-def known_signs(ring: Builder, product: Expr) -> tuple[list[Expr], Expr]:
+def known_signs(ring: Instructions, product: Expr) -> tuple[list[Expr], Expr]:
     """(factors that are never negative, the product of the others): only those have roots and logs of their own."""
     apart: list[Expr] = []
     rest: list[Expr] = []
@@ -63,7 +64,7 @@ def known_signs(ring: Builder, product: Expr) -> tuple[list[Expr], Expr]:
     return apart, Expr("mul", tuple(rest)) if len(rest) > 1 else rest[0] if rest else ex.ONE
 
 
-def never_negative(ring: Builder, part: Expr) -> bool:
+def never_negative(ring: Instructions, part: Expr) -> bool:
     """Is it >= 0 by its form, wherever it is defined?"""
     if part.op == "num":
         return bool(part.args[0] > 0)
@@ -79,12 +80,12 @@ def never_negative(ring: Builder, part: Expr) -> bool:
     return exponent.denominator % 2 == 0 or exponent.numerator % 2 == 0 or never_negative(ring, part.args[0])
 
 
-def _new_root(ring: Builder, key: Key, radicand: Expr, node: int) -> int:
+def _new_root(ring: Instructions, key: Key, radicand: Expr, node: int) -> int:
     shown = Expr("pow", (radicand, ex.num(Fraction(1, key[1]))))
     return ring.generator("root", key, shown, (node,), key[1])
 
 
-def _root_of_power(ring: Builder, radicand: Expr, degree: int) -> int:
+def _root_of_power(ring: Instructions, radicand: Expr, degree: int) -> int:
     base, exponent = radicand.args[0], radicand.args[1].args[0]
     whole, rest = divmod(exponent / degree, 1)
     even_inside = exponent.denominator == 1 and exponent % 2 == 0 and degree % 2 == 0
@@ -100,7 +101,7 @@ def _root_of_power(ring: Builder, radicand: Expr, degree: int) -> int:
     return ring.power_node(root(ring, base, reduced.denominator), reduced.numerator)
 
 
-def root_of_number(ring: Builder, value: Fraction, degree: int) -> int:
+def root_of_number(ring: Instructions, value: Fraction, degree: int) -> int:
     """Over the primes of numerator and denominator."""
     if value < 0:
         if degree % 2:
@@ -133,7 +134,7 @@ def prime_powers(value: int) -> list[tuple[int, int]]:
     return [*powers, (rest, 1)] if rest > 1 else powers
 
 
-def sign(ring: Builder, e: Expr) -> int:
+def sign(ring: Instructions, e: Expr) -> int:
     """The sign of ``e``, with square 1 and derivative 0; an odd function of it."""
     if e.op == "num" and not e.is_zero:
         return ring.number(1 if e.args[0] > 0 else -1)
@@ -234,7 +235,7 @@ def _rational_zeros(coefficients: list[Fraction]) -> list[Fraction]:
 # -- squares of sums -------------------------------------------------------------------------------
 
 
-def square_root(ring: Builder, radicand: Expr) -> Expr | None:
+def square_root(ring: Instructions, radicand: Expr) -> Expr | None:
     """f where the radicand is f^2: a polynomial in symbols and functions, in the square roots of positive symbols."""
     terms = linear_terms(radicand)
     if not 3 <= len(terms) <= MAX_SQUARE:
@@ -261,7 +262,7 @@ def square_root(ring: Builder, radicand: Expr) -> Expr | None:
     return ex.add(*shown)
 
 
-def _monomial(ring: Builder, term: Expr) -> dict[Expr, int] | None:
+def _monomial(ring: Instructions, term: Expr) -> dict[Expr, int] | None:
     """A product as powers of atoms; those of positive symbols are their square roots."""
     found: dict[Expr, int] = {}
     for part in () if term == ex.ONE else term.args if term.op == "mul" else (term,):
@@ -273,7 +274,7 @@ def _monomial(ring: Builder, term: Expr) -> dict[Expr, int] | None:
     return found
 
 
-def _monomial_of_power(ring: Builder, part: Expr) -> dict[Expr, int] | None:
+def _monomial_of_power(ring: Instructions, part: Expr) -> dict[Expr, int] | None:
     base, exponent = part, Fraction(1)
     if part.op == "pow" and part.args[1].op == "num":
         base, exponent = part.args[0], part.args[1].args[0]
@@ -286,3 +287,133 @@ def _monomial_of_power(ring: Builder, part: Expr) -> dict[Expr, int] | None:
     if base.op in ("num", "add") or exponent.denominator != 1 or exponent < 0:
         return None
     return {atom: int(exponent)}
+
+
+def inverse_function(ring: Instructions, name: str, e: Expr) -> int:
+    """asin, acos, atan and atan2."""
+    u = e.args[1]
+    if name == "acos":
+        return ring.node(ex.HALF * ex.PI - ex.fn("asin", u))
+    if name == "atan2":
+        return _atan2(ring, e)
+    if _minus(u):
+        return ring.product(ring.number(-1), ring.node(ex.fn(name, -u)))
+    if name == "asin":
+        root = ring.node(ex.sqrt(ex.ONE - u * u))
+        return ring.generator("asin", sorted_sum(u), e, (ring.node(u), root))
+    below = _inverse_of(u)
+    if below is not None:
+        quarter = ring.product(ring.number(Fraction(1, 2)), ring.node(ex.PI), sign(ring, below))
+        return ring.total(quarter, ring.product(ring.number(-1), ring.node(ex.fn("atan", below))))
+    return ring.generator(name, sorted_sum(u), e, (ring.node(u),))
+
+
+def _minus(u: Expr) -> bool:
+    """Of u and -u, is this the one that is written by the other?"""
+    if u.op == "num":
+        return bool(u.args[0] < 0)
+    return leads_with_minus(u) if u.op in ("add", "mul") else False
+
+
+def _inverse_of(u: Expr) -> Expr | None:
+    """f where u = c / f, c a number and f no number: atan(1/f) = sign(f) pi/2 - atan(f)."""
+    number, rest = (
+        (u.args[0], u.args[1]) if u.op == "mul" and len(u.args) == 2 and u.args[0].op == "num" else (ex.ONE, u)
+    )
+    if rest.op != "pow" or rest.args[1].op != "num" or rest.args[1].args[0] >= 0:
+        return None
+    return ex.power(rest, ex.MINUS_ONE) / number
+
+
+def _atan2(ring: Instructions, e: Expr) -> int:
+    """atan2(y, x) = atan(y/x) where x is known to be positive."""
+    y, x = e.args[1:]
+    if never_negative(ring, x) and (x.op == "num" or x in ring.positive):
+        return ring.node(ex.fn("atan", y / x))
+    return ring.generator("atan2", (y, x), e, (ring.node(y), ring.node(x)))
+
+
+def split_logs(expressions: Iterable[Expr], positive: frozenset[Expr]) -> bool:
+    """Is there a logarithm of an absolute value, or of a product whose factors have unknown signs?"""
+    seen: set[Expr] = set()
+    for e in expressions:
+        for node in ex.nodes(e):
+            if node in seen or node.op != "fn" or node.args[0] != "log":
+                continue
+            seen.add(node)
+            u = node.args[1]
+            if u.op == "fn" and u.args[0] == "abs":
+                return True
+            unknown = [p for p in (u.args if u.op == "mul" else (u,)) if p.op != "num" and p not in positive]
+            if (u.op == "mul" and len(unknown) > 1) or (u.op == "pow" and _even(u)):
+                return True
+    return False
+
+
+def _even(power: Expr) -> bool:
+    exponent = power.args[1]
+    return bool(exponent.op == "num" and exponent.args[0].denominator == 1 and exponent.args[0] % 2 == 0)
+
+
+def log(ring: Instructions, u: Expr, split: bool) -> int:
+    """log of a product as the sum of logs, of a power as a multiple, of an integer over its primes.
+
+    ``split``: log f is written (1/2) log(f^2), and 0 log f is added to keep its domain, so that the logarithm of a
+    product is that of its factors whatever their signs.
+    """
+    if u.op == "mul":
+        apart, rest = known_signs(ring, u)
+        if apart:
+            return ring.total(*(log(ring, part, split) for part in [*apart, *([rest] if rest != ex.ONE else [])]))
+    if u.op == "pow" and (never_negative(ring, u.args[0]) or u.args[1].op != "num" or u.args[1].args[0] % 2):
+        return ring.product(ring.node(u.args[1]), log(ring, u.args[0], split))
+    if u.op == "fn" and u.args[0] == "exp":
+        return ring.node(u.args[1])
+    if u.op == "num" and u.args[0] > 0:
+        return log_of_number(ring, u.args[0])
+    plain = ring.generator("log", sorted_sum(u), Expr("fn", ("log", u)), (ring.node(u),))
+    if not split or not u.symbols or (never_negative(ring, u) and not (u.op == "fn" and u.args[0] == "abs")):
+        return plain
+    return ring.total(_log_of_size(ring, u), ring.product(ring.number(0), plain))
+
+
+def _log_of_size(ring: Instructions, u: Expr) -> int:
+    """log |u|."""
+    if u.op == "mul":
+        return ring.total(*(_log_of_size(ring, part) for part in u.args))
+    if u.op == "pow" and u.args[1].op == "num":
+        return ring.product(ring.node(u.args[1]), _log_of_size(ring, u.args[0]))
+    if u.op == "fn" and u.args[0] == "abs":
+        return _log_of_size(ring, u.args[1])
+    if u.op == "num":
+        return log_of_number(ring, abs(u.args[0]))
+    return ring.product(ring.number(Fraction(1, 2)), log(ring, u * u, False))
+
+
+def log_of_number(ring: Instructions, value: Fraction) -> int:
+    """Over the primes of a positive number."""
+    logs = [ring.product(ring.number(k), _log_of_prime(ring, p)) for p, k in _primes(value)]
+    return ring.total(*logs) if logs else ring.number(0)
+
+
+def over_primes(u: Expr) -> Expr:
+    """An exponent with the logarithms of numbers in its terms as sums over primes: 4^w is (e^(w log 2))^2."""
+    if u.op in ("add", "mul"):
+        return (ex.add if u.op == "add" else ex.mul)(*map(over_primes, u.args))
+    if u.op != "fn" or u.args[0] != "log":
+        return u
+    base = u.args[1]
+    if base.op == "pow" and base.args[0].op == base.args[1].op == "num" and base.args[0].args[0] > 0:
+        return ex.mul(base.args[1], over_primes(ex.fn("log", base.args[0])))
+    if base.op == "num" and base.args[0] > 0:
+        return ex.add(*(ex.mul(ex.num(k), Expr("fn", ("log", ex.num(p)))) for p, k in _primes(base.args[0])))
+    return u
+
+
+def _primes(value: Fraction) -> list[tuple[int, int]]:
+    """The primes of a positive number with their powers."""
+    return prime_powers(value.numerator) + [(p, -k) for p, k in prime_powers(value.denominator)]
+
+
+def _log_of_prime(ring: Instructions, prime: int) -> int:
+    return ring.generator("log", prime, Expr("fn", ("log", ex.num(prime))), (ring.number(prime),))

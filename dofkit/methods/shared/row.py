@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from dofkit.base.verdicts import Verdict
-from dofkit.exact.engines import Engines
+from dofkit.exact.zero import Engines
 from dofkit.methods.names import Question
 from dofkit.methods.shared.reply import MethodFindings, MethodReply
 

@@ -22,7 +22,7 @@ from dofkit.base.deadline import check
 from dofkit.exact.boxes import NON_NEGATIVE, UNIT, WHOLE, Box, BoxProgram, EmptyError, Interval, bounds, middle
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.instructions import Var
+from dofkit.exact.ring.program import Var
 from dofkit.exact.ring.radicals import known_signs
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex

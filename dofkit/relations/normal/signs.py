@@ -14,7 +14,7 @@ from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.radicals import square_root
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import is_proved_zero
+from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
