@@ -148,7 +148,6 @@ def undocumented() -> Iterator[str]:
 _OTHER_WORDS = {
     "equation": {
         "homework/questions/equations.py", "homework/starting.py",
-        "methods/graph.py", "methods/shared/at_drawing.py",
     },
     "string": {"homework/schemas.py", "scene/fields.py", "homework/key/facts.py"},
     "fixed": {"scene/frames.py", "scene/drawing.py"},

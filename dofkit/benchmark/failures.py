@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from dofkit.methods.names import MethodName
-from dofkit.methods.table import METHODS
+from dofkit.methods.table import METHODS, MethodName
 
 #: Every trait of a trial, in words.
 TRAITS: Mapping[str, str] = {

@@ -8,8 +8,7 @@ from typing import get_args
 
 from dofkit.benchmark.storing import ChartError
 from dofkit.benchmark.trials.trial import Trial
-from dofkit.methods.names import Question
-from dofkit.methods.table import METHODS
+from dofkit.methods.table import METHODS, Question
 from dofkit.scene.fields import suggestion
 
 #: Trials of each family and question, at most, where nothing is said; and in a quick run.

@@ -11,7 +11,7 @@ from typing import Any
 
 from dofkit.base.workers import Json
 from dofkit.base.workers.child import LateError, function_named, interrupting
-from dofkit.methods.shared.reply import Knobs, MethodReply
+from dofkit.methods.reply import Knobs, MethodReply
 
 #: What is shorter, in seconds, is done again, so many times, and the least is taken.
 SHORT, AGAIN = 0.05, 2

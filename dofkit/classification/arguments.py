@@ -326,7 +326,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the answer of a single method",
         "",
         "those of the method's own row",
-        "dofkit.methods.shared.reporting.report_alone",
+        "dofkit.methods.single_reports.report_of_method",
         "what the method tells",
     ),
 }

@@ -22,7 +22,7 @@ from dofkit.interface.show.faults import safe
 from dofkit.interface.streams import ascii_only
 from dofkit.interface.summary import Summary
 from dofkit.interface.supervised import Printed, given_for_all, names_of, reports
-from dofkit.methods.names import MethodName
+from dofkit.methods.table import MethodName
 
 #: Exit statuses: a scene is what it must not be; a file could not be read.
 FAILED, UNREADABLE = 1, 2

@@ -29,7 +29,7 @@ from dofkit.interface.presentation import Telling
 
 if TYPE_CHECKING:
     from dofkit.interface.supervised import Printed
-    from dofkit.methods.names import MethodName
+    from dofkit.methods.table import MethodName
 
 Handler = TypeVar("Handler", bound=Callable[..., Any])
 

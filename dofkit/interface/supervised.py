@@ -22,7 +22,7 @@ from dofkit.base.endings import is_folder_path
 from dofkit.base.workers import Job, JobOutcome, Worker
 from dofkit.interface.presentation import Telling
 from dofkit.interface.streams import ascii_only
-from dofkit.methods.names import MethodName
+from dofkit.methods.table import MethodName
 
 STDIN = "stdin"
 #: Seconds for what is printed where a scene's own worker was killed.

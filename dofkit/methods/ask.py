@@ -25,7 +25,7 @@ from dofkit.classification.study import Study, study
 from dofkit.exact.points.balls import precise_for, precision
 from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
-from dofkit.methods.names import QUESTIONS, Question
+from dofkit.methods.table import QUESTIONS, Question
 from dofkit.mobility.frameworks import unprescribed_links
 from dofkit.mobility.graph.answers import linkage
 from dofkit.mobility.rank_at_drawing import drawn_rank

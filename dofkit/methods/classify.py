@@ -12,10 +12,8 @@ from dofkit.base.errors import ArgumentError, Fault, SceneError
 from dofkit.classification.study import study
 from dofkit.exact.points.balls import precise_for
 from dofkit.methods.certificates import lowering
-from dofkit.methods.names import MethodName
-from dofkit.methods.stages import classified
-from dofkit.methods.table import METHODS
-from dofkit.methods.worker_reports import report_from_worker
+from dofkit.methods.stages import classified, report_from_worker
+from dofkit.methods.table import METHODS, MethodName
 from dofkit.report import Report
 from dofkit.scene.lowering import lower
 from dofkit.scene.reading import SceneLike, scene_or_system

@@ -5,18 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from dofkit.base.verdicts import weakest
-from dofkit.base.wording import many
 from dofkit.integrability.traits import exact
-from dofkit.methods.shared.as_written import Written, as_written, labelled
-from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodLabel, MethodReply
+from dofkit.methods.as_written import Written, as_written, labelled
+from dofkit.methods.reply import Knobs, MethodReply
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, System
 
-CLOSED = "It is closed as written (all mixed partial derivatives agree), so it integrates to a holonomic equation."
-NOT_CLOSED = (
-    "It is not closed as written: the classroom's test of mixed partial derivatives calls it non-holonomic, but a "
-    "factor may make it integrable, which only Frobenius' condition tells."
-)
 _BELOW = (
     "the textbook count is {}: some equations have to depend on others or to contradict them, "
     "and it does not tell which"
@@ -28,24 +22,27 @@ def naive(written: Written) -> int:
     return len(written.coordinates) - len(written.finite)
 
 
-def dof(scene: Scene, knobs: Knobs) -> MethodReply:
+def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """f = N d - k, each rigid body with d(d+1)/2 coordinates."""
     del knobs
     number = naive(as_written(scene))
     return MethodReply(None, _BELOW.format(number)) if number < 0 else MethodReply(number)
 
 
-def integrability(scene: Scene, knobs: Knobs) -> MethodReply:
+def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """Closed forms are called holonomic, all others are not: equality of mixed partials, which is exactness."""
     del knobs
     written = as_written(scene)
     closed: dict[int, bool] = {}
+    verdicts = []
     for i, form in written.forms:
-        closed[i] = closed.get(i, True) and bool(exact(form, written.positive)[0])
-    return MethodReply(labelled(written, closed))
+        is_closed, verdict = exact(form, written.positive)
+        closed[i] = closed.get(i, True) and bool(is_closed)
+        verdicts += [verdict] if is_closed else []
+    return MethodReply(labelled(written, closed), verdict=weakest(*verdicts))  # [PoincareLemma]
 
 
-def redundancy(scene: Scene, knobs: Knobs) -> MethodReply:
+def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """None where as much is left as can move for certain: all of a frame that nothing holds to the ground."""
     del knobs
     written = as_written(scene)
@@ -77,40 +74,3 @@ def plain(text: str) -> tuple[str, ...]:
     bare = "".join(text.split()).replace("**", "^").replace("·", "").replace("*", "")
     sides = bare.split("=") if "=" in bare else [bare, "0"]
     return tuple(sorted(sides))
-
-
-def findings(system: System) -> MethodFindings:
-    """The count with its assumption; closed forms are holonomic [PoincareLemma], and no others are known to be."""
-    written = as_written(system)
-    labels: dict[int, MethodLabel] = {}
-    for i, form in written.forms:
-        closed, sure = exact(form, written.positive)
-        label = (
-            MethodLabel(True, CLOSED, sure, True, True)
-            if closed
-            else MethodLabel(None, NOT_CLOSED, "undecided", exact=closed)
-        )
-        labels[i] = label if i not in labels else _both(labels[i], label)
-    return MethodFindings({}, {i: x for i, x in labels.items() if i not in written.others}, _sentences(written))
-
-
-def _both(a: MethodLabel, b: MethodLabel) -> MethodLabel:
-    worse = a if a.holonomic is None else b
-    return MethodLabel(worse.holonomic, worse.reason, weakest(a.verdict, b.verdict), worse.alone, worse.exact)
-
-
-def _sentences(written: Written) -> list[str]:
-    number = naive(written)
-    if number < 0:
-        told = [f"T{_BELOW[1:].format(number)}."]
-    else:
-        told = [
-            f"The textbook count gives {many(number, 'degree')} of freedom: it assumes that every holonomic "
-            "equation is independent and removes one."
-        ]
-    differential = len(written.forms) + sum(why != "inequality" for why in written.others.values())
-    if differential:
-        told.append(
-            f"It does not count {many(differential, 'differential equation')}, which may imply holonomic equations."
-        )
-    return told

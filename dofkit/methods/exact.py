@@ -8,28 +8,28 @@ from fractions import Fraction
 
 from flint import fmpq, fmpq_mat, fmpz
 
+from dofkit.base.verdicts import Verdict
 from dofkit.exact.errors import NoValueError, PoleError, raising_no_value
-from dofkit.exact.independence import independent_generators
 from dofkit.exact.ring.program import Scalar, Var, value_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
+from dofkit.methods.as_written import Written, as_written, posed
 from dofkit.methods.ask import CONTRADICTORY
-from dofkit.methods.shared.as_written import Written, as_written, posed
-from dofkit.methods.shared.at_drawing import at_points
-from dofkit.methods.shared.pointwise import (
+from dofkit.methods.pointwise import (
     Matrix,
     SampledPoints,
     WrittenRows,
     drawn_value,
     droppable,
     freedom,
+    independent_at_reference,
     labels,
     look,
     same,
 )
-from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodReply, cannot
+from dofkit.methods.reply import Knobs, MethodReply, cannot
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -251,19 +251,22 @@ def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Rationals
     return found, numbers
 
 
-def dof(scene: Scene, knobs: Knobs) -> MethodReply:
+def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """Coordinates less the rank of the Jacobian there, forms that pass Frobenius' test included."""
     found = _look(scene, knobs)
-    return found if isinstance(found, MethodReply) else MethodReply(freedom(*found))
+    if isinstance(found, MethodReply):
+        return found
+    sure: Verdict = "proved" if independent_at_reference(*found) else "undecided"
+    return MethodReply(freedom(*found), verdict=sure)
 
 
-def integrability(scene: Scene, knobs: Knobs) -> MethodReply:
+def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By Frobenius' test at that point."""
     found = _look(scene, knobs)
     return _unless_contradictory(found) if isinstance(found, MethodReply) else MethodReply(labels(found[0]))
 
 
-def redundancy(scene: Scene, knobs: Knobs) -> MethodReply:
+def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By the ranks there with and without each constraint."""
     found = _look(scene, knobs)
     return _unless_contradictory(found) if isinstance(found, MethodReply) else MethodReply(droppable(*found))
@@ -277,12 +280,3 @@ def _unless_contradictory(told: MethodReply) -> MethodReply:
 def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> MethodReply:
     """By what holds at a few rational points."""
     return same(posed(scene, answer), Rationals(knobs.seed, COMPARED))
-
-
-def findings(system: System) -> MethodFindings:
-    """What the rational point proves; where the drawing is the point, functions have their own values there."""
-    looked = _look(system, Knobs())
-    if isinstance(looked, MethodReply):
-        return MethodFindings({}, {}, [f"No answer: {looked.reason}."])
-    trusted = system.reference is not None or independent_generators(looked[0].rows.ring)
-    return at_points(*looked, "proved", trusted)

@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-from dofkit.base.verdicts import weakest
-from dofkit.base.wording import many
+from dofkit.base.verdicts import Verdict
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
-from dofkit.classification.freedom.preparation import prepared
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.points.field import prime_for
-from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodReply, cannot
-from dofkit.mobility.frameworks import framework_answer
+from dofkit.methods.reply import Knobs, MethodReply, cannot
+from dofkit.mobility.frameworks import unprescribed_links
 from dofkit.mobility.graph.answers import Linkage, linkage
 from dofkit.mobility.placement import general_placement
 from dofkit.mobility.twists import rows_of
-from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Row, split
-from dofkit.relations.normal.pieces import Finite
-from dofkit.report import Generic
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
 from dofkit.system import System
@@ -70,29 +64,37 @@ def rank(system: System, seed: int) -> int:
     return rank_of_rows(rows, p)
 
 
-def dof(scene: Scene, knobs: Knobs) -> MethodReply:
+def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """Coordinates less the rank in general position."""
-    system = lower(scene)
+    system = scene if isinstance(scene, System) else lower(scene)
     why = outside(system)
-    return MethodReply(len(system.coordinates) - rank(system, knobs.seed)) if why is None else cannot(why)
+    if why is not None:
+        return cannot(why)
+    return MethodReply(len(system.coordinates) - rank(system, knobs.seed), verdict=generic_verdict(system))
 
 
-def integrability(scene: Scene, knobs: Knobs) -> MethodReply:
+def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """Links and joints are finite."""
     del knobs
-    system = lower(scene)
+    system = scene if isinstance(scene, System) else lower(scene)
     why = outside(system)
-    return MethodReply({c.name: True for c in system.constraints}) if why is None else cannot(why)
+    return MethodReply({c.name: True for c in system.constraints}, verdict="proved") if why is None else cannot(why)
 
 
-def redundancy(scene: Scene, knobs: Knobs) -> MethodReply:
+def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By the rank in general position with and without each."""
-    system = lower(scene)
+    system = scene if isinstance(scene, System) else lower(scene)
     why = outside(system)
     if why is not None:
         return cannot(why)
     names = [c.name for c in system.constraints]
-    return MethodReply(sorted(names[i] for i in redundant(system, knobs.seed)))
+    return MethodReply(sorted(names[i] for i in redundant(system, knobs.seed)), verdict=generic_verdict(system))
+
+
+def generic_verdict(system: System) -> Verdict:
+    """Return how certain the count is: it is the scene's own where all lengths were left out."""
+    pairs = unprescribed_links(system)
+    return "undecided" if pairs is None else framework(system, pairs).proof("redundant").verdict
 
 
 def redundant(system: System, seed: int) -> list[int]:
@@ -102,47 +104,3 @@ def redundant(system: System, seed: int) -> list[int]:
         return sorted(pairs[k][0] for k in framework(system, pairs).redundant_places)
     rows, owners, p = generic_rows(system, seed)
     return analyse([OwnedRows(rows, owners, [True] * len(rows), p)]).redundant
-
-
-def findings(system: System) -> MethodFindings:
-    """The count in general position; it is the scene's own where all lengths were left out."""
-    why = outside(system)
-    if why is not None:
-        return MethodFindings({}, {}, [f"No answer: {why}."])
-    pairs = links(system)
-    gone = redundant(system, 0) if pairs is not None else []
-    equations = sum(len(c.relations) for c in system.constraints)
-    own = rank(system, 0)
-    sure = framework(system, pairs).proof("redundant").verdict if pairs is not None else "probable"
-    dof, too_many = len(system.coordinates) - own, equations - own
-    names = [system.constraints[i].name for i in gone]
-    said = f"In general position there are {many(dof, 'degree')} of freedom, and {many(too_many, 'equation')} too many"
-    said += f" (redundant: {', '.join(names)})" if names else ""
-    generic = Generic(dof=dof, redundant_equations=too_many, differs=None, verdict=sure)
-    answers = general_position(system)
-    if answers is None:
-        more = "a graph does not show whether the given geometry is special (parallel, concurrent, collinear)."
-        return MethodFindings({"generic": generic}, {}, [f"{said}; {more}"])
-    verdict = weakest(*(a.verdict for a in answers))
-    fields = {
-        "consistent": True,
-        "dof": dof,
-        "velocity_dof": dof,
-        "redundant_equations": too_many,
-        "redundant": names,
-    }
-    return MethodFindings(
-        fields, {}, [f"{said}; all lengths are generic, so this is the scene's own."], not too_many, verdict
-    )
-
-
-def general_position(system: System) -> list[Answer] | None:
-    """The answers to a scene that is nothing but links of generic lengths, block by block; None for any other."""
-    reduced, setting = prepared(system)
-    if any(r.inequalities or len(n.branches) != 1 for r in reduced for n in r.normals):
-        return None
-    pieces = [(i, p) for i, r in enumerate(reduced) for n in r.normals for p in n.pieces]
-    rows = [Row(i, p) for i, p in pieces if isinstance(p, Finite)]
-    blocks, _ = split([c.name for c in system.coordinates], rows)
-    answers = [framework_answer(b, setting) for b in blocks]
-    return None if None in answers else [a for a in answers if a is not None]

@@ -4,31 +4,31 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from dofkit.base.verdicts import Verdict
 from dofkit.exact.points.balls import FloatPoint
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import Scalar
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
+from dofkit.methods.as_written import Written, as_written, posed
 from dofkit.methods.ask import CONTRADICTORY
-from dofkit.methods.shared.as_written import Written, as_written, posed
-from dofkit.methods.shared.at_drawing import at_points
-from dofkit.methods.shared.pointwise import (
+from dofkit.methods.pointwise import (
     Matrix,
     SampledPoints,
     WrittenRows,
     drawn_value,
     droppable,
     freedom,
+    independent_at_reference,
     labels,
     look,
     same,
 )
-from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodReply
+from dofkit.methods.reply import Knobs, MethodReply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -111,21 +111,22 @@ def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints | None, Fl
     return look(as_written(scene), numbers), numbers
 
 
-def dof(scene: Scene, knobs: Knobs) -> MethodReply:
+def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """Coordinates less the numeric rank, forms that pass Frobenius' test included."""
     found, numbers = _look(scene, knobs)
     if found is None:
         return MethodReply(CONTRADICTORY, NOWHERE.format(STARTS))
-    return MethodReply(freedom(found, numbers))
+    sure: Verdict = "numeric" if _is_clear(found, numbers) and independent_at_reference(found, numbers) else "undecided"
+    return MethodReply(freedom(found, numbers), verdict=sure)
 
 
-def integrability(scene: Scene, knobs: Knobs) -> MethodReply:
+def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By Frobenius' test within the tolerance, at a few points."""
     found, _ = _look(scene, knobs)
     return MethodReply(None, NOWHERE.format(STARTS)) if found is None else MethodReply(labels(found))
 
 
-def redundancy(scene: Scene, knobs: Knobs) -> MethodReply:
+def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By the numeric ranks with and without each constraint."""
     found, numbers = _look(scene, knobs)
     return MethodReply(None, NOWHERE.format(STARTS)) if found is None else MethodReply(droppable(found, numbers))
@@ -136,32 +137,19 @@ def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> Method
     return same(posed(scene, answer), Floats(knobs.tolerance, knobs.seed))
 
 
-def findings(system: System) -> MethodFindings:
-    """What singular values tell that are clearly parted: none is between rounding and what is clearly not 0."""
-    looked, numbers = _look(system, Knobs())
-    if looked is None:
-        return MethodFindings({}, {}, [f"{NOWHERE.format(STARTS)}: whether one exists is undecided."])
-    sample = looked.samples[0]
+def _is_clear(found: SampledPoints, numbers: Floats) -> bool:
+    """Return whether the equations are satisfied and no singular value lies between rounding and the smallest signal.
+
+    A tolerance for the geometry, or a sign that rounding may turn, leaves nothing clear.
+    """
+    written, sample = found.rows.written, found.samples[0]
+    if written.system.tolerance is not None or any(v.kind == "sign" for v in found.rows.ring.vars):
+        return False
     if any(not numbers.vanishes(r, [*row, 1.0]) for r, row in zip(sample.residuals, sample.finite, strict=True)):
-        return MethodFindings({}, {}, ["No answer: the reference configuration does not satisfy the equations."])
-    sentence, clear = _gap([row[: looked.rows.n] for row in sample.rows])
-    if system.tolerance is not None or any(v.kind == "sign" for v in looked.rows.ring.vars):
-        clear = False
-    told = at_points(looked, numbers, "numeric", clear)
-    fields = told.fields if clear else {}
-    return replace(told, fields=fields, warnings=[*told.warnings, sentence])
-
-
-def _gap(matrix: Matrix) -> tuple[str, bool]:
-    """The gap between the singular values, as a sentence, and whether it is clear."""
+        return False
+    matrix = [row[: found.rows.n] for row in sample.rows]
     if not matrix or not matrix[0]:
-        return "There are no equations.", True
+        return True
     singular = singular_values(matrix)
     largest = float(singular[0]) or 1.0
-    shares = [float(v) / largest for v in singular]
-    kept, dropped = [v for v in shares if v > Knobs().tolerance], [v for v in shares if v <= Knobs().tolerance]
-    clear = all(v > SIGNAL for v in kept) and all(v < ROUNDING for v in dropped)
-    said = f"the smallest singular value that counts is {min(kept, default=0.0):.1e} of the largest"
-    said += f", the largest that is taken for 0 is {max(dropped):.1e}" if dropped else ", none is taken for 0"
-    verdict = "a clear gap" if clear else "no clear gap between 0 and what is not 0"
-    return f"Numeric: {said}: {verdict}.", clear
+    return all(v / largest > SIGNAL or v / largest < ROUNDING for v in map(float, singular))

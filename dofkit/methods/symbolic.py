@@ -12,12 +12,11 @@ from typing import Any
 
 import sympy
 
-from dofkit.base.wording import many
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import Expr
-from dofkit.methods.shared.as_written import Written, as_written, labelled, posed
-from dofkit.methods.shared.reply import Knobs, MethodFindings, MethodReply
+from dofkit.methods.as_written import Written, as_written, labelled, posed
+from dofkit.methods.reply import Knobs, MethodReply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -105,7 +104,7 @@ def passing(symbols: Symbols) -> list[bool]:
     return found
 
 
-def dof(scene: Scene, knobs: Knobs) -> MethodReply:
+def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """Coordinates less the rank that SymPy finds, forms that pass Frobenius' test included."""
     del knobs
     symbols = Symbols(as_written(scene))
@@ -117,7 +116,7 @@ def _freedom(symbols: Symbols, passes: Sequence[bool]) -> int:
     return symbols.n - int(symbols.rows(range(len(symbols.finite)), kept).rank())
 
 
-def integrability(scene: Scene, knobs: Knobs) -> MethodReply:
+def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By wedge products."""
     del knobs
     symbols = Symbols(as_written(scene))
@@ -127,7 +126,7 @@ def integrability(scene: Scene, knobs: Knobs) -> MethodReply:
     return MethodReply(labelled(symbols.written, told))
 
 
-def redundancy(scene: Scene, knobs: Knobs) -> MethodReply:
+def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """Constraints without which the rank that SymPy finds stays as it is, the last written first."""
     del knobs
     symbols = Symbols(as_written(scene))
@@ -173,26 +172,3 @@ def _alike(a: Sequence[Any], b: Sequence[Any]) -> bool:
     if len(a) != len(b):
         return False
     return any(all(sympy.simplify(x + sign * y) == 0 for x, y in zip(a, b, strict=True)) for sign in (-1, 1))
-
-
-def findings(system: System) -> MethodFindings:
-    """What SymPy says, as warnings only: none of it is sure."""
-    symbols = Symbols(as_written(system))
-    passes = passing(symbols)
-    where = (
-        "at the reference configuration"
-        if symbols.drawing
-        else "in all of space, not only where the constraints are satisfied"
-    )
-    told = [
-        f"SymPy's rank gives {many(_freedom(symbols, passes), 'degree')} of freedom: the rank of the Jacobian "
-        f"{where}, with every entry non-zero that SymPy does not simplify to 0."
-    ]
-    names = [c.name for c in system.constraints]
-    for verb, said in ((True, "integrable"), (False, "not integrable")):
-        named = [names[i] for (i, _), p in zip(symbols.forms, passes, strict=True) if p is verb]
-        if named:
-            told.append(
-                f"SymPy's wedge products call {', '.join(dict.fromkeys(named))} {said}, by one step of Frobenius."
-            )
-    return MethodFindings({}, {}, told)

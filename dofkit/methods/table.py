@@ -2,29 +2,56 @@
 
 ``auto``, ``field`` and ``balls`` share what is exact: reading, and rewriting a relation to its real zero set in the
 canonical ring; they differ in who decides ranks, zeros and integrability. All others take the equations as written.
-A method is a row here and a module of its name in `dofkit.methods`; those of dofkit's own engines share `engine`.
+A method is a row here; one that is no engine of dofkit has a module of its name, with a function for each question.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from functools import partial
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Literal
 
+from dofkit.base.verdicts import Verdict
 from dofkit.exact.zero import BALLS, BOTH, FIELD, Engines
-from dofkit.methods.names import MethodName
-from dofkit.methods.shared.row import Method, Use
+
+if TYPE_CHECKING:
+    from dofkit.methods.reply import MethodReply
+
+MethodName = Literal["auto", "count", "graph", "field", "balls", "exact", "numeric", "symbolic"]
+Question = Literal["dof", "integrability", "redundancy", "equivalence"]
+QUESTIONS: tuple[Question, ...] = ("dof", "integrability", "redundancy", "equivalence")
 
 
-def _module(name: str) -> Any:
-    """A module of this room, imported where it is first asked for: some need SymPy or numpy."""
-    return import_module(f"dofkit.methods.{name}")
+@dataclass(frozen=True)
+class Use:
+    """How a method answers one question: what it is ``sound`` for, and what it ``costs``.
+
+    n: coordinates, m: scalar equations, k: differential ones, each by itself where parts share no coordinate.
+    """
+
+    sound: str
+    costs: str
 
 
-def _engine(engines: Engines) -> Any:
-    """dofkit's own engines, or one of them alone."""
-    return _module("engine").EngineMethod(engines)
+@dataclass(frozen=True)
+class Method:
+    """One way to answer: in one line; by question; what it cannot answer; its best verdict; the engines it may ask."""
+
+    summary: str
+    uses: Mapping[Question, Use]
+    cannot: str
+    best: Verdict
+    engines: Engines = frozenset()
+
+
+def function_of(method: MethodName, question: Question) -> Callable[..., MethodReply]:
+    """Return the function of a method's module for a question of its row: (scene, knobs), for equivalence the answer.
+
+    The module is imported where it is first asked for: some need SymPy or numpy.
+    """
+    function: Callable[..., MethodReply] = getattr(import_module(f"dofkit.methods.{method}"), question)
+    return function
 
 
 _BY_BLOCKS = "O(n^3) at random points, for each part that shares no coordinate with the others; trees in O(n)"
@@ -44,7 +71,6 @@ METHODS: Mapping[MethodName, Method] = {
         },
         "what neither engine nor a proof decides is undecided, with the reason",
         "proved",
-        partial(_engine, BOTH),
         BOTH,
     ),
     "count": Method(
@@ -64,7 +90,6 @@ METHODS: Mapping[MethodName, Method] = {
         "it assumes that every equation is independent and removes one freedom, does not see which equations "
         "differential constraints imply, and does not identify redundant constraints",
         "proved",
-        partial(_module, "count"),
     ),
     "graph": Method(
         "generic counts of links and joints: pebble games, or ranks at random positions",
@@ -76,7 +101,6 @@ METHODS: Mapping[MethodName, Method] = {
         "it sees which bodies are joined and not where: it does not distinguish parallel, concurrent or collinear "
         "geometry from generic geometry, and ignores written equations",
         "proved",
-        partial(_module, "graph"),
     ),
     "field": Method(
         "exact arithmetic at random points modulo random primes",
@@ -95,7 +119,6 @@ METHODS: Mapping[MethodName, Method] = {
         "it does not decide whether a real configuration exists (its numbers are those of the complex solutions) or "
         "what second-order terms imply, and does not treat measured geometry; integrals are not sought",
         "probable",
-        partial(_engine, FIELD),
         FIELD,
     ),
     "balls": Method(
@@ -109,7 +132,6 @@ METHODS: Mapping[MethodName, Method] = {
         "it does not recognize that equations contradict each other unless they do so as written, gives no growth "
         "vector, and takes a difference below its precision for 0; integrals are not sought",
         "proved",
-        partial(_engine, BALLS),
         BALLS,
     ),
     "exact": Method(
@@ -126,7 +148,6 @@ METHODS: Mapping[MethodName, Method] = {
         "it looks at one point, which may be special, knows rational numbers only, and neither follows a motion nor "
         "sees holonomic equations that differential ones imply",
         "proved",
-        partial(_module, "exact"),
     ),
     "numeric": Method(
         "floating point: singular values above a tolerance, at the reference configuration or at one "
@@ -140,7 +161,6 @@ METHODS: Mapping[MethodName, Method] = {
         "it does not distinguish a small number from 0, an infinitesimal motion from a finite one, or the absence of a "
         "solution from a failed search",
         "numeric",
-        partial(_module, "numeric"),
     ),
     "symbolic": Method(
         "SymPy as one would use it: Jacobian().rank(), wedge products, simplify",
@@ -153,6 +173,5 @@ METHODS: Mapping[MethodName, Method] = {
         "it looks at the whole space and not at where the constraints hold, takes for non-zero what it cannot "
         "simplify, and may not end",
         "undecided",
-        partial(_module, "symbolic"),
     ),
 }

@@ -16,8 +16,7 @@ from dofkit.base.verdicts import VERDICTS
 from dofkit.benchmark.trials.chains import car
 from dofkit.exact.zero import BOTH
 from dofkit.interface.cli import app
-from dofkit.methods.names import MethodName
-from dofkit.methods.table import METHODS
+from dofkit.methods.table import METHODS, MethodName
 from dofkit.report import Report
 
 #: dofkit's own engines, together and alone.

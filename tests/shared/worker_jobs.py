@@ -60,9 +60,9 @@ def stuck(path: str = "") -> None:
 
 def sketched(payload: Any) -> Iterator[Any]:
     """What a scene is asked for, hanging inside a library after the sketch."""
-    from dofkit.methods.worker_reports import classified
+    from dofkit.methods.stages import worker_stages
 
-    yield next(classified(payload))
+    yield next(worker_stages(payload))
     stuck()
 
 

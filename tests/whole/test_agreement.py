@@ -10,8 +10,7 @@ from shared.known_scenes import swept
 
 import dofkit
 from dofkit.benchmark.trials.random_systems import RandomBodies, coarse, dependent, graph, loop, tree
-from dofkit.methods.names import MethodName
-from dofkit.methods.table import METHODS
+from dofkit.methods.table import METHODS, MethodName
 from dofkit.report import Report
 
 DIMENSIONS = (1, 2, 3)

@@ -14,8 +14,7 @@ import pytest
 
 import dofkit
 from dofkit.base.errors import ArgumentError
-from dofkit.methods.names import QUESTIONS
-from dofkit.methods.table import METHODS
+from dofkit.methods.table import METHODS, QUESTIONS
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import survey_of
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypedDict, Unpack
 
 from dofkit.benchmark.trials.trial import Trial, Truth
-from dofkit.methods.names import Question
+from dofkit.methods.table import Question
 
 
 @dataclass(frozen=True)

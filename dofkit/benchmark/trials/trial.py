@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from dofkit.methods.names import Question
+from dofkit.methods.table import Question
 
 #: ``dof``: a number (-1: the constraints contradict each other); ``integrability``: whether each constraint is
 #: holonomic in the system, by name; ``redundancy``: the names of what can be dropped, sorted; ``equivalence``: whether

@@ -15,8 +15,8 @@ from dofkit.exact.ring.program import Point, Scalar, gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.methods.shared.as_written import Written, WrittenAnswer, labelled
-from dofkit.methods.shared.reply import MethodReply
+from dofkit.methods.as_written import Written, WrittenAnswer, labelled
+from dofkit.methods.reply import MethodReply
 
 Matrix = list[list[Scalar]]
 
@@ -230,7 +230,13 @@ def drawn_value(value: Expr, point: Any) -> Scalar:
     return values(ring, point)[node]
 
 
-def regular(found: SampledPoints, numbers: Decider) -> bool:
-    """Are all rows independent over q at every point that was looked at? Then dt is not in their span either."""
-    n = found.rows.n
-    return all(numbers.rank([row[:n] for row in s.rows]) == len(s.rows) for s in found.samples)
+def independent_at_reference(found: SampledPoints, numbers: Decider) -> bool:
+    """Return whether all equations are read, finite, and independent over q at the reference configuration.
+
+    Then the freedom there is the number of coordinates less that of equations [ImplicitFunctions].
+    """
+    written = found.rows.written
+    if written.system.reference is None or written.others or written.forms:
+        return False
+    rows = found.samples[0].rows
+    return numbers.rank([row[: found.rows.n] for row in rows]) == len(rows)
