@@ -59,7 +59,6 @@ PRINTED = {
     "1/sqrt(x)": power(x, num(Fraction(-1, 2))),
     "x^(2/3)": power(x, num(Fraction(2, 3))),
     "x^(-y)": power(x, -y),
-    "(-2)^x": power(num(-2), x),
     "(x^y)^R": power(power(x, y), R),
     "x^(y^R)": power(x, power(y, R)),
     "sin(x)^2": fn("sin", x) ** 2,

@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
+from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError, PoleError, TooLargeError, raising_no_value
@@ -164,7 +165,19 @@ class Canon:
     def generators_in(self, poly: Poly) -> list[int]:
         """The indices of the generators that occur."""
         n = len(self.ring.vars)
-        return [n - 1 - i for i, k in enumerate(poly.degrees()) if k] if n else []
+        return [n - 1 - i for i, k in enumerate(poly.degrees()) if k > 0] if n else []  # of 0 they are -1
+
+
+def square_root(e: Expr, positive: frozenset[Expr]) -> Expr | None:
+    """Return f where ``e`` is f^2 for a polynomial f in the ring's generators, or None where none is found."""
+    ring = Ring([e], positive)
+    try:
+        node = ring.node(e)
+        canon = Canon(ring)
+        top, bottom = canon.quotient(node)
+        return canon.to_expr((top / bottom).sqrt()) if bottom.is_constant() else None
+    except (NoValueError, DomainError):
+        return None
 
 
 def soon_factored(poly: Poly) -> bool:

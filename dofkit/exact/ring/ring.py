@@ -15,7 +15,7 @@ from fractions import Fraction
 from math import gcd
 
 from dofkit.exact.ring.program import ADD, MUL, NUM, VAR, Instructions, Var
-from dofkit.exact.ring.radicals import inverse_function, log, over_primes, root, sign, split_logs
+from dofkit.exact.ring.radicals import inverse_function, log, over_primes, root, sign
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.terms import linear_terms, sorted_sum
@@ -62,39 +62,28 @@ def of_inverse(ring: Instructions, rest: Expr) -> Turn:
     return ring.product(ring.node(x), inverse), ring.product(ring.node(u), inverse)
 
 
-def exact_turn(factor: Fraction) -> tuple[Fraction, Fraction]:
-    """factor = a + b modulo 2 with the prime powers 2, 4 and 3 of its denominator in that of a, the others in b's."""
-    twos, rest = 1, factor.denominator
-    while rest % 2 == 0:
-        twos, rest = 2 * twos, rest // 2
-    threes = 1
-    while rest % 3 == 0:
-        threes, rest = 3 * threes, rest // 3
-    known = (twos if twos <= 4 else 1) * (threes if threes <= 3 else 1)
-    other = factor.denominator // known
-    a = Fraction(factor.numerator * pow(other, -1, known) % known, known) if known > 1 else Fraction(0)
-    return a % 2, (factor - a) % 2
+def _in_twelfths(factor: Fraction) -> bool:
+    return bool((12 * factor).denominator == 1)
 
 
-def turn_of_twelfths(ring: Instructions, factor: Fraction) -> Turn:
-    """cos and sin of factor pi, for a denominator that divides 12."""
-    thirds = int(12 * factor) % 3
-    quarters = int(4 * (factor - Fraction(thirds, 3))) % 8
-    return rotated(ring, multiple(ring, _third(ring), thirds), _quarters(ring, quarters))
+def _cosine_of_twelfths(k: int) -> Expr:
+    """Return cos(k pi/12) with square roots."""
+    k = min(k % 24, -k % 24)
+    return -_COSINES[12 - k] if k > 6 else _COSINES[k]
 
 
-def _third(ring: Instructions) -> Turn:
-    half = ring.number(Fraction(1, 2))
-    return half, ring.product(half, ring.node(ex.sqrt(ex.num(3))))
-
-
-def _quarters(ring: Instructions, n: int) -> Turn:
-    one, zero, minus = ring.number(1), ring.number(0), ring.number(-1)
-    if n % 2 == 0:
-        return {0: (one, zero), 2: (zero, one), 4: (minus, zero), 6: (zero, minus)}[n]
-    plus = ring.product(ring.number(Fraction(1, 2)), ring.node(ex.sqrt(ex.TWO)))
-    less = ring.product(minus, plus)
-    return {1: (plus, plus), 3: (less, plus), 5: (less, less), 7: (plus, less)}[n]
+_COSINES = tuple(
+    ex.num(Fraction(1, 4)) * e
+    for e in (
+        ex.num(4),
+        ex.sqrt(ex.num(6)) + ex.sqrt(ex.TWO),
+        ex.TWO * ex.sqrt(ex.num(3)),
+        ex.TWO * ex.sqrt(ex.TWO),
+        ex.TWO,
+        ex.sqrt(ex.num(6)) - ex.sqrt(ex.TWO),
+        ex.ZERO,
+    )
+)
 
 
 def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) -> dict[tuple[str, Expr], int]:
@@ -105,7 +94,8 @@ def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) ->
         if family:
             argument = node.args[1] if node.op == "fn" else node.args[1] * ex.fn("log", node.args[0])
             for rest, factor in linear_terms(over_primes(substitute(argument, alias))).items():
-                factor = exact_turn(factor)[1] if rest == ex.PI and family == "cis" else factor
+                if rest == ex.PI and family == "cis" and _in_twelfths(factor):
+                    continue
                 old = denominators.get((family, rest), 1)
                 denominators[family, rest] = old * factor.denominator // gcd(old, factor.denominator)
     return denominators
@@ -150,14 +140,13 @@ class Ring(Instructions):
         self.alias = alias or {}
         given = [e for e in expressions if e.functions]
         self._denominators = _angle_arguments(given, self.alias)
-        self._split = split_logs((e for e in given if "log" in e.functions), positive)
         self._memo: dict[Expr, int] = {}
         self._turns: dict[Expr, tuple[int, int]] = {}
 
     def another(self) -> Ring:
         """An empty ring that splits arguments in the same way, so that a point of one is a point of the other."""
         made = Ring((), self.positive, self.alias)
-        made._denominators, made._split = self._denominators, self._split
+        made._denominators = self._denominators
         return made
 
     def node(self, e: Expr) -> int:
@@ -223,7 +212,7 @@ class Ring(Instructions):
             return self._exp(u)
         if name == "abs":
             return self.product(sign(self, u), self.node(u))
-        return log(self, u, self._split) if name == "log" else inverse_function(self, name, e)
+        return log(self, u) if name == "log" else inverse_function(self, name, e)
 
     def _hyperbolic(self, name: str, u: Expr) -> int:
         up, down = self._exp(u), self._exp(-u)
@@ -272,12 +261,13 @@ class Ring(Instructions):
         u = substitute(u, self.alias)
         total = (self.number(1), self.number(0))
         for rest, factor in linear_terms(u).items():
-            if rest == ex.PI:
-                known, factor = exact_turn(factor)
-                total = rotated(self, total, turn_of_twelfths(self, known))
-            if factor:
+            if rest == ex.PI and _in_twelfths(factor):
+                k = int(12 * factor)
+                turn = self.node(_cosine_of_twelfths(k)), self.node(_cosine_of_twelfths(k - 6))
+            else:
                 cos, sin, n = self._basic_angle(rest, factor)
-                total = rotated(self, total, multiple(self, (cos, sin), n))
+                turn = multiple(self, (cos, sin), n)
+            total = rotated(self, total, turn)
         return total
 
     def _basic_angle(self, rest: Expr, factor: Fraction) -> tuple[int, int, int]:

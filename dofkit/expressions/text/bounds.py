@@ -37,6 +37,9 @@ def raised(base: Expr, exponent: Expr) -> Expr:
     """Return ``base^exponent``. Raises UndefinedError."""
     if exponent.op == "num":
         _check_power(base, exponent.args[0])
+    elif base.op == "num" and base.args[0] <= 0:
+        message = f"`{base.args[0]}` to a power that is no number has no real value for most exponents"
+        raise UndefinedError(message, "write a positive base, or `exp(...)`")
     result = power(base, exponent)
     for part in result.args if result.op == "mul" else (result,):
         unfolded = part.op == "pow" and part.args[0].op == part.args[1].op == "num"
