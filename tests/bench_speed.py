@@ -92,7 +92,7 @@ def model(wheel: str, name: str, rounds: int = 3) -> Measured:
     """A model inside a wheel, read before; its freedom is MuJoCo's own."""
     from models.test_wheels import folder
 
-    from dofkit.models.compiled_by_mujoco import compiled
+    from dofkit.models.mjcf import compiled
     from dofkit.models.model_document import ModelFile
 
     path = next(folder(wheel).rglob(name))
@@ -282,7 +282,7 @@ ROWS = {
                    partial(model, "gymnasium_robotics", "kitchen_env_model.xml")),
     "hand": Row("its hand with tendons", seconds(2), partial(model, "gymnasium_robotics", "hand/reach.xml")),
     "loops-43": Row("a tree of 43 bodies with 10 four-bars", seconds(2), partial(tree, 43, 10, 3)),
-    "delta": Row("a delta robot told in 50 ways: the slowest", Goal("fold", 2), delta),
+    "delta": Row("a delta robot described in 50 ways: the slowest", Goal("fold", 2), delta),
     "discs-1000": Row("1 000 equal discs", seconds(0.3), partial(discs, 1000, 3)),
     "discs-10000": Row("10 000 equal discs", seconds(3), partial(discs, 10_000, 1)),
     "dense-2-4": Row("two dense forms in 4 coordinates, holonomic", times(50),

@@ -37,7 +37,7 @@ LATE_IMPORTS = frozenset(
 #: Where one bad file or answer must not stop the others, whatever it does.
 CATCH_ALL = frozenset(
     {"base/workers/child.py", "homework/assignment.py", "homework/grading.py", "homework/echo.py",
-     "interface/one_file.py", "benchmark/trial_job.py"}
+     "interface/one_file.py", "benchmark/runner.py"}
 )  # fmt: skip
 
 

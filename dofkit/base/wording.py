@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 #: A ratio beyond which the rank of a numeric matrix is taken as certain in words.
 UNAMBIGUOUS = 1e12
 
@@ -25,6 +27,15 @@ def verb(number: int, one: str = "is", several: str = "are") -> str:
     ('is', 'have')
     """
     return one if number == 1 else several
+
+
+def series(words: Sequence[str]) -> str:
+    """Return words as a series.
+
+    >>> series(["1", "2", "3"]), series(["2", "3"]), series(["3"])
+    ('1, 2 and 3', '2 and 3', '3')
+    """
+    return " and ".join([part for part in (", ".join(words[:-1]), *words[-1:]) if part])
 
 
 def gap_in_words(gap: float, what: str) -> str:

@@ -196,7 +196,7 @@ def modelled(system: System, outcome: Outcome) -> str:
     parts = []
     touched = len(system.coordinates) - len(outcome.untouched)
     if outcome.blocks:
-        parts.append(f"{many(touched, 'coordinate')} in {many(len(outcome.blocks), 'independent part')}")
+        parts.append(f"{many(touched, 'coordinate')} in {many(len(outcome.blocks), 'independent subsystem')}")
     if outcome.untouched:
         shown = ", ".join(outcome.untouched[:12]) + (", ..." if len(outcome.untouched) > 12 else "")
         parts.append(f"counted but left out of the computation, because nothing constrains them: {shown}")

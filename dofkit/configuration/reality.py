@@ -23,7 +23,7 @@ from dofkit.relations.chart import Chart
 #: Blocks with more columns than this are not certified with balls.
 BALL_COLUMNS = 60
 NEARLY = "nearly dependent equations are satisfied at a real point within its precision, but a zero was not certified"
-ALLOWING = "the answers assume unknown functions for which real configurations exist"
+ALLOWING = "the answers assume that the unknown functions are such that a real configuration exists"
 
 
 def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:

@@ -266,7 +266,7 @@ def chart(
 ) -> None:
     """Compare methods by speed and accuracy on known scenes."""
     from dofkit.benchmark.command import ChartOptions, chart
-    from dofkit.benchmark.selecting import Selection
+    from dofkit.benchmark.tasks import Selection
 
     selection = Selection(question or (), families or (), methods or (), quick, most)
     with failures_of("chart"):

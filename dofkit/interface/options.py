@@ -206,11 +206,20 @@ Scheduler = Annotated[
 
 # of certificates
 
+
+def _certificate(path: str | None) -> str | None:
+    """Return the path of a certificate or of a folder. Raises BadParameter for a file that does not end in .json."""
+    if path is not None and not is_folder_path(Path(path)):
+        _of_format(Path(path), ("json",))
+    return path
+
+
 CertificatePath = Annotated[
     str | None,
     typer.Option(
         "--certificate",
         metavar="OUT.json",
+        callback=_certificate,
         help="Write a certificate that `dofkit verify` can check; for several files name a folder.",
     ),
 ]

@@ -148,19 +148,19 @@ PARAMETERS: list[tuple[str, dict[str, Any], list[Case]]] = [
     (
         "dx = 0 and dy = 0",
         rolling("real"),
-        [("R = 0", f"{INTEGRABLE}; degrees of freedom 2 instead of 4", ("c1", "c2"), "proved")],
+        [("R = 0", f"{INTEGRABLE}; the degrees of freedom are 2 instead of 4", ("c1", "c2"), "proved")],
     ),
     ("R = 0 is excluded", rolling("positive"), []),
     ("R = 0 is excluded", rolling("nonzero"), []),
     (
         "(a - b) dx^dy",
         scene("dz = (a - b) y dx", parameters=["a", "b"]),
-        [("a = b", f"{INTEGRABLE}; degrees of freedom 2 instead of 3", ONE, "proved")],
+        [("a = b", f"{INTEGRABLE}; the degrees of freedom are 2 instead of 3", ONE, "proved")],
     ),
     (
         "positive parameters may be equal",
         scene("dz = (a - b) y dx", parameters={"a": "positive", "b": "positive"}),
-        [("a = b", f"{INTEGRABLE}; degrees of freedom 2 instead of 3", ONE, "proved")],
+        [("a = b", f"{INTEGRABLE}; the degrees of freedom are 2 instead of 3", ONE, "proved")],
     ),
     (
         "their sum is not 0",
@@ -170,17 +170,17 @@ PARAMETERS: list[tuple[str, dict[str, Any], list[Case]]] = [
     (
         "an irrational value",
         scene("dz = (a^2 - 2) y dx", parameters=["a"]),
-        [("a^2 = 2", f"{INTEGRABLE}; degrees of freedom 2 instead of 3", ONE, "proved")],
+        [("a^2 = 2", f"{INTEGRABLE}; the degrees of freedom are 2 instead of 3", ONE, "proved")],
     ),
     (
         "two values",
         scene("dz = (a^2 - 1) y dx", parameters=["a"]),
-        [(f"a = {v}", f"{INTEGRABLE}; degrees of freedom 2 instead of 3", ONE, "proved") for v in (1, -1)],
+        [(f"a = {v}", f"{INTEGRABLE}; the degrees of freedom are 2 instead of 3", ONE, "proved") for v in (1, -1)],
     ),
     (
         "only one of them is positive",
         scene("dz = (a^2 - 1) y dx", parameters={"a": "positive"}),
-        [("a = 1", f"{INTEGRABLE}; degrees of freedom 2 instead of 3", ONE, "proved")],
+        [("a = 1", f"{INTEGRABLE}; the degrees of freedom are 2 instead of 3", ONE, "proved")],
     ),
     ("no real value", scene("dz = (a^2 + 1) y dx", parameters=["a"]), []),
     (
@@ -189,7 +189,7 @@ PARAMETERS: list[tuple[str, dict[str, Any], list[Case]]] = [
         [
             (
                 "a = 0 and b = 0",
-                "c1 is always satisfied; degrees of freedom and velocity freedom 2 instead of 1",
+                "c1 is always satisfied; the degrees of freedom and velocity freedom are 2 instead of 1",
                 ONE,
                 "proved",
             ),
@@ -200,7 +200,7 @@ PARAMETERS: list[tuple[str, dict[str, Any], list[Case]]] = [
     (
         "one of two forms: dz = 0 leaves the knife edge",
         scene(KNIFE, "dz = a x dtheta", coordinates=["x", "y", "z", "theta"], parameters=["a"]),
-        [("a = 0", "c2 is holonomic; degrees of freedom 3 instead of 4", ("c2",), "proved")],
+        [("a = 0", "c2 is holonomic; the degrees of freedom are 3 instead of 4", ("c2",), "proved")],
     ),
     (
         "two knife edges at the distance b hold theta fast; at one place they are one",
@@ -208,8 +208,8 @@ PARAMETERS: list[tuple[str, dict[str, Any], list[Case]]] = [
         [
             (
                 "b = 0",
-                "c1, c2 are non-holonomic; degrees of freedom 3 instead of 1; velocity freedom 2 instead of 1; "
-                "c2 is redundant",
+                "c1, c2 are non-holonomic; the degrees of freedom are 3 instead of 1; "
+                "the velocity freedom is 2 instead of 1; c2 is redundant",
                 ("c1", "c2"),
                 "proved",
             )
@@ -218,18 +218,25 @@ PARAMETERS: list[tuple[str, dict[str, Any], list[Case]]] = [
     (
         "two slopes that become one",
         scene("dy = a dx", "dy = 2 dx", coordinates=["x", "y"], parameters=["a"]),
-        [("a = 2", "degrees of freedom and velocity freedom 1 instead of 0; c2 is redundant", ("c2",), "proved")],
+        [
+            (
+                "a = 2",
+                "the degrees of freedom and velocity freedom are 1 instead of 0; c2 is redundant",
+                ("c2",),
+                "proved",
+            )
+        ],
     ),
     (
         "a sphere becomes a point",
         scene("x^2 + y^2 + z^2 = L^2", parameters=["L"]),
-        [("L = 0", "degrees of freedom and velocity freedom 0 instead of 2", ONE, "proved")],
+        [("L = 0", "the degrees of freedom and velocity freedom are 0 instead of 2", ONE, "proved")],
     ),
     ("not where L is positive", scene("x^2 + y^2 + z^2 = L^2", parameters={"L": "positive"}), []),
     (
         "a circle becomes a point",
         scene("x^2 + y^2 = L", coordinates=["x", "y"], parameters=["L"]),
-        [("L = 0", "degrees of freedom and velocity freedom 0 instead of 1", ONE, "proved")],
+        [("L = 0", "the degrees of freedom and velocity freedom are 0 instead of 1", ONE, "proved")],
     ),
     (
         "a hyperbola becomes two lines",
@@ -239,14 +246,14 @@ PARAMETERS: list[tuple[str, dict[str, Any], list[Case]]] = [
     (
         "the circle of latitude shrinks to a pole",
         scene("x^2 + y^2 + z^2 = R^2", "z = R sin(b)", parameters={"R": "positive", "b": "real"}),
-        [("cos(b) = 0", "degrees of freedom and velocity freedom 0 instead of 1", ("c2",), "numeric")],
+        [("cos(b) = 0", "the degrees of freedom and velocity freedom are 0 instead of 1", ("c2",), "numeric")],
     ),
     (
         "a exp(k z) = b exp(k z), however it is written",
         scene("dx = exp(k z)*(a - b)*sin(a y)*dy", parameters={"a": "real", "b": "real", "k": "nonzero"}),
         [
-            ("a = 0", f"{INTEGRABLE}; degrees of freedom 2 instead of 3", ONE, "proved"),
-            ("a = b", f"{INTEGRABLE}; degrees of freedom 2 instead of 3", ONE, "proved"),
+            ("a = 0", f"{INTEGRABLE}; the degrees of freedom are 2 instead of 3", ONE, "proved"),
+            ("a = b", f"{INTEGRABLE}; the degrees of freedom are 2 instead of 3", ONE, "proved"),
             ("sin(y*a) = 0", flat("(2, 2, 3)", "(2, 3)"), ONE, "proved"),
         ],
     ),
@@ -273,7 +280,7 @@ PARAMETERS: list[tuple[str, dict[str, Any], list[Case]]] = [
             ("a = 0", "c1 cannot be satisfied", ONE, "proved"),
             (
                 "a = 0 and b = 0",
-                "c1 is always satisfied; degrees of freedom and velocity freedom 2 instead of 1",
+                "c1 is always satisfied; the degrees of freedom and velocity freedom are 2 instead of 1",
                 ONE,
                 "proved",
             ),
@@ -357,5 +364,5 @@ def test_one_parameter_in_several_blocks_is_told_once() -> None:
     pair = scene("dz1 = a y1 dx1", "dz2 = a y2 dx2", coordinates=names, parameters=["a"])
     cases = dofkit.classify(dofkit.load(pair)).special_cases
     assert [(c.where, c.what, c.constraints) for c in cases] == [
-        ("a = 0", f"{INTEGRABLE}; degrees of freedom 4 instead of 6", ["c1", "c2"])
+        ("a = 0", f"{INTEGRABLE}; the degrees of freedom are 4 instead of 6", ["c1", "c2"])
     ]

@@ -33,7 +33,7 @@ OPEN = "Whether it is implied by the others was not decided."
 UNCOUNTED = "The number of its equations that are independent of the preceding ones was not decided."
 REDUNDANT = "It is redundant: the other constraints, including those written after it, allow the same motions."
 #: What is added where this is stated for one component of the configuration space.
-ON_COMPONENT = "This is stated for the component of the configuration space that contains the configuration found."
+ON_COMPONENT = "The claim is about the component of the configuration space that contains the report's witness."
 
 
 def entries_of(

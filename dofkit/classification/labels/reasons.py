@@ -94,10 +94,10 @@ def _pfaffian(labels: Labels, proofs: Sequence[Integrability], others: Others) -
         return _integrable(proofs, others)
     if labels.in_system:
         with_whom = "the other constraints" if not others.names else " and ".join(others.names)
-        then = "" if others.integral is None else f", which gives {others.text}"
+        integrates = "is integrable" if others.integral is None else f"integrates to {others.text}"
         return (
-            f"It is not integrable on its own; together with {with_whom} it is integrable{then}: "
-            f"in this system it is holonomic, and {_INITIAL}."
+            f"It is not integrable on its own; together with {with_whom} it {integrates}. "
+            f"In this system it is holonomic, and {_INITIAL}."
         )
     if labels.alone:
         return "It is integrable on its own."

@@ -136,15 +136,15 @@ def differences(generic: Report, special: Report, integrals: Sequence[str] = ())
             return [f"{_all(generic.conflicting)} can be satisfied, with {_degrees(special.dof)}"]
         return [f"{_all(special.conflicting)} cannot be satisfied"]
     said = [*_branches(generic, special), *_labels(generic, special), *_integrals(special, integrals)]
-    fields = (("degrees of freedom", "dof"), ("velocity freedom", "velocity_dof"))
-    numbers = {name: (getattr(generic, f), getattr(special, f)) for name, f in fields}
-    differ = {name: pair for name, pair in numbers.items() if None not in pair and pair[0] != pair[1]}
-    if len(set(differ.values())) == 1:
-        differ = {" and ".join(differ): next(iter(differ.values()))}
-    said += [f"{name} {new} instead of {old}" for name, (old, new) in differ.items()]
+    fields = (("the degrees of freedom are", "dof"), ("the velocity freedom is", "velocity_dof"))
+    numbers = {subject: (getattr(generic, f), getattr(special, f)) for subject, f in fields}
+    differ = {subject: pair for subject, pair in numbers.items() if None not in pair and pair[0] != pair[1]}
+    if len(differ) == 2 and len(set(differ.values())) == 1:
+        differ = {"the degrees of freedom and velocity freedom are": next(iter(differ.values()))}
+    said += [f"{subject} {new} instead of {old}" for subject, (old, new) in differ.items()]
     old, new = generic.growth_vector, special.growth_vector
     if old and new and old != new and not said:
-        said.append(f"growth vector {tuple_of(new)} instead of {tuple_of(old)}")
+        said.append(f"the growth vector is {tuple_of(new)} instead of {tuple_of(old)}")
     before, now = generic.redundant, special.redundant
     idle = _idle(generic, special)
     more = [] if before is None or now is None else [name for name in now if name not in before and name not in idle]
