@@ -16,9 +16,9 @@ import typer
 from typer.main import get_command_name
 from typer.models import CommandInfo
 
-from dofkit.base.endings import format_of_path, is_folder_path
+from dofkit.base import __version__
+from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.errors import ArgumentError
-from dofkit.base.version import __version__
 from dofkit.interface import options
 from dofkit.interface.assignment_commands import assignment_app
 from dofkit.interface.catalog_commands import catalog
