@@ -207,7 +207,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "an expression is 0",
         "",
         "its canonical form is 0",
-        "dofkit.exact.zero.identity.zero_and_verdict",
+        "dofkit.exact.zero.zero_and_verdict",
     ),
     "zero with another derivative": Argument(
         "an expression is nonzero where another is zero",

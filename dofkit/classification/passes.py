@@ -18,8 +18,8 @@ from dofkit.classification.freedom.reference_branches import all_of
 from dofkit.classification.generalized_coordinates import generalized_coordinates
 from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
-from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import precise_for
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.mobility.kutzbach import without_drives
 from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.report import ConstraintEntry, FieldVerdict, Mobility, Report

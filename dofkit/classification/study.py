@@ -17,7 +17,7 @@ from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entries import entries_of
 from dofkit.classification.labels.single_constraint_labels import AnsweredParts
-from dofkit.exact.engines import BOTH, Engines
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.relations.normal.pieces import Reduced
 from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.report import ConstraintEntry

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from dofkit.base.deadline import check
-from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.terms import linear_terms

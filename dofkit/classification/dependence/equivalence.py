@@ -20,8 +20,8 @@ from dofkit.classification.dependence.regularity import Regularity
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.freedom.reference_branches import all_of
-from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import precise_for
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr

@@ -21,7 +21,7 @@ from dofkit.classification.feasibility.witness import Values, value_of, witness
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.isomorphic_blocks import copies
 from dofkit.classification.study import Study
-from dofkit.exact.engines import BOTH
+from dofkit.exact.zero import BOTH
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr

@@ -18,7 +18,7 @@ from math import prod
 
 from dofkit.base.components import components
 from dofkit.classification.feasibility.refutation import SignClaim
-from dofkit.exact.zero.identity import zero_and_verdict
+from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.differentials import accelerations_of

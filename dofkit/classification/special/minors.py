@@ -17,7 +17,7 @@ from dofkit.base.deadline import check
 from dofkit.classification.special.common_zeros import Reals
 from dofkit.exact.errors import TooLargeError, raising_no_value
 from dofkit.exact.ring.canonical import Canon, Poly, Quotient, cleared, determinant
-from dofkit.exact.ring.instructions import Var
+from dofkit.exact.ring.program import Var
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from dofkit.base.deadline import check
-from dofkit.exact.zero.analyticity import is_analytic
+from dofkit.exact.analyticity import is_analytic
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr

@@ -15,20 +15,17 @@ from functools import lru_cache
 from itertools import combinations, islice
 from typing import Any, NamedTuple
 
-from flint import ctx, fmpq_mat, fmpz_poly
+from flint import arb, ctx, fmpq_mat, fmpz_poly
 
 from dofkit.base.deadline import OutOfTimeError, check
-from dofkit.exact.boxes.box_program import Box, BoxProgram
-from dofkit.exact.boxes.functions import constant
-from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval, middle
+from dofkit.exact.boxes import NON_NEGATIVE, UNIT, WHOLE, Box, BoxProgram, EmptyError, Interval, bounds, middle
 from dofkit.exact.errors import NoValueError, PoleError
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.instructions import Var
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import Var, values
 from dofkit.exact.ring.radicals import known_signs
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import is_proved_zero
+from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
@@ -46,7 +43,6 @@ THINNEST, FARTHEST = 1e-7, 1e7
 #: Polynomials are combined up to this size, and resultants are taken of so many pairs.
 MAX_TABLE, MAX_RESULTANT_TERMS, MAX_RESULTANT_DEGREE, MAX_PAIRS = 4000, 40, 8, 60
 ZERO: Interval = (0.0, 0.0)
-UNIT: Interval = (-1.0, 1.0)
 
 #: An expression and where its value must lie.
 Wanted = tuple[Expr, Interval]
@@ -197,7 +193,7 @@ def _range(var: Var, ring: Ring) -> Interval:
     if var.kind == "atan2":
         return -3.2, 3.2
     if var.kind == "pi":
-        return constant("pi")
+        return bounds(arb.pi())
     if var.kind == "exp" or (var.kind == "root" and var.degree % 2 == 0):
         return NON_NEGATIVE
     return NON_NEGATIVE if var.kind == "symbol" and var.key in ring.positive else WHOLE
@@ -327,7 +323,7 @@ def _never_by_bounds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
     try:
         program = BoxProgram([(e, WHOLE)])
         box = [NON_NEGATIVE if v in positive else WHOLE for v in program.variables]
-        top = program.forward(box)[program.roots[0][0]][1]
+        top = program.forward(box)[e][1]
     except (EmptyError, NoValueError):
         return False
     return top <= 0 if strict else top < 0

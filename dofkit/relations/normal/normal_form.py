@@ -20,12 +20,11 @@ from dofkit.base.errors import TextError
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, divided, lowest_terms
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import is_proved_zero
+from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
-from dofkit.expressions.combinations import Combined, combined
 from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, cleared, in_velocities
-from dofkit.expressions.terms import without_cancelled
+from dofkit.expressions.terms import Combined, combined, without_cancelled
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import (
     DomainCondition,

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
+from dofkit.expressions.renaming import Unwritten
 from dofkit.expressions.tree import Expr
-from dofkit.expressions.unwritten import Unwritten
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.system import Constraint, Relation
 
