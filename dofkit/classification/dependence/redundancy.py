@@ -15,7 +15,7 @@ from dofkit.classification.dependence import block_implication, removal
 from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse, undecided_dependence
 from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.reference_branches import algebraic, all_of, branches_at_reference
+from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
 from dofkit.exact.matrices.sparse import SparseRow
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, coordinates_of

@@ -30,7 +30,7 @@ from dofkit.classification.dependence.block_implication import Everywhere, NearD
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
 from dofkit.classification.freedom.block import answer
-from dofkit.classification.freedom.reference_branches import all_of
+from dofkit.classification.freedom.preparation import all_of
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, split

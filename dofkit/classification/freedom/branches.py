@@ -10,11 +10,11 @@ from itertools import product as cartesian
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
 from dofkit.classification.freedom.block import answer
-from dofkit.classification.freedom.common_point import at_one_point
-from dofkit.classification.freedom.domain import restricted_to_domain
-from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses, copies
-from dofkit.classification.freedom.reference_branches import (
+from dofkit.classification.freedom.common_point import at_one_point, restricted_to_domain
+from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses
+from dofkit.classification.freedom.preparation import (
     branches_at_reference,
+    copies,
     has_kink_at_reference,
     reductions_at_reference,
 )
@@ -249,14 +249,14 @@ class AnsweredBlocks:
         """The blocks' answers; those that may be twins are looked through for one that was answered."""
         shapes = Counter(map(_shape, blocks)) if len(blocks) > 1 and "twins" in setting.reductions else Counter()
         self._shapes |= {shape for shape, times in shapes.items() if times > 1}
-        likenesses = Likenesses(setting, self._roles)
+        likenesses = Likenesses(setting, self._roles) if self._shapes else None
         return [self._answer(block, setting, likenesses) for block in blocks]
 
-    def _answer(self, block: Block, setting: Setting, likenesses: Likenesses) -> Answer:
+    def _answer(self, block: Block, setting: Setting, likenesses: Likenesses | None) -> Answer:
         same = tuple([id(row.piece) for row in block.rows] + [id(c) for c in block.conditions])
         if same not in self._answers:
             twins = _shape(block) in self._shapes and not any(isinstance(r.piece, JointEquation) for r in block.rows)
-            found = self._twin(block, setting, likenesses) if twins else in_time(block, setting)
+            found = self._twin(block, setting, likenesses) if twins and likenesses else in_time(block, setting)
             self._answers[same] = block, found
         return self._answers[same][1]
 
