@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations
-from typing import Any, Literal
+from typing import Literal
 
-from flint import fmpq_mat, nmod_poly
+from flint import fmpq_mat
 
-from dofkit.exact.errors import NoPointError, NoValueError
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.characters import MOST_REDUCED
-from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.ring.canonical import Canon, divided
-from dofkit.exact.ring.program import VAR, Var, reachable, value_of
+from dofkit.exact.ring.program import Var
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
@@ -21,6 +20,8 @@ from dofkit.expressions.tree import Expr
 Doubt = Literal["numbers", "functions"]
 #: Entries of a matrix that tells whether arguments are independent.
 MOST_TERMS = 20_000
+#: Terms of polynomials of which resultants tell whether they are coprime.
+MOST_ELIMINATED = 60
 INVERSE = ("asin", "atan", "atan2")
 
 
@@ -146,7 +147,9 @@ def _related_functions(ring: Ring) -> bool:
         return True
     roots = [v for v in moving if _root_of_more(v)]
     logs = [v for v in moving if v.kind == "log"]
-    return not (_apart(ring, roots, squares=True) and (len(logs) < 2 or _apart(ring, logs, squares=False)))
+    if logs and "exp" in kinds:
+        return True
+    return not (_apart(ring, roots, roots=True) and (len(logs) < 2 or _apart(ring, logs, roots=False)))
 
 
 def _changes_sign(ring: Ring, var: Var) -> bool:
@@ -176,76 +179,37 @@ def _natural(exponent: Expr) -> bool:
     return bool(value.denominator == 1 and value > 0)
 
 
-class _LinePoint:
-    """Random values in GF(p), but for one symbol, which is the unknown of polynomials."""
+def _apart(ring: Ring, functions: Sequence[Var], roots: bool) -> bool:
+    """Return whether the arguments of logarithms, or of roots, are coprime, and those of roots no powers.
 
-    def __init__(self, base: FieldPoint, index: int) -> None:
-        self.base, self.index = base, index
-        self.unknown = nmod_poly([0, 1], base.p)
-
-    def number(self, value: Any) -> nmod_poly:
-        return nmod_poly([int(self.base.number(value))], self.base.p)
-
-    def generator(self, var: Var, args: Sequence[Any]) -> nmod_poly:
-        if var.index == self.index:
-            return self.unknown
-        if any(a.degree() > 0 for a in args):
-            raise NoPointError("a function of the unknown")
-        known = [self.base.number(ex.ZERO.args[0]) + a[0] for a in args]
-        return nmod_poly([int(self.base.generator(var, known))], self.base.p)
-
-
-def _apart(ring: Ring, found: Sequence[Var], squares: bool) -> bool:
-    """Are the arguments of roots (or logs) without common factors, and those of roots no powers?
-
-    They are looked at along a line in one symbol at a time: what has no common factor there has none at all.
+    They are looked at as polynomials in one symbol at a time: what has no common factor there has none at all.
     """
-    left = list(found)
+    left, canon = list(functions), Canon(ring)
+    symbols = [v.index for v in ring.vars if v.kind == "symbol"]
     while left:
-        chosen = _line(ring, left, squares)
-        if not chosen:
+        try:
+            independent = next((own for i in symbols if (own := _independent_along(canon, left, i, roots))), None)
+        except NoValueError:
             return False
-        left = [v for v in left if v not in chosen]
+        if independent is None:
+            return False
+        left = [v for v in left if v not in independent]
     return True
 
 
-def _line(ring: Ring, found: Sequence[Var], squares: bool) -> list[Var]:
-    """Some of the roots that are independent over all functions of the other symbols."""
-    for symbol in (v for v in ring.vars if v.kind == "symbol"):
-        own = [v for v in found if symbol.index in _generators(ring, v)]
-        if not own:
-            continue
-        polynomials = [_along(ring, v, symbol.index, squares) for v in own]
-        if all(p is not None and p.degree() > 0 for p in polynomials) and all(
-            a.gcd(b).degree() == 0 for a, b in combinations(polynomials, 2)
-        ):
-            return own
-    return []
-
-
-def _generators(ring: Ring, var: Var) -> set[int]:
-    code = ring.code
-    return {code[i][1] for i in reachable(ring, var.args) if code[i][0] == VAR}
-
-
-def _along(ring: Ring, var: Var, index: int, squares: bool) -> Any:
-    """The argument as a polynomial in one symbol, of a root without the powers in it; None where it is none."""
-    for seed in range(4):
-        try:
-            point = _LinePoint(field_point([ring], 7000 + seed), index)
-            polynomial = value_of(ring, point, var.args[0])
-        except NoPointError:
-            return None
-        except (NoValueError, TypeError):
-            continue
-        return _odd_part(polynomial, var.degree) if squares else polynomial
-    return None
-
-
-def _odd_part(polynomial: Any, degree: int) -> Any:
-    """The product of the factors whose multiplicity is prime to the root's degree."""
-    total = polynomial * 0 + 1
-    for factor, k in polynomial.factor()[1]:
-        if k % degree and all(k % q or degree % q for q in (2, 3, 5, 7)):
-            total = total * factor
-    return total
+def _independent_along(canon: Canon, functions: Sequence[Var], index: int, roots: bool) -> list[Var]:
+    """Return those whose arguments hold a symbol, if they are independent over all functions of the other symbols."""
+    ring, place = canon.ring, len(canon.ring.vars) - 1 - index
+    symbol = ring.var_expr[index]
+    own = [v for v in functions if symbol in ring.var_expr[v.index].symbols]
+    polynomials = []
+    for var in own:
+        top, bottom = canon.quotient(var.args[0])
+        polynomial = top * bottom ** (var.degree - 1 if roots else 1)
+        held = {ring.var_expr[i] for i in canon.generators_in(polynomial)}
+        if symbol not in held or len(polynomial) > MOST_ELIMINATED or any(symbol in e.symbols for e in held - {symbol}):
+            return []
+        polynomials.append(polynomial)
+    pairs = [(a, b) for a, b in combinations(polynomials, 2)]
+    pairs += [(p, p.derivative(place)) for p in polynomials if roots]
+    return own if all(canon.reduce(a.resultant(b, place)) != 0 for a, b in pairs) else []

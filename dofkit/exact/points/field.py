@@ -18,18 +18,15 @@ from math import gcd, lcm
 from flint import fmpz, nmod, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
-from dofkit.exact.errors import NoPointError, NoValueError
+from dofkit.exact.errors import NoPointError
 from dofkit.exact.points.characters import Character
-from dofkit.exact.ring.program import NUM, Scalar, Var, value_of
+from dofkit.exact.ring.program import NUM, Scalar, Var
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 
 PRIME_BITS = 61
 #: Tries for a prime modulo which every root of a number exists.
 PRIME_TRIES = 4000
-#: Primes that are tried where roots of roots must exist: each does modulo every other prime or so.
-NESTED_TRIES = 12
-
 
 #: Parts of a turn that are exact wherever pi is written, the largest number of parts that a number makes, and of all.
 WHOLE_TURNS, MOST_PARTS, MOST_ORDER = 12, 360, 10**5
@@ -103,9 +100,8 @@ class FieldPoint:
         self.given: dict[tuple[str, object], Scalar] = {}
         self._taken: dict[tuple[object, ...], Scalar] = {}
         self._drawn: set[int] = set()
-        self._exponentials, self._turns = Character(p, drawn=self._drawn), Character(p, drawn=self._drawn)
+        self._exponentials, self._turns = Character(p, self._drawn), Character(p, self._drawn)
         self._agreed: set[tuple[str, object]] = set()
-        self._logarithms = False
         self._zeta: Scalar = None
         self._imaginary: Scalar = None
 
@@ -120,7 +116,7 @@ class FieldPoint:
         """A point with the same values so far; what is drawn later differs."""
         other = FieldPoint(self.p, self.rng, self.order)
         other.given = dict(self.given)
-        other._taken, other._agreed, other._logarithms = dict(self._taken), set(self._agreed), self._logarithms
+        other._taken, other._agreed = dict(self._taken), set(self._agreed)
         other._drawn = set(self._drawn)
         other._exponentials, other._turns = self._exponentials.copy(other._drawn), self._turns.copy(other._drawn)
         other._zeta, other._imaginary = self._zeta, self._imaginary
@@ -157,9 +153,6 @@ class FieldPoint:
     def _agree(self, var: Var, args: Sequence[Scalar], value: Scalar) -> None:
         """Take the value that a generator was given. Raises NoPointError where its function has another one there."""
         if var.kind == "exp":
-            known = self._exponentials.argument_of(value) if self._logarithms else None
-            if known not in (None, args[0]):
-                raise NoPointError("a logarithm was drawn before the exponential whose argument it is")
             self._exponentials.agree(args[0], value)
         elif var.kind in ("cos", "sin"):
             if var.key[0] != ex.PI and ("sin" if var.kind == "cos" else "cos", var.key) in self.given:
@@ -168,8 +161,6 @@ class FieldPoint:
                 self._turns.agree(args[0], cos + self._imaginary * sin)
         elif self._of_arguments(var, args, lambda: value) != value:
             raise NoPointError("a function with two values at one place")
-        elif var.kind == "log":
-            self._exponentials.take(value, args[0])
 
     def _of_arguments(self, var: Var, args: Sequence[Scalar], draw: Callable[[], Scalar]) -> Scalar:
         """The value that this function has taken at these arguments, however they are written; else a new one.
@@ -202,22 +193,9 @@ class FieldPoint:
             return self._root(var, args[0])
         if var.kind == "sign":
             return self._sign()
-        if var.kind == "log":
-            return self._logarithm(args[0])
         if args and var.kind != "call" and args[0] == 0:
             return nmod(0, self.p)
         return self.random()
-
-    def _logarithm(self, value: Scalar) -> Scalar:
-        """u where v = exp(u) follows from what was taken before; else at random, and then exp(u) = v."""
-        known = self._exponentials.argument_of(value)
-        if known is not None:
-            self._exponentials.take(known, value)
-            return known
-        drawn = self.random()
-        self._exponentials.agree(drawn, value)
-        self._logarithms = True
-        return drawn
 
     def _draw_angle(self, var: Var, args: Sequence[Scalar]) -> None:
         rest, denominator = var.key
@@ -298,31 +276,14 @@ class FieldPoint:
 def field_point(
     rings: Sequence[Ring], seed: int, given: Mapping[Var, Scalar] | None = None, beside: str = ""
 ) -> FieldPoint:
-    """A fresh random point for programs that share their symbols, modulo a prime where roots of roots exist.
+    """A fresh random point for programs that share their symbols, modulo a prime where the roots of numbers exist.
 
     Primes and values are drawn by a hash of the programs, and of what stands ``beside`` them: a coefficient that is
     made to vanish modulo the primes in use changes them.
     """
     order, roots, own = circle_order(rings), number_roots(rings), " ".join((*(ring.digest for ring in rings), beside))
-    nested = [(ring, var) for ring in rings for var in ring.vars if _nested(ring, var)]
-    for attempt in range(NESTED_TRIES if nested else 1):
-        p = prime_for(order, roots, f"{seed % 3 + 3 * attempt} {own}")
-        point = FieldPoint(p, random.Random(f"dofkit point {seed} {own}"), order)
-        for var, value in (given or {}).items():
-            point.set(var, value)
-        if all(_exists(ring, var, point) for ring, var in nested):
-            break
+    p = prime_for(order, roots, f"{seed % 3} {own}")
+    point = FieldPoint(p, random.Random(f"dofkit point {seed} {own}"), order)
+    for var, value in (given or {}).items():
+        point.set(var, value)
     return point
-
-
-def _nested(ring: Ring, var: Var) -> bool:
-    """A root of a number that is no integer itself."""
-    return var.kind == "root" and not isinstance(var.key[0], ex.Expr) and not ring.var_expr[var.index].symbols
-
-
-def _exists(ring: Ring, var: Var, point: FieldPoint) -> bool:
-    try:
-        value_of(ring, point, ring.var_node[var.index])
-    except NoValueError:
-        return False
-    return True
