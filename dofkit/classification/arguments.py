@@ -260,7 +260,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the reference configuration satisfies the equations",
         "",
         "their values there are zero in exact arithmetic",
-        "dofkit.exact.points.exact.vanish_exactly",
+        "dofkit.exact.points.balls.vanish_exactly",
         "the reference",
     ),
     "free Lie algebra": Argument(

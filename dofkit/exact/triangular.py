@@ -17,11 +17,11 @@ from typing import Any
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoPointError, NoValueError, raising_no_value
 from dofkit.exact.ideals import combined
-from dofkit.exact.independence import independent_generators
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.ring.program import ADD, MUL, POW, reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.unknowns import Unit, circle, is_linear, root_relations, roots_of, units_in, univariate, value_along
+from dofkit.exact.zero import independent_generators
 
 #: An elimination that makes the program longer than this is given up.
 MAX_CODE = 20_000

@@ -8,7 +8,7 @@ import pytest
 from flint import nmod
 
 from dofkit.exact.errors import NoPointError
-from dofkit.exact.points.characters import Character, _root
+from dofkit.exact.points.field import Character, _root
 
 #: p - 1 = 2^2 3^2 5 7 11 13 (and so on): many degrees share factors with it.
 SMOOTH = 180181

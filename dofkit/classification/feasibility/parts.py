@@ -9,7 +9,7 @@ from math import prod
 
 from dofkit.base.components import components
 from dofkit.classification.feasibility.refutation import SignClaim
-from dofkit.expressions.differentials import accelerations_of
+from dofkit.expressions.calculus import accelerations_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.integration_constants import with_rows

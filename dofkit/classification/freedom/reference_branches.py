@@ -12,8 +12,7 @@ from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.zero import is_proved_zero, is_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
-from dofkit.expressions.differentials import accelerations_of, in_velocities
+from dofkit.expressions.calculus import accelerations_of, in_velocities, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart_of_block import make_chart
