@@ -139,14 +139,10 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
         elif kind == "degree" or (kind == "word" and match[kind] in _DEGREES and lookup.meaning(match[kind]) is None):
             found[-1:] = [_in_degrees(found, start, end, columns)]
         elif kind == "word":
-            called = text[end : end + 1] == "("
             before = found[-1] if found and found[-1].kind == "number" else None
             number = "" if before is None else text[before.start : before.end]
-            for meaning, a, b in read_word(match[kind], lookup, columns[start], called, number):
-                if meaning is None:
-                    found.append(Token("number", start + a, start + b, num(int(text[start + a : start + b]))))
-                else:
-                    found.append(Token(meaning.kind, start + a, start + b, meaning.expr, meaning.name, meaning.order))
+            parts = read_word(match[kind], lookup, columns[start], text[end : end + 1] == "(", number)
+            found += [_word_token(part, start, text) for part in parts]
         elif kind == "sign" or kind == "relation":
             sign = match[kind]
             sign = _ALIKE.get(sign, sign)
@@ -163,6 +159,13 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
             message = f"the text has more than {MAX_NODES} numbers, names and signs"
             raise TextError(message, columns[start], "split it into several texts")
         position = end
+
+
+def _word_token(part: WordPart, start: int, text: str) -> Token:
+    first, end, meaning = start + part.start, start + part.end, part.meaning
+    if meaning is None:
+        return Token("number", first, end, num(int(text[first:end])))
+    return Token(meaning.kind, first, end, meaning.expr, meaning.name, meaning.order)
 
 
 def _motion(word: str, text: str, start: int, lookup: Lookup, columns: Sequence[int]) -> Token | None:
