@@ -151,17 +151,8 @@ class Planner:
         for unit in own:
             degree = self.degree(node, unit)
             if degree:
-                ranked.append((degree, self._rank(unit), unit))
+                ranked.append((degree, _rank(self.ring, unit), unit))
         return min(ranked)[2] if ranked else None
-
-    def _rank(self, unit: Unit) -> tuple[int, int]:
-        var = self.ring.vars[unit[1]]
-        if var.kind == "symbol":
-            kind, name = var.key.args
-            order = 0 if name.startswith("_") else {"velocity": 1, "coordinate": 2}.get(kind, 4)
-        else:
-            order = 3
-        return (order, -unit[1])
 
     def _settle(self, remaining: list[int]) -> list[int]:
         """Drop relations between no unknowns that hold; notice those that do not."""
@@ -197,14 +188,7 @@ class Planner:
     def _parameters_only(self, node: int) -> bool:
         """Does the relation hold between named parameters alone (generic geometry is not named)?"""
         units = {u for u in units_in(self.ring, node) if self.degree(node, u)}
-        return bool(units) and all(self._is_parameter(u) for u in units)
-
-    def _is_parameter(self, unit: Unit) -> bool:
-        var = self.ring.vars[unit[1]]
-        if unit[0] == "angle" or var.kind != "symbol":
-            return False
-        kind, name = var.key.args
-        return bool(kind == "parameter" and not name.startswith("_"))
+        return bool(units) and all(_is_parameter(self.ring, u) for u in units)
 
     def _eliminate(self, remaining: list[int]) -> tuple[int, Unit, list[int]] | None:
         """Solve one relation for an unknown that it holds linearly and put that into the others."""
@@ -214,7 +198,7 @@ class Planner:
             for unit in units_in(self.ring, node) - self.fixed:
                 if unit[0] == "var" and self.is_linear(node, unit):
                     size = len(reachable(self.ring, [node], through_generators=False))
-                    choices.append((size, self._rank(unit), node, unit))
+                    choices.append((size, _rank(self.ring, unit), node, unit))
         if not choices:
             return None
         _, _, node, unit = min(choices)
@@ -236,7 +220,7 @@ class Planner:
 
     def _may_be_zero(self, node: int) -> bool:
         """Does a coefficient hold unknowns, so that it may vanish where the relations hold?"""
-        moving = [u for u in units_in(self.ring, node) if not self._is_parameter(u)]
+        moving = [u for u in units_in(self.ring, node) if not _is_parameter(self.ring, u)]
         try:
             return self.probe is None or any(univariate(self.ring, node, u, self.probe).degree() > 0 for u in moving)
         except NoValueError:
@@ -249,6 +233,24 @@ class Planner:
             return bool(value_along(self.ring, node, {}, point) == 0)
         except NoValueError:
             return False
+
+
+def _is_parameter(ring: Ring, unit: Unit) -> bool:
+    var = ring.vars[unit[1]]
+    if unit[0] == "angle" or var.kind != "symbol":
+        return False
+    kind, name = var.key.args
+    return bool(kind == "parameter" and not name.startswith("_"))
+
+
+def _rank(ring: Ring, unit: Unit) -> tuple[int, int]:
+    var = ring.vars[unit[1]]
+    if var.kind == "symbol":
+        kind, name = var.key.args
+        order = 0 if name.startswith("_") else {"velocity": 1, "coordinate": 2}.get(kind, 4)
+    else:
+        order = 3
+    return (order, -unit[1])
 
 
 def _point(ring: Ring, seed: int) -> FieldPoint | None:
