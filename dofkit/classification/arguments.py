@@ -226,12 +226,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the reference configuration satisfies the equations",
         "",
         "their values there are zero in exact arithmetic",
-<<<<<<< HEAD
         "dofkit.exact.points.balls.vanish_exactly",
-        "the reference",
-=======
-        "dofkit.exact.points.balls.vanish_exactly",
->>>>>>> main
     ),
     "free Lie algebra": Argument(
         "dimensions of brackets",

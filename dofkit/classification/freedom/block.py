@@ -18,11 +18,7 @@ from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety
 from dofkit.configuration.witness import of_real_point, of_reference
 from dofkit.exact.errors import NoPointError
-<<<<<<< HEAD
-=======
-from dofkit.exact.zero import doubt, independent_generators
 from dofkit.exact.matrices.sparse import echelon
->>>>>>> main
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.zero import BALLS, BOTH, doubt, independent_generators

@@ -10,11 +10,7 @@ from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
-<<<<<<< HEAD
-from dofkit.expressions.calculus import accelerations_of, in_velocities, substitute
-=======
 from dofkit.expressions.calculus import substitute
->>>>>>> main
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart import make_chart
