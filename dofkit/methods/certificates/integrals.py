@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, add, negative, times
-from dofkit.checker.values import derivative
+from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, add, derivative, negative, times
 from dofkit.methods.certificates.dependence import rate_of
 from dofkit.methods.certificates.elimination import echelon, solved
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError

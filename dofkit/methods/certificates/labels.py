@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from dofkit.checker.trees import CheckError, Tree, add, negative, number, power, symbol, times
-from dofkit.checker.values import derivative
+from dofkit.checker.trees import CheckError, Tree, add, derivative, negative, number, power, symbol, times
 from dofkit.methods.certificates.forms import integrable_names, involutive_rows, pairing, reach, words_of
 from dofkit.methods.certificates.found_points import FoundPoint
 from dofkit.methods.certificates.integrals import combined_integral, follows_from_integrals

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
+from dofkit.checker.motion import MOTION_FIELDS
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, read_problem, sha256_of
-from dofkit.checker.trees import MINUS, ONE, Tree, number, power, symbol, times
-from dofkit.checker.values import along, substituted
+from dofkit.checker.trees import MINUS, ONE, Tree, along, number, power, substituted, symbol, times
 from dofkit.checker.verification import PARTS
 from dofkit.methods.certificates.certificate import HINDRANCES, without_spare_parts
 from dofkit.methods.certificates.estimates import Estimates
@@ -19,7 +19,6 @@ from dofkit.methods.certificates.room import Room, Told
 from dofkit.methods.certificates.scenery import Scenery
 from dofkit.methods.certificates.texts import number_text, text_of
 from dofkit.methods.certificates.trial import ClaimTrial
-from dofkit.motion_checker import MOTION_RULES, TOLD
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
 
@@ -40,9 +39,9 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
     try:
         problem = read_problem(document)
         room = Room(report, document, Scenery(problem, False, parts))
-        trial = ClaimTrial(document, found, problem, MOTION_RULES)
+        trial = ClaimTrial(document, found, problem)
         trial.admit(room.scenery)
-        for evidence in MotionEvidence(room, {name: motion[name] for name in TOLD}).found():
+        for evidence in MotionEvidence(room, {name: motion[name] for name in MOTION_FIELDS}).found():
             if trial.outcome(evidence) == "shown":
                 found |= {"claims": [evidence], "uncovered": []}
                 break

@@ -9,8 +9,7 @@ from typing import Any
 
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.trees import CheckError, Effort, Tree
-from dofkit.checker.values import substituted
+from dofkit.checker.trees import CheckError, Effort, Tree, substituted
 
 #: Units of the checker's work that looking for the evidence of one scene may cost.
 WORK = 12_000_000

@@ -7,8 +7,7 @@ from fractions import Fraction
 
 from flint import arb, ctx, fmpq
 
-from dofkit.checker.trees import Tree, number
-from dofkit.checker.values import PRECISION, CheckedPoint, derivative, evaluated
+from dofkit.checker.trees import PRECISION, CheckedPoint, Tree, derivative, evaluated, number
 from dofkit.methods.certificates.elimination import Pivot, echelon, solved
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
 from dofkit.methods.certificates.found_points import FoundPoint

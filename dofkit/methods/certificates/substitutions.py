@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 
-from dofkit.checker.trees import ZERO, CheckError, Tree, difference, negative, times
-from dofkit.checker.values import linear_in, put_in
+from dofkit.checker.trees import ZERO, CheckError, Tree, difference, linear_in, negative, put_in, times
 from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
 from dofkit.methods.certificates.found_points import FoundPoint
 from dofkit.methods.certificates.scenery import Scenery

@@ -7,20 +7,17 @@ from typing import Any, Literal
 
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.relations import FAULTS, told
-from dofkit.checker.verification import RULES, Rule, Verifier
+from dofkit.checker.verification import Verifier
 from dofkit.methods.certificates.scenery import Scenery
 
-Rules = Mapping[Any, Rule]
 Outcome = Literal["shown", "contradicted", "open"]
 
 
 class ClaimTrial:
     """The checker at work on a certificate that grows."""
 
-    def __init__(
-        self, document: Mapping[str, Any], certificate: dict[str, Any], problem: Problem, rules: Rules = RULES
-    ) -> None:
-        self.verifier = Verifier(document, certificate, problem, rules)
+    def __init__(self, document: Mapping[str, Any], certificate: dict[str, Any], problem: Problem) -> None:
+        self.verifier = Verifier(document, certificate, problem)
         self.reasons: dict[str, str] = {}
 
     def admit(self, scenery: Scenery) -> None:
