@@ -106,7 +106,7 @@ class Certifying:
             else:
                 self.found["claims"].append(claim)
                 self._compare_about(path, claim)
-        written = without_spare_parts(self.found)
+        written = without_spare_parts({**self.found})  # what is searched for below adds parts to the lists
         for path, value, make in left:
             self._look_for_others(path, value, make)
         written["uncovered"] = [path for path in written["uncovered"] if path not in self.contradictions]
