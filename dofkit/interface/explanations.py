@@ -10,10 +10,9 @@ from importlib import resources
 from typing import NamedTuple
 
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.spelling import closest, nearest
-from dofkit.base.wording import series
+from dofkit.base.wording import closest, nearest, series
 from dofkit.classification.arguments import TABLE
-from dofkit.homework.key.codes import CODES
+from dofkit.homework.key.misconceptions import CODES
 from dofkit.interface.field_meanings import OF_CONSTRAINT, OF_REPORT
 from dofkit.interface.show.assurance import VERDICT_MEANS
 from dofkit.scene.constraints import TYPES, ConstraintBase

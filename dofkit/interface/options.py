@@ -8,9 +8,9 @@ from typing import Annotated, Any
 
 import typer
 
-from dofkit.base.endings import format_of_path, is_folder_path
+from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.errors import ArgumentError
-from dofkit.base.spelling import no_such
+from dofkit.base.wording import no_such
 from dofkit.interface.help_panels import ADVANCED
 from dofkit.interface.outcome import FAILURES
 from dofkit.methods.table import METHODS
@@ -226,15 +226,6 @@ CertificatePath = Annotated[
 CertificateFiles = Annotated[
     list[str],
     typer.Argument(metavar="[SCENE] CERT", help="A scene and its certificate, or a certificate that holds its scene."),
-]
-CertificateFolder = Annotated[
-    Path | None,
-    typer.Option(
-        "--certificates",
-        metavar="DIR",
-        callback=folder,
-        help="Write the evidence behind keys and judgements, for appeals.",
-    ),
 ]
 Strict = Annotated[bool, typer.Option("--strict", help="Fail if a claim is not covered by evidence, too.")]
 

@@ -10,7 +10,7 @@ import uuid
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from dofkit.base.documents.document import MOST_BYTES
+from dofkit.base.documents import MOST_BYTES
 from dofkit.interface.supervised import data_of, places_of
 from dofkit.models.formats import is_model
 
