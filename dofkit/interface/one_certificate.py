@@ -11,7 +11,6 @@ from dofkit.base.workers import Json
 from dofkit.checker import CheckError, Verification, verify
 from dofkit.interface.supervised import CertificateGiven
 from dofkit.methods.certificates import verifying
-from dofkit.motion_checker import MOTION_RULES
 from dofkit.scene.found_files import find
 
 #: Exit statuses: all is well, something failed, something could not be read.
@@ -35,10 +34,10 @@ def _verified(given: CertificateGiven) -> Verification:
     """The checker by itself; a scene that it cannot read may be in other words, and is given in the standard ones."""
     certificate = Path(given.certificate).read_bytes()
     if given.scene is None:
-        return verify(None, certificate, MOTION_RULES)
+        return verify(None, certificate)
     data = find(given.scene).data
     try:
-        return verify(data if isinstance(data, str) else data.decode("utf-8"), certificate, MOTION_RULES)
+        return verify(data if isinstance(data, str) else data.decode("utf-8"), certificate)
     except (CheckError, UnicodeDecodeError):
         return verifying.verify(given.scene, certificate)
 
