@@ -63,7 +63,7 @@ def branch_dimensions(
 
 
 def where_nonzero(system: System, h: Expr) -> System:
-    """Return the system on the set where an expression does not vanish: u h = 1 holds there for one u."""
+    """Return the system on the set where an expression does not vanish: u h = 1 for one u [Rabinowitsch1929]."""
     reciprocal = Relation(ex.coordinate(_RECIPROCAL) * h - ex.ONE)
     facts = TypeFacts(written=True)
     condition = Constraint(_RECIPROCAL, _RECIPROCAL, facts, f"{to_text(h)} != 0", (reciprocal,))
