@@ -1,5 +1,5 @@
 """``python -m dofkit``."""
 
-from dofkit.interface.entry import main
+from dofkit.interface.cli import main
 
 main()

@@ -14,10 +14,10 @@ from dofkit.homework.judgement import Given
 from dofkit.homework.key.key import Key
 from dofkit.homework.own_sheets import NobodysSheetError, own
 from dofkit.homework.questions import QuestionBase
-from dofkit.report import ToldModel
+from dofkit.report import ReportModel
 
 
-class Reading(ToldModel):
+class Reading(ReportModel):
     """One answer as it was understood; ``column`` is where one that is not understood could not be read further."""
 
     problem: str
@@ -28,7 +28,7 @@ class Reading(ToldModel):
     column: int | None = None
 
 
-class Echo(ToldModel):
+class Echo(ReportModel):
     """One student's answers as they were understood. ``error``: why the submission could not be read."""
 
     student: str

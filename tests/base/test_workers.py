@@ -432,7 +432,7 @@ def test_a_file_in_the_working_folder_is_not_run(tmp_path: Path) -> None:
 
 
 STUCK = """
-import sys, dofkit.interface.one_file as telling, dofkit.interface.cli
+import sys, dofkit.interface.answers as telling, dofkit.interface.cli
 from pathlib import Path
 import pytest
 from shared import worker_jobs
@@ -467,7 +467,7 @@ def test_a_scene_without_end_does_not_stop_the_others(tmp_path: Path) -> None:
 
 
 CRASHING = """
-import sys, dofkit.interface.one_file as telling, dofkit.interface.cli
+import sys, dofkit.interface.answers as telling, dofkit.interface.cli
 from pathlib import Path
 import pytest
 from shared import worker_jobs

@@ -15,7 +15,7 @@ from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Pfaffian
 from dofkit.relations.piece_shapes import shape_together
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
-from dofkit.report import ConstraintEntry, with_values
+from dofkit.report import ConstraintEntry
 
 #: Of the equations of a joint that is not driven.
 STILL = Traits((True, "proved"))
@@ -79,7 +79,7 @@ class SharedEntries:
         found = None if kind is None else self._entries.get(kind)
         if found is None:
             return None
-        return with_values(found, name=r.constraint.name, text=r.constraint.text)
+        return found.model_copy(update={"name": r.constraint.name, "text": r.constraint.text})
 
     def keep(self, kind: Hashable, made: ConstraintEntry) -> None:
         """Tell the same of others of that kind, where all of it is decided and nothing in it has a name."""
