@@ -35,7 +35,7 @@ LATE_IMPORTS = frozenset({"sympy", "rich", "matplotlib", "numba", "distributed",
 #: Where one bad file or answer must not stop the others, whatever it does.
 CATCH_ALL = frozenset(
     {"base/workers/child.py", "homework/assignment.py", "homework/grading.py", "homework/echo.py",
-     "interface/answers.py", "benchmark/trial_job.py"}
+     "interface/answers.py", "benchmark/runner.py"}
 )  # fmt: skip
 
 

@@ -40,7 +40,7 @@ ALLOWED: tuple[Allowed, ...] = (
     Allowed("finite relation", "classification/labels/entry_claims.py", _KEY),
     Allowed("to first order", "configuration/drawing/at_reference.py", _KEY),
     Allowed("to first order", "configuration/local/criteria.py", _KEY),
-    Allowed("as drawn", "benchmark/trials/sweeps.py", _TRIAL),
+    Allowed("as drawn", "benchmark/trials/poses.py", _TRIAL),
     Allowed("can be dropped", "homework/answers/denials.py", _ANSWER),
     Allowed("finite relation", "homework/answers/denials.py", _ANSWER),
 )
