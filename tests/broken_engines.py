@@ -71,8 +71,8 @@ BUGS: Mapping[str, Bug] = {
         "catalog/l6/x-dy-plus-y-dx.yaml",
     ),
     "pebbles": Bug(
-        "mobility/graph/plain_game.py",
-        "                redundant.append(i)\n                self._condense",
+        "mobility/graph/plane.py",
+        "                self.redundant.append(i)\n                self._condense",
         "                self._condense",
         "catalog/l6/complete-framework-4-points-in-2d.yaml",
     ),

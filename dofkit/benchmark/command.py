@@ -17,10 +17,9 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Table
 
-from dofkit.base.version import __version__
-from dofkit.base.workers import Job
-from dofkit.base.workers.child import function_named
-from dofkit.base.workers.pool import cores
+from dofkit.base import __version__
+from dofkit.base.runs import cores
+from dofkit.base.workers import Job, function_named
 from dofkit.benchmark import record, runner, tasks
 from dofkit.benchmark.record import ALL, AUTO, ChartError, ChartRun, Data, Ran, ReductionCost, Score
 from dofkit.benchmark.sentences import TWICE, summary

@@ -15,10 +15,10 @@ from dataclasses import asdict, dataclass
 from functools import lru_cache
 from typing import Any
 
-from dofkit.base.workers import MEMORY, Job, Json
+from dofkit.base.process_limits import LateError, interrupting
+from dofkit.base.runs import Cluster, Crew, Pool, StoppedError
+from dofkit.base.workers import MEMORY, Job, Json, function_named
 from dofkit.base.workers import JobOutcome as Ended
-from dofkit.base.workers.child import LateError, function_named, interrupting
-from dofkit.base.workers.pool import Cluster, Crew, Pool, StoppedError
 from dofkit.benchmark.failures import explained
 from dofkit.benchmark.record import Outcome, TrialLine
 from dofkit.benchmark.statistics import grouped

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple
 
-from dofkit.base.deadline import DEFAULT_SECONDS, limited, part, unless_late
-from dofkit.base.memory import gc_rarely
+from dofkit.base.deadline import DEFAULT_SECONDS, gc_rarely, limited, part, unless_late
 from dofkit.base.verdicts import weakest
 from dofkit.classification import report as fields
 from dofkit.classification.agreements import agreed
@@ -239,7 +238,7 @@ def examined(
     passes: Iterable[Pass] = PASSES,
 ) -> Examined:
     """All that some engines find of a system in so many seconds, with some ``reductions``. Raises OutOfTimeError."""
-    with limited(seconds), precise_for(system.longest), gc_rarely(len(system.constraints)):
+    with limited(seconds), precise_for(system.longest), gc_rarely():
         with part(SOLVING):
             found = study(system, engines, reductions)
         return Examined(found, report_of(found, passes))

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from dofkit.base.errors import DofkitError
-from dofkit.base.workers.pool import Pool, StoppedError
+from dofkit.base.runs import Pool, StoppedError
 from dofkit.homework.answers.attribution import by_platform
 from dofkit.homework.answers.prairielearn import answers_of
 from dofkit.homework.answers.roster import Participant

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from dofkit.base.version import __version__
+from dofkit.base import __version__
 from dofkit.base.wording import many
 from dofkit.homework.answers.label_words import word_of
 from dofkit.homework.answers.roster import Roster

@@ -15,7 +15,7 @@ from flint import ctx
 
 from dofkit.base.deadline import OutOfTimeError, by_processor
 from dofkit.base.errors import DofkitError, TextError
-from dofkit.base.spelling import nearest
+from dofkit.base.wording import nearest
 from dofkit.exact.points.balls import PRECISION
 from dofkit.homework.answers.prose import says_nothing
 from dofkit.homework.answers.sources import read_submission

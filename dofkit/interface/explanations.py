@@ -12,8 +12,7 @@ from typing import NamedTuple
 from pydantic import BaseModel
 
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.spelling import closest, nearest
-from dofkit.base.wording import series
+from dofkit.base.wording import closest, nearest, series
 from dofkit.classification.arguments import TABLE
 from dofkit.homework.key.codes import CODES
 from dofkit.interface.show.assurance import VERDICT_MEANS

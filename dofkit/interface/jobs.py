@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, Protocol
 
 from dofkit.base.deadline import DEFAULT_SECONDS, limit
-from dofkit.base.documents.document import MOST_BYTES
+from dofkit.base.documents import MOST_BYTES
 from dofkit.base.workers import Job, JobOutcome, Worker
 from dofkit.interface.output import UNREADABLE, Output
 from dofkit.methods.table import MethodName

@@ -12,10 +12,9 @@ from functools import lru_cache, partial
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
-from dofkit.base.journal import Journal
-from dofkit.base.version import __version__
+from dofkit.base import __version__
+from dofkit.base.runs import Cluster, Journal, Pool, in_order
 from dofkit.base.workers import MEMORY
-from dofkit.base.workers.pool import Cluster, Pool, in_order
 from dofkit.interface import answers  # imported here already for workers that are forks of this process
 from dofkit.interface.jobs import Printed, Request, data_of, reply, requests
 from dofkit.models.formats import is_model

@@ -8,9 +8,9 @@ from typing import Annotated, Any
 
 from typer import Argument, BadParameter, Option
 
-from dofkit.base.endings import format_of_path, is_folder_path
+from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.errors import ArgumentError
-from dofkit.base.spelling import no_such
+from dofkit.base.wording import no_such
 from dofkit.interface.output import FAILURES
 from dofkit.methods.table import METHODS
 

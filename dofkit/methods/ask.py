@@ -27,7 +27,7 @@ from dofkit.exact.points.balls import precise_for, precision
 from dofkit.expressions import tree as ex
 from dofkit.methods.table import QUESTIONS, Question
 from dofkit.mobility.frameworks import unprescribed_links
-from dofkit.mobility.graph.answers import linkage
+from dofkit.mobility.graph.linkage import linkage
 from dofkit.mobility.rank_at_drawing import drawn_rank
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite

@@ -9,11 +9,10 @@ import time
 from collections.abc import Iterator
 from dataclasses import asdict
 
-from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, limit, limited
+from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, gc_rarely, limit, limited
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.memory import gc_rarely
+from dofkit.base.runs import shared
 from dofkit.base.workers import Job, Json
-from dofkit.base.workers.pool import shared
 from dofkit.classification.passes import PASSES, PLAIN, examined
 from dofkit.classification.undecided import open_entry, open_report, sketch, undecided, why_nothing
 from dofkit.methods.single_reports import report_of_engine, report_of_method

@@ -15,6 +15,6 @@ Formats (`formats` recognises a file by how it begins)
         each kind of constraint. Sketches in space and derived groups are not read, and the scene says so.
 
 Common parts: `markup` reads XML with lines and bounds, `joint_relations` writes relations between joints as a person
-would, `scene_text` writes a scene as YAML. A constraint that is not read is a warning of the report, because the true
+would. A constraint that is not read is a warning of the report, because the true
 freedom may be smaller.
 """

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from dofkit.base.errors import Fault, SceneError
+from dofkit.base.runs import shared
 from dofkit.base.workers import Job
-from dofkit.base.workers.pool import shared
 from dofkit.models.joint_relations import OVER, JointSum, bounds, relation, whole_turns
 from dofkit.models.markup import Element, read_markup
 from dofkit.models.model_document import (

@@ -14,7 +14,7 @@ import pytest
 from shared import chart_methods
 from typer.testing import CliRunner
 
-from dofkit.base.workers.pool import Pool
+from dofkit.base.runs import Pool
 from dofkit.benchmark import command, record, runner, statistics, tasks
 from dofkit.benchmark.figures import table as figures_table
 from dofkit.benchmark.record import AUTO, Data, Outcome, Ran, ReductionCost, Score, TrialLine

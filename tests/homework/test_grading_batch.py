@@ -20,7 +20,7 @@ from shared.homework_cases import FILES, document
 from shared.late import LONG
 
 import dofkit
-from dofkit.base.workers.pool import Pool, in_order
+from dofkit.base.runs import Pool, in_order
 from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.answers.submission import FilePlace, of_value
 from dofkit.homework.grading import Grader
@@ -511,7 +511,7 @@ def test_results_are_the_same_with_any_number_of_workers_and_in_any_order(
 #: The command line, which stops before it writes the results of so many submissions, says so, and waits for a signal.
 WAITING = """
 import signal, sys
-from dofkit.base.journal import Journal
+from dofkit.base.runs import Journal
 from dofkit.interface import cli
 from dofkit.methods.classify import classify
 real, left = Journal.write, int(sys.argv.pop(1))

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.base.workers.pool import Cluster, Pool, in_order
+from dofkit.base.runs import Cluster, Pool, in_order
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.answers.submission import FilePlace
 from dofkit.homework.runs.batch import Orders

@@ -15,9 +15,8 @@ from shared.command_line import called
 from shared.late import LONG
 
 import dofkit
-from dofkit.base.journal import BusyError, Journal
+from dofkit.base.runs import BusyError, Journal, Pool
 from dofkit.base.workers import Job, JobOutcome
-from dofkit.base.workers.pool import Pool
 from dofkit.interface.answers import streams
 from dofkit.interface.jobs import Cut, Printed, Request
 from dofkit.interface.many import Helpers, QueuedScene, answer, kept_reports
@@ -219,12 +218,13 @@ def test_a_journal_keeps_what_is_written_again(tmp_path: Path) -> None:
     assert not list(path.parent.iterdir())
 
 
-def test_a_model_that_includes_files_is_asked_about_again(tmp_path: Path, counting: Counting) -> None:
-    out, files = tmp_path / "out", [tmp_path / "whole.xml", tmp_path / "including.xml"]
-    files[0].write_text("<mujoco/>")
-    files[1].write_text("<mujoco><include file='part.xml'/></mujoco>")
-    assert counting.run(out, files) == ["whole", "including"]
-    assert counting.run(out, files) == ["including"]
+def test_a_model_that_includes_files_is_analysed_again(tmp_path: Path, counting: Counting) -> None:
+    model, alone = tmp_path / "m.xml", tmp_path / "alone.xml"
+    model.write_text("<mujoco><include file='deep.xml'/><mesh file='no.stl'/></mujoco>")
+    alone.write_text("<mujoco><worldbody/></mujoco>")
+    out = tmp_path / "out"
+    assert sorted(counting.run(out, [model, alone])) == ["alone", "m"]
+    assert counting.run(out, [model, alone]) == ["m"]
 
 
 # What breaks a worker

@@ -6,6 +6,7 @@ fewest rows, so a chain or a tree fills in nothing and a grid little more than i
 
 from __future__ import annotations
 
+import random
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -94,6 +95,19 @@ def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
         else:
             found.append({i: 1} | {k: -v % p for k, v in reduction.support(used).items()})
     return found
+
+
+def vector_in_kernel(rows: Sequence[Mapping[int, int]], p: int, rng: random.Random) -> SparseRow:
+    """Return a random vector on which all rows vanish, with a value for each column that occurs."""
+    weight = Counter(c for row in rows for c in row)
+    reduction = _Reduction(p, weight)
+    for i, row in enumerate(rows):
+        if i % LOOK == 0:
+            check()
+        rest, used = reduction.reduced(row)
+        if rest:
+            reduction.add(i, rest, used)
+    return reduction.completed({c: rng.randrange(p) for c in weight})
 
 
 def rank_of_rows(rows: Sequence[Mapping[int, int]], p: int) -> int:
@@ -188,6 +202,13 @@ class _Reduction:
             (column, _), *others = self._rows[number]
             found[column] = (reduced[number] - sum(v * found[c] for c, v in others)) % p
         return found
+
+    def completed(self, values: Mapping[int, int]) -> SparseRow:
+        """Return the vector with the given values in the columns that are no pivots, on which all rows vanish."""
+        vector = dict(values)
+        for (column, _), *others in reversed(self._rows):
+            vector[column] = -sum(v * vector[c] for c, v in others) % self.p
+        return vector
 
     def support(self, used: Mapping[int, int]) -> SparseRow:
         """A sum of pivot rows as one of rows, row -> factor: each is its row less earlier ones, unfolded backwards."""

@@ -6,7 +6,7 @@ from functools import cache
 from typing import NamedTuple
 
 from dofkit.base.errors import TextError
-from dofkit.base.spelling import closest
+from dofkit.base.wording import closest
 from dofkit.expressions.text.characters import spelled
 from dofkit.expressions.text.limits import MAX_NAME
 from dofkit.expressions.text.names import ELEMENTARY, SYNONYMS, Lookup, Meaning, UnknownNameError, unmarked

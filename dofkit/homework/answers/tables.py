@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from io import StringIO
 from itertools import chain, islice
 
-from dofkit.base.spelling import nearest
+from dofkit.base.wording import nearest
 from dofkit.homework.answers.submission import clean
 
 #: What columns may be separated by, the most usual first.

@@ -10,7 +10,7 @@ from fractions import Fraction
 from pydantic_core import PydanticCustomError
 
 from dofkit.base.errors import TextError
-from dofkit.base.spelling import nearest
+from dofkit.base.wording import nearest
 from dofkit.expressions.text import spelled
 from dofkit.homework.answers.denials import affirms, beside_none, says_none
 from dofkit.homework.answers.notation import script_of

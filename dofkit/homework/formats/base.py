@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple, TextIO
 
-from dofkit.base.endings import format_of_path, is_folder_path
+from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.errors import DofkitError
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from dofkit.base.errors import ArgumentError
-from dofkit.base.spelling import no_such
+from dofkit.base.wording import no_such
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import stem
 from dofkit.homework.handout.composition import SheetComposer

@@ -11,7 +11,7 @@ from io import StringIO
 from pathlib import Path
 
 from dofkit.base.errors import DofkitError, Fault
-from dofkit.base.spelling import nearest
+from dofkit.base.wording import nearest
 from dofkit.homework.review.identity import mark_of, question_mark
 from dofkit.homework.review.rows import COLUMNS, SOMEONE, Decision, ReviewRow
 

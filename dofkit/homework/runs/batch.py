@@ -9,8 +9,8 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any, NamedTuple
 
+from dofkit.base.process_limits import allow_processor
 from dofkit.base.workers import Json
-from dofkit.base.workers.child import allow_processor
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.answers.submission import Submission
 from dofkit.homework.assignment import Prepared

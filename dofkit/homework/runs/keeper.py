@@ -5,8 +5,8 @@ from __future__ import annotations
 import threading
 from functools import lru_cache
 
+from dofkit.base.runs import Pool, StoppedError
 from dofkit.base.workers import Job, JobOutcome
-from dofkit.base.workers.pool import Pool, StoppedError
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.grading import Spot
 from dofkit.homework.runs.batch import GradingTask, Orders, ResultLine, graded_lines

@@ -15,10 +15,9 @@ from typing import TypeAlias
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-from dofkit.base.journal import Journal, files_of
-from dofkit.base.version import __version__
+from dofkit.base import __version__
+from dofkit.base.runs import Cluster, Journal, Pool, files_of, in_order
 from dofkit.base.workers import MEMORY
-from dofkit.base.workers.pool import Cluster, Pool, in_order
 from dofkit.homework.answers.roster import Roster, load_roster
 from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment

@@ -20,7 +20,7 @@ from dofkit.interface.show.report import sheet_of_entry, sheet_of_report
 from dofkit.interface.show.scene import sheet_of_linkage, sheet_of_scene
 from dofkit.interface.show.sheet import Column, Fact, Grid, Remark, Sheet, SheetSection, Tone
 from dofkit.interface.show.terminal import Screen, as_text
-from dofkit.mobility.graph.result import Linkage
+from dofkit.mobility.graph.linkage import Linkage
 from dofkit.motion.lagrange.report import MotionReport
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.scene import Scene

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from html import escape
 
-from dofkit.base.themes import schemes
+from dofkit.base.display import schemes
 from dofkit.expressions.text.typesetting import Typeset, typeset
 from dofkit.interface.show.faults import safe
 from dofkit.interface.show.sheet import Fact, Grid, Matrix, Remark, Sheet, SheetSection, Told

@@ -9,7 +9,7 @@ import numpy as np
 
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
 from dofkit.base.errors import DofkitError
-from dofkit.base.spelling import guess, no_such
+from dofkit.base.wording import guess, no_such
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.exact.points.balls import precise_for

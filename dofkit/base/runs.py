@@ -1,27 +1,31 @@
-"""Several workers at once, here or in a cluster, and many things to be worked on in their order."""
+"""Runs over many items: several workers at once, here or in a cluster, and results that outlive an interrupted run."""
 
 from __future__ import annotations
 
 import atexit
+import json
 import os
+import sqlite3
+import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError, Future, ThreadPoolExecutor, wait
+from contextlib import suppress
 from functools import cache, partial
+from pathlib import Path
 from queue import LifoQueue
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar
+from typing import Any, Protocol, Self, TypeVar
 
 from dofkit.base.errors import DofkitError
-from dofkit.base.workers.worker import MEMORY, Job, JobOutcome, Worker, can_fork
-
-if TYPE_CHECKING:
-    from dofkit.base.journal import Journal
+from dofkit.base.workers import MEMORY, Job, JobOutcome, Worker, can_fork
 
 #: Calls under way for each worker, and the most bytes that wait for one.
 AHEAD, MOST_BYTES = 32, 4_000_000
 #: How often a call is given to another machine where the first is lost, and seconds to reach the scheduler.
 RETRIES, CONNECTING = 10, 10.0
+#: Seconds after which results are committed; a killed run loses those of as many seconds.
+COMMITTING = 0.25
 
 
 class StoppedError(DofkitError):
@@ -29,11 +33,11 @@ class StoppedError(DofkitError):
 
 
 class Crew(Protocol):
-    """Who makes calls, ``width`` at a time."""
+    """What makes calls, ``width`` at a time."""
 
     @property
     def width(self) -> int:
-        """How many at a time."""
+        """The number of calls at a time."""
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """Begin with a call."""
@@ -62,7 +66,7 @@ class Pool:
                 worker.fork()
 
     def run(self, job: Job) -> JobOutcome:
-        """Do one job, as soon as a worker is free: the one that was used last, which is warm.
+        """Return the outcome of one job, done as soon as a worker is free: the one that was used last.
 
         Raises StoppedError where the pool was closed.
         """
@@ -144,15 +148,15 @@ def _settle(future: Future[Any], ended: Future[Any]) -> None:
 
 
 class Keyed(Protocol):
-    """Something to be worked on."""
+    """An item of a run."""
 
     @property
     def size(self) -> int:
-        """About how many bytes it holds."""
+        """Its approximate size in bytes."""
 
     @property
     def key(self) -> str:
-        """What tells it from others, and from itself when it was otherwise."""
+        """A text that changes with its content."""
 
 
 Item = TypeVar("Item", bound=Keyed)
@@ -162,9 +166,9 @@ Result = TypeVar("Result")
 def in_order(
     crew: Crew, work: Callable[[Item], Result], items: Iterable[Item], journal: Journal | None = None
 ) -> Iterator[tuple[Item, Result]]:
-    """Everything with the result of ``work``, in order; no more is taken than the crew can use soon.
+    """Yield every item with the result of ``work``, in order; no more items are taken than the crew can use soon.
 
-    What the journal has is taken from it, as json reads it, and what it has not is written to it.
+    A result that the journal holds is taken from it, as json reads it, and any other is written to it.
     """
     stream = iter(items)
     calls: deque[tuple[Item, Future[Result]]] = deque()
@@ -173,8 +177,8 @@ def in_order(
             item = next(stream, None)
             if item is None:
                 break
-            known = None if journal is None else journal.result(item.key)
-            calls.append((item, crew.submit(work, item) if known is None else _done(known)))
+            earlier = None if journal is None else journal.result(item.key)
+            calls.append((item, crew.submit(work, item) if earlier is None else _done(earlier)))
         if not calls:
             return
         item, call = calls.popleft()
@@ -191,7 +195,7 @@ def _done(result: Any) -> Future[Any]:
 
 
 def cores() -> int:
-    """Processor cores that this process may use."""
+    """Return the number of processor cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
@@ -204,5 +208,81 @@ def _shared(process: int, module: str) -> Pool:
 
 
 def shared(module: str) -> Pool:
-    """The pool of this process whose workers have a module imported; a fork of the process has its own."""
+    """Return the pool of this process whose workers have imported a module; a fork of the process has its own."""
     return _shared(os.getpid(), module)
+
+
+class BusyError(DofkitError):
+    """Another run writes to the same file."""
+
+
+def files_of(path: Path) -> list[Path]:
+    """Return the files of a journal at a path: the second one exists while something is written."""
+    return [path, path.with_name(path.name + "-journal")]
+
+
+class Journal:
+    """Results by their keys, in one SQLite file at ``path``.
+
+    ``mark``: the question that the results answer; results with another mark are forgotten, and so is a damaged file.
+    A result is what json can write. Raises BusyError where another run has the file open, and OSError.
+    """
+
+    def __init__(self, path: Path, mark: str) -> None:
+        self.path = path
+        self._committed = time.monotonic()
+        path.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            self._results = self._opened(mark)
+        except sqlite3.OperationalError as error:
+            if "locked" in str(error):
+                raise BusyError(f"another run is writing to {path.with_suffix('')}") from None
+            raise OSError(f"{path} cannot be written: {error}") from None
+        except sqlite3.DatabaseError:
+            path.unlink()
+            self._results = self._opened(mark)
+
+    def _opened(self, mark: str) -> sqlite3.Connection:
+        opened = sqlite3.connect(self.path, timeout=0, isolation_level=None)
+        try:
+            # The operating system keeps what a killed process wrote; nothing has to survive a loss of power.
+            opened.executescript("PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = OFF; BEGIN EXCLUSIVE; COMMIT;")
+            opened.execute("CREATE TABLE IF NOT EXISTS mark (mark TEXT PRIMARY KEY)")
+            opened.execute("CREATE TABLE IF NOT EXISTS results (key TEXT PRIMARY KEY, result TEXT, new INTEGER)")
+            if opened.execute("SELECT mark FROM mark").fetchone() != (mark,):
+                opened.executescript("DELETE FROM mark; DELETE FROM results")
+                opened.execute("INSERT INTO mark VALUES (?)", (mark,))
+            opened.execute("UPDATE results SET new = 0 WHERE new")
+            opened.execute("BEGIN")
+        except sqlite3.Error:
+            opened.close()
+            raise
+        return opened
+
+    def result(self, key: str) -> Any:
+        """Return the result with a key; None where there is none."""
+        row = self._results.execute("SELECT result FROM results WHERE key = ?", (key,)).fetchone()
+        return None if row is None else json.loads(row[0])
+
+    def write(self, key: str, result: Any) -> None:
+        """Keep a result."""
+        self._results.execute("INSERT OR REPLACE INTO results VALUES (?, ?, 1)", (key, json.dumps(result)))
+        if time.monotonic() > self._committed + COMMITTING:
+            self._results.execute("COMMIT")
+            self._results.execute("BEGIN")
+            self._committed = time.monotonic()
+
+    def keep_written(self) -> None:
+        """Forget the results of earlier runs that this one did not write again."""
+        self._results.execute("DELETE FROM results WHERE NOT new")
+
+    def close(self) -> None:
+        """Close the file; another run may continue."""
+        with suppress(sqlite3.Error):
+            self._results.execute("COMMIT")
+        self._results.close()
+
+    def remove(self) -> None:
+        """Remove the file: the next run begins anew."""
+        self.close()
+        self.path.unlink(missing_ok=True)
