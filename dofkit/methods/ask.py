@@ -22,8 +22,8 @@ from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.labels.entries import labels_in_system
 from dofkit.classification.study import Study, study
-from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import precise_for, precision
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
 from dofkit.methods.table import QUESTIONS, Question
 from dofkit.mobility.frameworks import unprescribed_links

@@ -44,7 +44,7 @@ def html_of(value: object) -> str:
 def latex_of(value: object) -> str | None:
     """A display in LaTeX; None for what has no formulas, or where one cannot be set."""
     lines = [typeset(text) for text in _formulas(value)]
-    shown = [line.latex for line in lines if line is not None]
+    shown = [line for line in lines if line is not None]
     if not shown or len(shown) < len(lines):
         return None
     aligned = r" \\ ".join(line.replace("=", "&=", 1) for line in shown)
