@@ -6,15 +6,14 @@ import json
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any, Literal, NamedTuple, TextIO, cast
+from typing import Any, NamedTuple, TextIO, cast
 
 import typer
 from rich.console import Console
 
 from dofkit.base.errors import DofkitError, Fault
+from dofkit.interface.show.sheet import Colours
 
-#: Numbers of colours, in the words of rich.
-Colours = Literal["standard", "256", "truecolor", "windows"]
 #: Exit statuses: a finding of ``--fail-on``; something could not be read; after Ctrl-C.
 FAILED, UNREADABLE, INTERRUPTED = 1, 2, 130
 #: The findings that ``--fail-on`` may name.
