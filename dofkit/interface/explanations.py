@@ -14,7 +14,7 @@ from pydantic import BaseModel
 from dofkit.base.errors import Fault, SceneError
 from dofkit.base.wording import closest, nearest, series
 from dofkit.classification.arguments import TABLE
-from dofkit.homework.key.codes import CODES
+from dofkit.homework.key.misconceptions import CODES
 from dofkit.interface.show.assurance import VERDICT_MEANS
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES, ConstraintBase

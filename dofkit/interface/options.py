@@ -165,8 +165,6 @@ CertificatePath = Annotated[
 ]
 _SCENE_AND_CERTIFICATE = "A scene and its certificate, or a certificate that holds its scene."
 CertificateFiles = Annotated[list[str], Argument(metavar="[SCENE] CERT", help=_SCENE_AND_CERTIFICATE)]
-_EVIDENCE = "Write the evidence behind keys and judgements, for appeals."
-CertificateFolder = Annotated[Path | None, Option("--certificates", metavar="DIR", callback=folder, help=_EVIDENCE)]
 Strict = Annotated[bool, Option("--strict", help="Fail if a claim is not covered by evidence, too.")]
 
 # Of pictures and equations of motion

@@ -9,7 +9,7 @@ from importlib import resources
 from pydantic import BaseModel
 
 from dofkit.classification.arguments import TABLE
-from dofkit.homework.key.codes import CODES
+from dofkit.homework.key.misconceptions import CODES
 from dofkit.interface.explanations import all_explanations
 from dofkit.interface.show.assurance import VERDICT_MEANS
 from dofkit.report import ConstraintEntry, Report

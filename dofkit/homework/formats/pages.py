@@ -1,18 +1,25 @@
-"""What a student's page shows, made ready for its template."""
+"""A student's page, and how pages are made of templates: whatever a student wrote is escaped."""
 
 from __future__ import annotations
 
-from contextlib import suppress
+import re
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.formats.wording import STATUSES, number, open_points, plain
-from dofkit.homework.own_sheets import NobodysSheetError, own
+from dofkit.homework.formats.wording import STATUSES, line, number, open_points, plain, stop_of
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, Result, Status
 from dofkit.homework.sentences.translations import Language, in_language
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+TEMPLATES = Path(__file__).parent / "templates"
+_NAME = re.compile("`([^`\n]+)`")
 
 
 class Badge(NamedTuple):
@@ -86,9 +93,6 @@ def percent(score: float | None, most: float) -> float:
 
 def student_page(result: Result, prepared: Prepared) -> StudentPage:
     """The page of one submission: its answers by problem, those to nothing that was asked at the end."""
-    if any(getattr(question, "coordinate", None) for _, question in prepared.questions()):
-        with suppress(NobodysSheetError):  # each student's may have another name
-            prepared = own(prepared, result.student)
     found = {(item.problem, item.question): item for item in result.items}
     sections, language = [], prepared.assignment.language
     for problem in prepared.assignment.problems:
@@ -117,3 +121,29 @@ def question_text(question: QuestionBase) -> str:
     if about:
         told += f" ({about if isinstance(about, str) else ', '.join(about)})"
     return plain(told)
+
+
+def rendered(template: str, **values: Any) -> str:
+    """A page."""
+    return _environment().get_template(template).render(**values)
+
+
+@cache
+def _environment() -> Environment:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters.update(plain=plain, line=line, number=number, stop=stop_of, pieces=_pieces)
+    environment.globals["badges"] = BADGES
+    return environment
+
+
+def _pieces(text: str) -> list[str]:
+    """A text cut at the names between backquotes: what is around them and, at every second place, a name."""
+    return _NAME.split(plain(text))

@@ -13,10 +13,9 @@ from pathlib import Path
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, FormatError, Target
-from dofkit.homework.formats.html.overview import Overview
-from dofkit.homework.formats.html.pages import student_page
-from dofkit.homework.formats.html.rendering import rendered
-from dofkit.homework.formats.html.review_page import write_page
+from dofkit.homework.formats.overview import Overview
+from dofkit.homework.formats.pages import rendered, student_page
+from dofkit.homework.formats.review import write_page
 from dofkit.homework.formats.wording import FileNames
 from dofkit.homework.result import Result
 
@@ -38,4 +37,4 @@ def write(results: Iterator[Result], prepared: Prepared, target: Target, roster:
     (target / "index.html").write_text(rendered("overview.html", page=overview.page()), encoding="utf-8")
 
 
-HTML = Format("html", write, needs_path=True, endings=(), write_known=write)
+HTML = Format("html", write, needs_path=True, endings=())

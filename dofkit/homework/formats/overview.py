@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.formats.html.pages import BADGES, percent, question_text
+from dofkit.homework.formats.pages import BADGES, percent, question_text
 from dofkit.homework.formats.wording import number
-from dofkit.homework.item_analysis import ItemAnalysis, QuestionFigures
-from dofkit.homework.key.codes import CODES
+from dofkit.homework.key.misconceptions import CODES
 from dofkit.homework.result import Item, Result, Status
 from dofkit.homework.review.queue import Queue, QueuedAnswer
 
@@ -20,6 +19,8 @@ from dofkit.homework.review.queue import Queue, QueuedAnswer
 MOST_ROWS = 1000
 #: Bars of the distribution; open answers that are listed, each with so many students.
 BARS, MOST_OPEN, MOST_STUDENTS = 10, 100, 8
+#: Errors and unreadable texts that are listed for a question.
+MOST_LISTED = 3
 #: So many answers, and such a part of all, that could not be read make a question doubtful.
 FEWEST_UNREAD, LEAST_UNREAD = 2, 0.2
 
@@ -77,7 +78,8 @@ def _listed(queued: QueuedAnswer) -> OpenAnswer:
 class Question(NamedTuple):
     """How one question went: ``counts`` of its statuses, and ``mean`` of what was decided, in points.
 
-    ``unread`` of so many ``given`` answers could not be read.
+    ``unread`` of so many ``given`` answers could not be read, the commonest of which are ``unread_texts``; ``right``:
+    the share of the graded answers with full points; ``errors``: the commonest errors.
     """
 
     name: str
@@ -87,7 +89,9 @@ class Question(NamedTuple):
     most: float
     unread: int
     given: int
-    figures: QuestionFigures
+    right: float | None
+    errors: list[tuple[int, str]]
+    unread_texts: list[tuple[int, str]]
 
     @property
     def doubt(self) -> str:
@@ -98,12 +102,14 @@ class Question(NamedTuple):
 
 
 class Overview:
-    """The page of a run: ``add`` every submission, then ``page``. A ``roster`` knows who is in which class."""
+    """The page of a run: ``add`` every submission, then ``page``. A ``roster`` tells who did not submit."""
 
     def __init__(self, prepared: Prepared, roster: Roster | None = None) -> None:
         self.prepared = prepared
-        self.roster = roster
-        self.analysis = ItemAnalysis()
+        self.right: Counter[tuple[str, str]] = Counter()
+        self.errors_of: defaultdict[tuple[str, str], Counter[str]] = defaultdict(Counter)
+        self.unread: defaultdict[tuple[str, str], Counter[str]] = defaultdict(Counter)
+        self.missing = {} if roster is None else {member.student: None for member in roster.members}
         self.most = float(sum(question.points for _, question in prepared.questions()))
         self.scores: Counter[float] = Counter()
         self.statuses: dict[tuple[str, str], Counter[Status]] = {
@@ -119,6 +125,7 @@ class Overview:
     def add(self, result: Result, link: str) -> None:
         """One more submission; ``link``: where its page is."""
         self.students.add(Student(result.student, link, result))
+        self.missing.pop(result.student, None)
         if result.doubt is not None:
             self.doubts.add(Student(result.student, link, result))
         if result.error is not None:
@@ -129,8 +136,6 @@ class Overview:
         else:
             self.scores[round(result.score or 0.0, 2)] += 1
         self.queue.add(result, link)
-        member = None if self.roster is None else self.roster.find(result.student)
-        self.analysis.add(result, "" if member is None else member.section)
         for item in result.items:
             self._item(item)
 
@@ -141,6 +146,11 @@ class Overview:
             self.gained[place] += item.score or 0.0
             self.decided[place] += item.score is not None
             self.codes.update(set(item.codes))
+            self.errors_of[place].update(set(item.codes))
+            self.right[place] += item.score is not None and item.score >= item.max_score
+            texts, text = self.unread[place], item.answer or ""
+            if item.status == "unreadable" and (text in texts or len(texts) < MOST_ROWS):
+                texts[text] += 1
 
     def page(self) -> dict[str, Any]:
         """What the template shows."""
@@ -162,6 +172,7 @@ class Overview:
             "errors": self.errors,
             "doubts": self.doubts,
             "students": self.students,
+            "missing": list(self.missing)[:MOST_ROWS],
         }
 
     def _questions(self) -> Iterator[Question]:
@@ -174,7 +185,9 @@ class Overview:
             mean = self.gained[place] / known if known else None
             yield Question(
                 f"{problem.id}.{question.id}", question_text(question), shares, mean, float(question.points),
-                counts["unreadable"], given, self.analysis.figures(*place),
+                counts["unreadable"], given, self.right[place] / known if known else None,
+                [(count, CODES.get(code, code)) for code, count in self.errors_of[place].most_common(MOST_LISTED)],
+                [(count, text) for text, count in self.unread[place].most_common(MOST_LISTED)],
             )  # fmt: skip
 
 
