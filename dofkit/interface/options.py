@@ -12,12 +12,13 @@ from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.errors import ArgumentError
 from dofkit.base.wording import no_such
 from dofkit.interface.output import FAILURES
-from dofkit.methods.table import METHODS
 
 #: The heading of the options that few people need.
 ADVANCED = "Advanced"
 STILL_KINDS, MOVING_KINDS = ("svg", "png", "pdf", "html"), ("html", "gif", "mp4")
 DRAWN_AS = ("mechanism", "graph", "directions")
+#: The names of the methods, as `dofkit.methods.table` has them, whose import takes long.
+METHODS = ("auto", "count", "graph", "field", "balls", "exact", "numeric", "symbolic")
 
 
 # Completion by the shell

@@ -17,6 +17,8 @@ from shared.command_line import called, interruptible
 from shared.late import LONG
 
 import dofkit
+from dofkit.interface import options
+from dofkit.methods.table import METHODS
 
 GOOD = "coordinates: [x, y]\nconstraints:\n- x dy + y dx = 0\n"
 BAD = "coordinates: [theta]\nconstraints:\n- theta = 1\n- thta = 1\n- 2 thtta = 1\n"
@@ -154,6 +156,10 @@ def test_catalog_lists_and_shows(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = called(capsys, "catalog", "show", "disc-rolling-on-plain")
     assert (status, out) == (2, "")
     assert "disc-rolling-on-plane" in err
+
+
+def test_methods_are_those_of_the_table() -> None:
+    assert tuple(METHODS) == options.METHODS
 
 
 def test_titles_are_those_of_the_scenes() -> None:
