@@ -1,5 +1,5 @@
 """``python -m dofkit``."""
 
-from dofkit.interface.cli import main
+from dofkit.interface.entry import main
 
 main()

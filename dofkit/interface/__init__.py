@@ -3,8 +3,8 @@
 Every command answers its files one by one in a worker that can be killed, and no file stops those that follow.
 
 From a command to its output
-    1. `cli` and `assignment_commands` have the commands, `options` their arguments with the help, `named_files` the
-       files that a folder or a pattern stands for.
+    1. `entry` begins and ends the process. `cli` and `assignment_commands` have the commands, `options` their
+       arguments with the help, `named_files` the files that a folder or a pattern stands for.
     2. A `Request` says what is asked about a file. `jobs` hands requests to one worker, `many` to several workers or
        a cluster, in order and with a journal, so that an interrupted run resumes.
     3. In the worker, `answers` reads the file, asks the public functions of the package, and returns the lines that

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import atexit
-import gc
 import json
 import math
-import os
 import sys
-import threading
 from collections.abc import Callable, Generator, Mapping
 from contextlib import closing
 from dataclasses import replace
@@ -23,7 +19,8 @@ from dofkit.base.deadline import DEFAULT_SECONDS
 from dofkit.base.errors import ArgumentError
 from dofkit.interface import options
 from dofkit.interface.assignment_commands import assignment_app, export_app
-from dofkit.interface.output import INTERRUPTED, UNREADABLE, Output, failures_of, print_json
+from dofkit.interface.entry import INTERRUPTED
+from dofkit.interface.output import UNREADABLE, Output, failures_of, print_json
 
 if TYPE_CHECKING:
     from dofkit.interface.jobs import Printed
@@ -35,8 +32,6 @@ Handler = TypeVar("Handler", bound=Callable[..., Any])
 MORE = "More commands"
 #: Reports of more scenes than this are printed as one line each, unless full reports are asked for.
 MOST_IN_FULL = 3
-#: The collector of unused objects starts after this many allocations: imports make many objects, which all stay.
-OBJECTS = 100_000
 
 app = typer.Typer(
     name="dofkit",
@@ -313,38 +308,3 @@ def _print(printed: Generator[Printed], as_json: bool = False) -> None:
         if not as_json:
             echo_count(errors)
         raise typer.Exit(UNREADABLE)
-
-
-def main() -> None:
-    """Run the command line and end this process; an interrupt or a closed pipe ends it without a traceback."""
-    gc.set_threshold(OBJECTS)
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
-    for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="backslashreplace")
-    status: Any = 0
-    try:
-        app()
-    except KeyboardInterrupt:
-        status = INTERRUPTED
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        status = 1
-    except SystemExit as ended:
-        status = ended.code
-    if (
-        isinstance(status, int)
-        and threading.active_count() == 1
-        and sys.gettrace() is None
-        and sys.getprofile() is None
-    ):
-        # Python would take every object apart, which takes a tenth of the time of a small scene.
-        atexit._run_exitfuncs()
-        sys.stdout.flush()
-        sys.stderr.flush()
-        os._exit(status)
-    sys.exit(status)
-
-
-if __name__ == "__main__":
-    main()

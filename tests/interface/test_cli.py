@@ -113,7 +113,7 @@ def test_standard_input_is_a_file() -> None:
 
 
 FAILING = """
-import sys, dofkit.interface.answers as telling, dofkit.interface.cli
+import sys, dofkit.interface.answers as telling, dofkit.interface.entry
 real = telling.lowered
 def failing(scene, *others):
     if scene.name == "good":
@@ -121,7 +121,7 @@ def failing(scene, *others):
     return real(scene, *others)
 telling.lowered = failing
 sys.argv = ["dofkit", "classify", "--json", *sys.argv[1:]]
-dofkit.interface.cli.main()
+dofkit.interface.entry.main()
 """
 
 

@@ -308,7 +308,7 @@ def test_short_help(command: list[str], capsys: pytest.CaptureFixture[str]) -> N
 def test_shells_complete_names(capfd: pytest.CaptureFixture[str]) -> None:
     def completed(words: str) -> list[str]:
         asked = {"_DOFKIT_COMPLETE": "complete_bash", "COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
-        code = "import sys; sys.argv = ['dofkit']; from dofkit.interface.cli import main; main()"
+        code = "import sys; sys.argv = ['dofkit']; from dofkit.interface.entry import main; main()"
         told = subprocess.run(
             [sys.executable, "-c", code], env={**os.environ, **asked}, capture_output=True, text=True, check=False
         )

@@ -1,0 +1,44 @@
+"""Where the command line begins, before anything of weight is imported, and where the process ends."""
+
+from __future__ import annotations
+
+import atexit
+import gc
+import os
+import sys
+import threading
+from typing import Any
+
+#: The collector of unused objects starts after this many allocations: imports make many objects, which all stay.
+OBJECTS = 100_000
+#: The exit status after Ctrl-C.
+INTERRUPTED = 130
+
+
+def main() -> None:
+    """Run the command line and end this process; an interrupt or a closed pipe ends it without a traceback."""
+    gc.set_threshold(OBJECTS)
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    status: Any = 0
+    try:
+        from dofkit.interface.cli import app  # after the settings above
+
+        app()
+    except KeyboardInterrupt:
+        status = INTERRUPTED
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        status = 1
+    except SystemExit as ended:
+        status = ended.code
+    watched = threading.active_count() > 1 or sys.gettrace() is not None or sys.getprofile() is not None
+    if isinstance(status, int) and not watched:
+        # Python would take every object apart, which takes a tenth of the time of a small scene.
+        atexit._run_exitfuncs()
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)
+    sys.exit(status)
