@@ -27,7 +27,6 @@ from dofkit.interface.show.report import changed, sheet_of_report, unexpected
 from dofkit.interface.show.sheet import SheetSection
 from dofkit.interface.show.terminal import Screen, as_text
 from dofkit.methods.stages import classified, lowered, stages
-from dofkit.motion_checker import MOTION_RULES
 from dofkit.report import Report
 from dofkit.scene.dropped import without
 from dofkit.scene.expectation import unmet
@@ -240,10 +239,10 @@ def _verified(request: CertificateRequest) -> Verification:
     """Return the checker's own result; a scene that it cannot read may use synonyms, which are replaced first."""
     certificate = Path(request.certificate).read_bytes()
     if request.scene is None:
-        return verify_independently(None, certificate, MOTION_RULES)
+        return verify_independently(None, certificate)
     data = find(request.scene).data
     try:
-        return verify_independently(data if isinstance(data, str) else data.decode("utf-8"), certificate, MOTION_RULES)
+        return verify_independently(data if isinstance(data, str) else data.decode("utf-8"), certificate)
     except (CheckError, UnicodeDecodeError):
         return dofkit.verify(request.scene, certificate)
 
