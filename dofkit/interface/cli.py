@@ -19,8 +19,7 @@ from dofkit.base.deadline import DEFAULT_SECONDS
 from dofkit.base.errors import ArgumentError
 from dofkit.interface import options
 from dofkit.interface.assignment_commands import assignment_app, export_app
-from dofkit.interface.entry import INTERRUPTED
-from dofkit.interface.output import UNREADABLE, Output, failures_of, print_json
+from dofkit.interface.output import INTERRUPTED, UNREADABLE, Output, failures_of, print_json
 
 if TYPE_CHECKING:
     from dofkit.interface.jobs import Printed

@@ -9,10 +9,10 @@ import sys
 import threading
 from typing import Any
 
+from dofkit.interface.output import INTERRUPTED
+
 #: The collector of unused objects starts after this many allocations: imports make many objects, which all stay.
 OBJECTS = 100_000
-#: The exit status after Ctrl-C.
-INTERRUPTED = 130
 
 
 def main() -> None:

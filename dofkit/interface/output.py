@@ -14,8 +14,8 @@ from rich.console import Console
 from dofkit.base.errors import DofkitError, Fault
 from dofkit.interface.show.sheet import Colours
 
-#: Exit statuses: a finding of ``--fail-on``; something could not be read.
-FAILED, UNREADABLE = 1, 2
+#: Exit statuses: a finding of ``--fail-on``; something could not be read; after Ctrl-C.
+FAILED, UNREADABLE, INTERRUPTED = 1, 2, 130
 #: The findings that ``--fail-on`` may name.
 FAILURES = ("inconsistent", "infeasible", "redundant", "undecided")
 _ERASED = "\r\x1b[K"
