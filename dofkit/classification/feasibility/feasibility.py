@@ -83,14 +83,14 @@ def _minimal(judge: _Judge, found: Feasibility) -> Feasibility:
     What is left out leaves a set that is proved not to be met; what is kept is needed, where a point shows that the
     others can be met without it: then fewer of them can be as well.
     """
-    kept, needed, some = list(found.infeasible), set[int](), replace(judge, whole=False)
+    kept, needed = list(found.infeasible), set[int]()
     with limited(LEAVING_SECONDS):
         size = max(1, len(kept) // 2) if len(kept) > FEW else 1
         while size:
             for end in range(len(kept), 0, -size):
                 left_out = kept[max(0, end - size) : end]
                 fewer = [i for i in kept if i not in left_out]
-                told = unless_late(partial(some.judged, fewer), Feasibility(None)).feasible
+                told = unless_late(partial(judge.judged, fewer), Feasibility(None)).feasible
                 kept = fewer if told is False else kept
                 needed |= set(left_out) if told and size == 1 else set()
             size //= 2
@@ -103,12 +103,11 @@ def _minimal(judge: _Judge, found: Feasibility) -> Feasibility:
 
 @dataclass(frozen=True)
 class _Judge:
-    """Judges sets of the constraints of one system; ``whole``: all of them, of which the blocks' answers speak."""
+    """Judges sets of the constraints of one system."""
 
     reduced: Sequence[Reduced]
     setting: Setting
     outcome: Outcome
-    whole: bool = True
 
     def judged(self, numbers: Sequence[int]) -> Feasibility:
         """A point for every part with an inequality, at the same values of time and parameters; or a proof.
@@ -143,7 +142,7 @@ class _Judge:
         if not contradictory(claims, positive):
             for problem in self._problems(part):
                 given = {s: value_of(s) for s in problem.constants} if fixed else {}
-                found = witness(replace(problem, fixed=given), positive, self._drawn, self._codimension(part))
+                found = witness(replace(problem, fixed=given), positive, self._drawn)
                 if found is not None:
                     return Feasibility(True, at=found.at, verdict=found.verdict)
             if not _refuted(part, positive):
@@ -163,17 +162,6 @@ class _Judge:
     @property
     def _drawn(self) -> Mapping[Expr, Expr]:
         return self.setting.pose if self.setting.reference is None else self.setting.reference
-
-    def _codimension(self, part: Part) -> int | None:
-        """Of the set that the finite relations of a part cut out, where the blocks' answers are those of one branch."""
-        plain = all(len(n.branches) == 1 for r in part.reduced for n in r.normals)
-        if not self.whole or not plain or not self.outcome.consistent:
-            return None
-        numbers, pairs = set(part.numbers), zip(self.outcome.blocks, self.outcome.answers, strict=True)
-        own = [(b, a) for b, a in pairs if not numbers.isdisjoint(row.constraint for row in b.rows)]
-        return (
-            sum(len(b.coordinates) - (a.dof or 0) for b, a in own) if all(a.dof is not None for _, a in own) else None
-        )
 
 
 def _turns_over(facts: TypeFacts, dimension: int) -> bool:

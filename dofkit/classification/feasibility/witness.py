@@ -45,13 +45,10 @@ class Witness(NamedTuple):
     verdict: Verdict = "proved"
 
 
-def witness(
-    problem: StateProblem, positive: frozenset[Expr], drawn: Mapping[Expr, Expr], codimension: int | None = None
-) -> Witness | None:
+def witness(problem: StateProblem, positive: frozenset[Expr], drawn: Mapping[Expr, Expr]) -> Witness | None:
     """A point at which all of a problem holds, and through which a motion passes; None where none was found.
 
-    ``drawn``: values of places to try first. ``codimension``: of the set that the equations cut out, as far as it is
-    known otherwise: where some of them follow from the others, a zero of so many is taken for one of all.
+    ``drawn``: values of places to try first.
     """
     if problem.unknown_functions:
         return None
@@ -62,7 +59,7 @@ def witness(
         return _linearly(problem, positive)
     if len(problem.expressions) > MAX_ROWS:
         return None
-    return _by_slacks(problem, positive, codimension)
+    return _by_slacks(problem, positive)
 
 
 def value_of(s: Expr) -> Fraction:
@@ -185,31 +182,24 @@ class _Search:
         return all(arb(at[p]) > 0 for p in self.positive if p in at)
 
 
-def _by_slacks(problem: StateProblem, positive: frozenset[Expr], codimension: int | None) -> Witness | None:
+def _by_slacks(problem: StateProblem, positive: frozenset[Expr]) -> Witness | None:
     search = _Search(problem, positive)
     for seed in range(SEARCHES):
         check()
         point = search.found(seed)
-        verdict = None if point is None else _certified(problem, search, point, codimension)
-        if point is not None and verdict is not None:
+        if point is not None and _is_certified(problem, search, point):
             at = point.point.symbols
             shown = {s: arb(at[s]) for s in (*problem.unknowns, *problem.constants) if s in at}
-            return Witness({**dict.fromkeys(problem.unknowns, ex.ZERO), **shown}, verdict)
+            return Witness({**dict.fromkeys(problem.unknowns, ex.ZERO), **shown})
     return None
 
 
-def _certified(problem: StateProblem, search: _Search, point: RealPoint, codimension: int | None) -> Verdict | None:
-    """How sure it is that all holds at the point and a motion passes through it; None where it is not known."""
-    if not _defined(problem, point.point):
-        return None
-    whole = point.solved == point.rank == len(search.rows)
+def _is_certified(problem: StateProblem, search: _Search, point: RealPoint) -> bool:
+    """Return whether all conditions hold at the point and a motion passes through it."""
+    if not _defined(problem, point.point) or not point.solved == point.rank == len(search.rows):
+        return False
     rows, columns = problem.independent
-    rank = _rank(search.ring, point.point, rows, columns)
-    if whole:
-        return "proved" if problem.rigidly or rank == len(rows) else None
-    regular = point.rank == len(search.slacks) + (codimension or 0)
-    known = codimension is not None and not problem.rates and regular and rank == codimension
-    return "probable" if known else None
+    return problem.rigidly or _rank(search.ring, point.point, rows, columns) == len(rows)
 
 
 def _rank(ring: Ring, point: BallPoint, rows: Sequence[Expr], columns: Sequence[Expr]) -> int:
