@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from dofkit.base.verdicts import OPEN, ArgumentKey, Claim, Verdict, least, together, weakest
 from dofkit.expressions import tree as ex
@@ -292,14 +292,6 @@ BY_FORM: Mapping[Form, ArgumentKey] = {
 }
 
 
-class FoundLabels(NamedTuple):
-    """Labels by their fields, and how sure each is; of forms, whether all were proved to integrate by themselves."""
-
-    values: Mapping[str, Any]
-    verdicts: Mapping[str, Verdict]
-    by_themselves: bool
-
-
 class Ground(NamedTuple):
     """What the claims of one constraint rest on: the answers of its blocks, and the labels of its rows there."""
 
@@ -314,27 +306,16 @@ class Ground(NamedTuple):
         about = least(*(a.about for a in self.answers)) if local else "everywhere"
         return OPEN if verdict == "undecided" else Claim(verdict, argument, bits, gap, about)
 
-
-def claims_of_labels(ground: Ground, found: FoundLabels) -> dict[str, Claim]:
-    """The claims of the labels that were decided, and of those that are open."""
-    claims = {}
-    for name, value in found.values.items():
-        verdict: Verdict = "undecided" if value is None else found.verdicts[name]
-        claims[name] = ground.claim(verdict, _argument(ground, found, name, value), name in ("holonomic", "integral"))
-    return claims
-
-
-def _argument(ground: Ground, found: FoundLabels, name: str, value: Any) -> ArgumentKey:
-    if name in ("scleronomic", "catastatic", "exact"):
-        return "identity" if value else "zero with another derivative"
-    if found.by_themselves and value:
-        return "form by itself"
-    if ground.form in BY_FORM:
-        return BY_FORM[ground.form]
-    if value is False:
-        return "outside the integrable part"
-    line = all(label.reason == "line" for label in ground.labels)
-    return "line field" if ground.labels and line else "in the integrable part"
+    def argument(self, value: bool | None, on_their_own: bool) -> ArgumentKey:
+        """Return the argument by which the constraint is holonomic, or is not."""
+        if on_their_own and value:
+            return "form by itself"
+        if self.form in BY_FORM:
+            return BY_FORM[self.form]
+        if value is False:
+            return "outside the integrable part"
+        is_line = all(label.reason == "line" for label in self.labels)
+        return "line field" if self.labels and is_line else "in the integrable part"
 
 
 def claim_of_dependence(ground: Ground, all_needed: bool, copied: bool) -> Claim:
