@@ -52,9 +52,9 @@ def witness(problem: StateProblem, positive: frozenset[Expr], drawn: Mapping[Exp
     """
     if problem.unknown_functions:
         return None
-    found = _at(problem, positive, drawn)
-    if found is not None or problem.drawn_only:
-        return found
+    result = _at(problem, positive, drawn)
+    if result is not None or problem.drawn_only:
+        return result
     if all(linear(e) is not None for e in problem.expressions) and not any(c.sense == "!=" for c in problem.conditions):
         return _linearly(problem, positive)
     if len(problem.expressions) > MAX_ROWS:
@@ -127,11 +127,11 @@ def _linearly(problem: StateProblem, positive: frozenset[Expr]) -> Witness | Non
     conditions = [_linear_condition(e, sense, order) for e, sense in zip(problem.expressions, senses, strict=True)]
     conditions += [_linear_condition(s, ">", order) for s in order if s in positive]
     conditions += [_linear_condition(s - ex.num(v), "=", order) for s, v in problem.fixed.items() if s in order]
-    found = solution(conditions)
-    if not found:
+    result = solution(conditions)
+    if not result:
         return None
     at: dict[Expr, Expr | arb] = dict.fromkeys(problem.unknowns, ex.ZERO)
-    return Witness(at | {s: ex.num(Fraction(int(v.p), int(v.q))) for s, v in zip(order, found, strict=True)})
+    return Witness(at | {s: ex.num(Fraction(int(v.p), int(v.q))) for s, v in zip(order, result, strict=True)})
 
 
 def _linear_condition(e: Expr, sense: str, order: Sequence[Expr]) -> LinearCondition:
@@ -189,8 +189,8 @@ def _by_slacks(problem: StateProblem, positive: frozenset[Expr]) -> Witness | No
         point = search.found(seed)
         if point is not None and _is_certified(problem, search, point):
             at = point.point.symbols
-            shown = {s: arb(at[s]) for s in (*problem.unknowns, *problem.constants) if s in at}
-            return Witness({**dict.fromkeys(problem.unknowns, ex.ZERO), **shown})
+            text = {s: arb(at[s]) for s in (*problem.unknowns, *problem.constants) if s in at}
+            return Witness({**dict.fromkeys(problem.unknowns, ex.ZERO), **text})
     return None
 
 
@@ -221,10 +221,10 @@ def _defined(problem: StateProblem, point: BallPoint) -> bool:
             return False
     except (EmptyError, NoValueError, KeyError):
         return False
-    told = [at[e] for e in problem.expressions]
+    answer = [at[e] for e in problem.expressions]
     n = len(problem.equations)
-    zeros = all(low <= 0.0 <= high for low, high in told[:n])
-    return zeros and all(_agrees(v, c) for v, c in zip(told[n:], problem.conditions, strict=True))
+    zeros = all(low <= 0.0 <= high for low, high in answer[:n])
+    return zeros and all(_agrees(v, c) for v, c in zip(answer[n:], problem.conditions, strict=True))
 
 
 def _agrees(value: Interval, c: DomainCondition) -> bool:

@@ -58,8 +58,8 @@ class Labels:
 
 def joined(parts: Sequence[str | None]) -> str | None:
     """The parts in one text; None unless every one is there."""
-    found = [p for p in parts if p is not None]
-    return "; ".join(found) if found and len(found) == len(parts) else None
+    result = [p for p in parts if p is not None]
+    return "; ".join(result) if result and len(result) == len(parts) else None
 
 
 def reason_of(
@@ -124,9 +124,9 @@ def _pfaffian(labels: Labels, proofs: Sequence[Integrability], others: Others) -
 
 
 def _integrable(proofs: Sequence[Integrability], others: Others) -> str:
-    found = joined([p.integral for p in proofs]) or (others.integral and others.text)
-    if found:
-        return f"It integrates to {found}: holonomic; {_INITIAL}."
+    result = joined([p.integral for p in proofs]) or (others.integral and others.text)
+    if result:
+        return f"It integrates to {result}: holonomic; {_INITIAL}."
     how = next((p.reason for p in proofs if p.reason), "d(omega) ^ omega = 0")
     return f"It is integrable ({how}), though no integral was found in closed form: holonomic; {_INITIAL}."
 
@@ -164,12 +164,12 @@ def in_words(relation: Relation, otherwise: str) -> str:
     >>> in_words(Relation(ZERO, part="axis", vector=(ONE, ZERO, ZERO)), "")
     'no rotation about (1, 0, 0)'
     """
-    word, _, rest = relation.part.partition(" ")
-    told = _SAYS[word].format(rest) if word in _SAYS else relation.part or otherwise
+    word, _, remainder = relation.part.partition(" ")
+    answer = _SAYS[word].format(remainder) if word in _SAYS else relation.part or otherwise
     if word not in _ABOUT or not relation.vector or not _given(relation.vector):
-        return told
+        return answer
     about = _ABOUT[word].format(f"({', '.join(to_text(part) for part in relation.vector)})")
-    return told + about if about.startswith(" ") else about
+    return answer + about if about.startswith(" ") else about
 
 
 def _given(vector: tuple[Expr, ...]) -> bool:
@@ -208,9 +208,9 @@ def timed_in_system(
         return others.timed, sure
     finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)]
     for g in (*finite, *answer.hidden):
-        still, found = vanishes_on(g, piece.dt, setting.positive)
+        still, result = vanishes_on(g, piece.dt, setting.positive)
         if still:
-            return False, found
+            return False, result
     return others.timed, sure
 
 
