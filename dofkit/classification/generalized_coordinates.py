@@ -9,9 +9,9 @@ from dofkit.classification import tangent_spaces
 from dofkit.classification.explicit_coordinates import MOST, PLAIN, QUADRATIC, explicit
 from dofkit.classification.freedom.bridged_blocks import with_still_parts
 from dofkit.classification.turned_coordinates import TurnedGroup, chosen_at_drawing, partly_turned, rows_at_drawing
-from dofkit.configuration.drawing.rigid_orbit import RigidOrbit
 from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
+from dofkit.configuration.rigid_motions import RigidOrbit
 from dofkit.exact.engines import BOTH
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import last_columns, rank_of_rows

@@ -19,7 +19,7 @@ from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
 from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import precise_for
-from dofkit.mobility.kutzbach import without_drives
+from dofkit.mobility.counts import without_drives
 from dofkit.relations.reductions import ALL, Reductions
 from dofkit.relations.setting import Setting
 from dofkit.report import FieldVerdict, Mobility, Report

@@ -15,8 +15,8 @@ from dofkit.classification.study import Study
 from dofkit.classification.turned_coordinates import partly_turned, turned_together
 from dofkit.expressions.text import to_text
 from dofkit.mobility import tree_pose
+from dofkit.mobility.counts import CountedFacts, count
 from dofkit.mobility.joint_tree import tree_coordinates
-from dofkit.mobility.textbook_count import CountedFacts, count
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import uses_time
 from dofkit.relations.integration_constants import about_constants

@@ -16,7 +16,7 @@ from typing import Any
 
 from flint import fmpq
 
-from dofkit.configuration.reality import BALL_COLUMNS
+from dofkit.configuration.generic_dimension import BALL_COLUMNS
 from dofkit.exact.engines import BOTH
 from dofkit.exact.matrices.modular import without_time
 from dofkit.exact.matrices.rational_rows import RationalRow, dependences

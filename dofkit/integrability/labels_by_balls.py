@@ -5,7 +5,7 @@ from __future__ import annotations
 from flint import arb
 
 from dofkit.base.verdicts import Verdict
-from dofkit.configuration.drawing.at_reference import CLEAR
+from dofkit.configuration.at_reference import CLEAR
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import sparse
 from dofkit.exact.points.frames import pairing

@@ -8,7 +8,7 @@ from typing import Any
 
 from flint import arb
 
-from dofkit.configuration.reality import real_point
+from dofkit.configuration.generic_dimension import real_point
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from flint import arb
 
-from dofkit.configuration.drawing.at_reference import CLEAR, ball_matrix, ball_point
+from dofkit.configuration.at_reference import CLEAR, ball_matrix, ball_point
 from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part

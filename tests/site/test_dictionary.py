@@ -38,7 +38,7 @@ ALLOWED: tuple[Allowed, ...] = (
     Allowed("to first order", "base/verdicts.py", _KEY),
     Allowed("finite relation", "classification/arguments.py", _KEY),
     Allowed("finite relation", "classification/labels/entry_claims.py", _KEY),
-    Allowed("to first order", "configuration/drawing/at_reference.py", _KEY),
+    Allowed("to first order", "configuration/at_reference.py", _KEY),
     Allowed("to first order", "configuration/local/criteria.py", _KEY),
     Allowed("as drawn", "benchmark/trials/poses.py", _TRIAL),
     Allowed("can be dropped", "homework/answers/denials.py", _ANSWER),

@@ -17,8 +17,8 @@ from flint import arb
 from dofkit.base.components import components
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.components import explicit_relations
-from dofkit.configuration.reality import BALL_COLUMNS
-from dofkit.configuration.witness import Witness, of_real_point
+from dofkit.configuration.generic_dimension import BALL_COLUMNS
+from dofkit.configuration.variety import Witness, of_real_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values

@@ -17,7 +17,7 @@ from dofkit.classification.freedom.block import answer
 from dofkit.configuration.components import is_irreducible
 from dofkit.configuration.finite_blocks import OFF_REFERENCE
 from dofkit.configuration.search import find
-from dofkit.configuration.witness import of_real_point
+from dofkit.configuration.variety import of_real_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.ring.program import values

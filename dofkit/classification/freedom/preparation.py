@@ -13,8 +13,8 @@ from dofkit.expressions.renaming import kinds_in, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.unwritten import Unwritten
 from dofkit.integrability import accelerations
-from dofkit.mobility.bridges import Bridges, bridges
-from dofkit.mobility.rows_at_drawing import RowsAtDrawing
+from dofkit.mobility.joint_tree import Bridges, bridges
+from dofkit.mobility.placement import RowsAtReference
 from dofkit.relations.joint_equations import unwritten
 from dofkit.relations.normal.normal_form import normalise
 from dofkit.relations.normal.notes import INSTANT_NOTE
@@ -55,7 +55,7 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
         bridges=apart.joints,
         afloat=apart.afloat,
-        joint_rows=RowsAtDrawing(system, positive).of if apart.joints else None,
+        joint_rows=RowsAtReference(system, positive).of if apart.joints else None,
     )
     return reduced, setting
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import product as cartesian
 
-from dofkit.configuration.drawing.at_reference import ball_matrix, ball_point
+from dofkit.configuration.at_reference import ball_matrix, ball_point
 from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.zero.identity import is_proved_zero, is_zero
