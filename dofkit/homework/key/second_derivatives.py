@@ -9,7 +9,7 @@ from dofkit.homework.answers.relations import AnswerReading
 from dofkit.homework.key.compared_motion import in_time
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.right_motion import is_zero
-from dofkit.motion.lagrange.rates import by_time
+from dofkit.motion.lagrange.elimination import by_time
 from dofkit.scene.lowering import lower
 
 

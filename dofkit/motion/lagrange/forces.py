@@ -13,8 +13,8 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import HALF, ZERO, Expr
 from dofkit.expressions.vectors import Vec, dot, length, minus, plus, scaled, square
+from dofkit.motion.lagrange.elimination import by_time
 from dofkit.motion.lagrange.quantities import EntryWorlds, masses, moving, needed
-from dofkit.motion.lagrange.rates import by_time
 from dofkit.scene.frames import Placed
 from dofkit.scene.parts import Force
 from dofkit.scene.scene import Scene

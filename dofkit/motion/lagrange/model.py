@@ -24,12 +24,13 @@ from dofkit.motion.lagrange.elimination import (
     Eliminator,
     Remaining,
     by_potential,
+    in_velocities,
     inserted,
+    motions,
     vanishes,
+    without_roots,
 )
 from dofkit.motion.lagrange.energies import Energy
-from dofkit.motion.lagrange.rates import motions
-from dofkit.motion.lagrange.roots import without_roots
 from dofkit.relations.blocks import Row, coordinates_of, split
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
@@ -79,13 +80,6 @@ class LagrangeModel:
     def nonholonomic(self) -> list[Expr]:
         """The relations between velocities that keep a multiplier."""
         return [in_velocities(c) for c in self.constraints if not isinstance(c, Finite)]
-
-
-def in_velocities(piece: Remaining) -> Expr:
-    """A relation between velocities as an expression that is zero."""
-    if isinstance(piece, Pfaffian):
-        return ex.add(*(a * ex.velocity(n) for n, a in piece.coefficients.items()), piece.dt)
-    return piece.expr
 
 
 def modelled(study: Examined, energy: Energy, names: Names, care: Care = ELIMINATIONS[0]) -> LagrangeModel:

@@ -1,4 +1,4 @@
-"""Expressions written shorter; a form counts only where it is proved equal to what was given."""
+"""Expressions written shorter; a form counts only where it is proved equal to the expression."""
 
 from __future__ import annotations
 
@@ -16,14 +16,11 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge, UntranslatableError
 from dofkit.expressions.tree import Expr
-from dofkit.motion.lagrange.angles import compound
 from dofkit.motion.lagrange.term_order import ordered
 
-#: Expressions with more SymPy operations than this are not expanded.
-EXPANDED = 3000
-#: The same for expressions that would have more terms than this.
-TERMS, MANY = 1500, 10**9
-#: Seconds for all that one report tells.
+#: Expressions with more SymPy operations, or that would have more terms than this, are not expanded.
+EXPANDED, TERMS, MANY = 3000, 1500, 10**9
+#: Seconds for all expressions of one report.
 SECONDS = 6.0
 #: A product that hides a sum with velocities is read as if it were longer by so many symbols.
 HIDDEN = 8
@@ -32,46 +29,64 @@ _RATES = ("velocity", "acceleration")
 
 @dataclass
 class Tidier:
-    """Writes SymPy's expressions as ours, as short as is found while ``seconds`` last."""
+    """Writes expressions as short as a form is found while ``seconds`` last."""
 
     bridge: Bridge
     positive: frozenset[Expr]
     seconds: float = SECONDS
 
     def __call__(self, e: Any) -> Expr:
-        plain = self.bridge.expr(e)
-        best, size = plain, length(plain)
+        """Return an expression of SymPy's, written shorter."""
+        return self.shorter(self.bridge.expr(e))
+
+    def shorter(self, e: Expr) -> Expr:
+        """Return the shortest form that is proved equal, in the order of terms that people expect."""
+        best, size = e, length(e)
         start = time.thread_time()
         try:
             with by_processor(min(self.seconds, left())):
-                for form in self._forms(e, plain):
+                for form in self._forms(e):
                     check()
-                    if length(form) < size and is_identically_zero(form - plain, self.positive) is True:
+                    if length(form) < size and is_identically_zero(form - e, self.positive) is True:
                         best, size = form, length(form)
         except OutOfTimeError:
             check()
         self.seconds -= time.thread_time() - start
         return ordered(best)
 
-    def _forms(self, e: Any, plain: Expr) -> Iterator[Expr]:
+    def _forms(self, e: Expr) -> Iterator[Expr]:
+        """Yield sums by rates with factored coefficients, then what SymPy expands, collects and joins to one angle."""
         check()
-        found = by_rates(plain, self.positive)
-        if found is not None:
-            yield found
-            joined = compound(found)
-            if joined != found:
-                yield joined
-        if int(e.count_ops()) > EXPANDED or terms(plain) > TERMS:
+        if all(n.op in ("num", "sym") for n in ex.nodes(e)):
             return
-        import sympy
-
-        expanded = e.expand()
-        rates = [self.bridge.velocity(n, k) for k in (2, 1) for n in self.bridge.positions]
-        for form in (expanded, sympy.collect(expanded, rates)):
+        sorted_by_rates = by_rates(e, self.positive)
+        forms = [e] if sorted_by_rates is None else [e, sorted_by_rates]
+        yield from forms[1:]
+        plain = self.bridge.sympy(forms[-1])
+        if int(plain.count_ops()) > EXPANDED:
+            return
+        waves = any(n.op == "fn" and n.args[0] in ("sin", "cos") for n in ex.nodes(e))
+        for form in self._by_sympy(plain, waves, terms(e) <= TERMS):
+            check()
             try:
                 yield self.bridge.expr(form)
             except (UntranslatableError, NoValueError):
                 continue
+
+    def _by_sympy(self, e: Any, waves: bool, expands: bool) -> Iterator[Any]:
+        """Yield SymPy's forms: cos a cos b + sin a sin b = cos(a - b), terms expanded, 1 - cos^2 = sin^2."""
+        import sympy
+        from sympy.simplify.fu import TR6, TR10i
+
+        if waves:
+            yield TR10i(e)
+        if expands:
+            rates = [self.bridge.velocity(n, k) for k in (2, 1) for n in self.bridge.positions]
+            expanded = sympy.expand(e)
+            yield expanded
+            yield sympy.collect(expanded, rates)
+            if waves:
+                yield TR10i(sympy.expand(TR6(expanded)))
 
 
 def terms(e: Expr) -> int:
