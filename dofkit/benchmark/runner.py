@@ -39,7 +39,7 @@ class Bench:
     ask: Callable[[Job], Ended]
     limit: float
     explain: Explain
-    answering: str = "dofkit.methods.dispatch:answered"
+    answering: str = "dofkit.methods.ask:answered"
 
     def submit(self, task: TrialTask) -> Future[Ended]:
         """Begin with a trial."""

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from dofkit.benchmark.trials.trial import Trial
-from dofkit.methods.reply import Knobs
+from dofkit.methods.table import Knobs
 
 #: Of each question in a group of a sweep so many trials, at most; the fewer where it is to be quick.
 MOST_SWEPT, MOST_SWEPT_QUICK = 10, 2

@@ -11,12 +11,12 @@ from typing import Any
 
 from dofkit.base.workers import Json
 from dofkit.base.workers.child import LateError, function_named, interrupting
-from dofkit.methods.reply import Knobs, MethodReply
+from dofkit.methods.table import Knobs, MethodReply
 
 #: What is shorter, in seconds, is done again, so many times, and the least is taken.
 SHORT, AGAIN = 0.05, 2
 #: What a worker imports before its first job.
-MODULES = ("dofkit.benchmark.trial_job", "dofkit.methods.dispatch", "sympy")
+MODULES = ("dofkit.benchmark.trial_job", "dofkit.methods.ask", "sympy")
 #: A method's first call in a process also loads what it needs: it answers this first, and no clock runs.
 _WARM_SCENE: Mapping[str, Any] = {
     "name": "warm",
@@ -44,7 +44,7 @@ class TrialQuestion:
     answer: Mapping[str, str] | None
     limit: float
     again: int = AGAIN
-    answering: str = "dofkit.methods.dispatch:answered"
+    answering: str = "dofkit.methods.ask:answered"
 
 
 def timed_reply(asked: TrialQuestion) -> Json:

@@ -16,21 +16,23 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.methods.as_written import Written, as_written, posed
-from dofkit.methods.ask import CONTRADICTORY
-from dofkit.methods.pointwise import (
+from dofkit.methods.as_written import (
     Matrix,
     SampledPoints,
+    Written,
     WrittenRows,
+    as_written,
     drawn_value,
     droppable,
     freedom,
     independent_at_reference,
     labels,
     look,
+    posed,
     same,
 )
-from dofkit.methods.reply import Knobs, MethodReply, cannot
+from dofkit.methods.ask import CONTRADICTORY
+from dofkit.methods.table import Knobs, MethodReply, cannot
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 

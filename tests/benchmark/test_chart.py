@@ -23,7 +23,7 @@ from dofkit.benchmark.selecting import Selection
 from dofkit.benchmark.summary import summary
 from dofkit.benchmark.trials.trial import Trial
 from dofkit.interface.cli import app
-from dofkit.methods.reply import Knobs
+from dofkit.methods.table import Knobs
 
 RAN = Ran(
     version="0",

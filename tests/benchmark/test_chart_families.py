@@ -17,7 +17,7 @@ from dofkit.benchmark.trials.construction import kind
 from dofkit.benchmark.trials.frameworks import Framework
 from dofkit.benchmark.trials.random_systems import dependent
 from dofkit.benchmark.trials.trial import Trial
-from dofkit.methods.dispatch import answered
+from dofkit.methods.ask import answered
 
 #: Families meant for cost against size.
 LADDERS = (

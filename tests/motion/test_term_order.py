@@ -8,7 +8,7 @@ import dofkit
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions.text import Names, parse_expression, to_text
 from dofkit.expressions.tree import parameter
-from dofkit.motion.lagrange.term_order import ordered
+from dofkit.motion.lagrange.tidying import ordered
 
 NAMES = Names(
     coordinates=frozenset({"x", "y", "theta"}),

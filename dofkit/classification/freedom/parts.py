@@ -10,7 +10,7 @@ from dofkit.classification.freedom.block import answer
 from dofkit.exact.engines import BOTH
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution
-from dofkit.integrability.shared_forms import SharedForms, shared_forms
+from dofkit.integrability.single_form import SharedForms, shared_forms
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
 from dofkit.relations.normal.pieces import Piece

@@ -23,8 +23,7 @@ from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError
-from dofkit.motion.lagrange.term_order import ordered
-from dofkit.motion.lagrange.tidying import Tidier
+from dofkit.motion.lagrange.tidying import Tidier, ordered
 
 #: Points of GF(p) at which a rank is taken, and how many are tried for them.
 POINTS, ATTEMPTS = 3, 20

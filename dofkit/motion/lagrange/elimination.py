@@ -20,7 +20,7 @@ from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.text import derivatives, to_text
 from dofkit.expressions.tree import HALF, ONE, TWO, ZERO, Expr
-from dofkit.motion.lagrange.term_order import ordered
+from dofkit.motion.lagrange.tidying import ordered
 from dofkit.relations.normal.normal_form import linear_form
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 

@@ -22,9 +22,9 @@ from dofkit.motion.lagrange.conserved import conserved, cyclic
 from dofkit.motion.lagrange.derivation import SINGULAR, Derived, derive
 from dofkit.motion.lagrange.elimination import ELIMINATIONS, Care
 from dofkit.motion.lagrange.energies import Energy, energy_of
+from dofkit.motion.lagrange.forces import missing
 from dofkit.motion.lagrange.joint_motion import joint_motion, written_length
 from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError, modelled
-from dofkit.motion.lagrange.quantities import missing
 from dofkit.motion.lagrange.report import Conserved, Linearized, MotionReport
 from dofkit.motion.lagrange.small_motions import linearized
 from dofkit.motion.lagrange.tidying import Tidier

@@ -31,8 +31,7 @@ from dofkit.expressions.vectors import (
 )
 from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.motion.lagrange.energies import Energy, spin_energy
-from dofkit.motion.lagrange.forces import gravity_of
-from dofkit.motion.lagrange.quantities import EntryWorlds, masses
+from dofkit.motion.lagrange.forces import EntryWorlds, gravity_of, masses
 from dofkit.scene.constraints.coupling import Coupling
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.frames import Frame, euler
