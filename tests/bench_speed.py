@@ -92,7 +92,7 @@ def model(wheel: str, name: str, rounds: int = 3) -> Measured:
     """A model inside a wheel, read before; its freedom is MuJoCo's own."""
     from models.test_wheels import folder
 
-    from dofkit.models.compiled_by_mujoco import compiled
+    from dofkit.models.mjcf import compiled
     from dofkit.models.model_document import ModelFile
 
     path = next(folder(wheel).rglob(name))
@@ -225,11 +225,10 @@ def asked(scene: Mapping[str, Any], rounds: int, rival: tuple[Any, ...]) -> Meas
 
 
 def against_pyrigi() -> Measured:
-    """1 000 joints in the plane and a tenth more links than they need, in pure Python."""
+    """1 000 joints in the plane and a tenth more links than they need."""
     links = speed_scenes.rigid(1000, 2, 100)
     theirs = speed_scenes.least_seconds(partial(speed_scenes.by_pyrigi, links), 1)
-    with speed_scenes.plain():
-        return Measured(speed_scenes.least_seconds(speed_scenes.redundant(links, 2), 5), theirs)
+    return Measured(speed_scenes.least_seconds(speed_scenes.redundant(links, 2), 5), theirs)
 
 
 def complete(n: int) -> list[tuple[int, int]]:
@@ -238,12 +237,11 @@ def complete(n: int) -> list[tuple[int, int]]:
 
 
 def growth(make: Callable[[int], list[tuple[int, int]]]) -> Measured:
-    """Time for each joint of 10^5, against that of 10^3, nothing compiled; every redundant link is told."""
+    """Time for each joint of 10^5, against that of 10^3; every redundant link is told."""
     each = {}
     for n, rounds in ((1000, 20), (100_000, 1)):
         links = make(n)
-        with speed_scenes.plain():
-            each[n] = speed_scenes.least_seconds(speed_scenes.redundant(links, 2), rounds) / (1 + max(map(max, links)))
+        each[n] = speed_scenes.least_seconds(speed_scenes.redundant(links, 2), rounds) / (1 + max(map(max, links)))
     return Measured(each[100_000] * 1e5, fold=each[100_000] / each[1000])
 
 
@@ -282,7 +280,7 @@ ROWS = {
                    partial(model, "gymnasium_robotics", "kitchen_env_model.xml")),
     "hand": Row("its hand with tendons", seconds(2), partial(model, "gymnasium_robotics", "hand/reach.xml")),
     "loops-43": Row("a tree of 43 bodies with 10 four-bars", seconds(2), partial(tree, 43, 10, 3)),
-    "delta": Row("a delta robot told in 50 ways: the slowest", Goal("fold", 2), delta),
+    "delta": Row("a delta robot described in 50 ways: the slowest", Goal("fold", 2), delta),
     "discs-1000": Row("1 000 equal discs", seconds(0.3), partial(discs, 1000, 3)),
     "discs-10000": Row("10 000 equal discs", seconds(3), partial(discs, 10_000, 1)),
     "dense-2-4": Row("two dense forms in 4 coordinates, holonomic", times(50),

@@ -6,16 +6,17 @@ Types
     probable, numeric, undecided), the argument, the bound of its error, and the configurations that it is about.
 
 Modules
-    1. `documents` reads YAML (by PyYAML's parser) and JSON into plain exact values, with the line and column of
-       everything. A decimal never becomes a float.
-    2. `deadline` bounds the time of a scene: long loops call `check`, which raises when the time is used up. `memory`
-       pauses garbage collection where many small objects are made.
-    3. `workers` runs jobs in processes that can be killed: each job has limits of memory and time, and a crash costs
-       one job only. `journal` keeps the results of a run in one SQLite file, so that an interrupted run can be
-       resumed.
+    1. `documents` reads YAML and JSON into plain exact values, with the line and column of everything, and writes
+       YAML; `yaml_events` composes them from the events of PyYAML's parser. A decimal never becomes a float.
+    2. `deadline` bounds the time of a scene: long loops call `check`, which raises when the time is used up.
+    3. `workers` runs jobs in processes that can be killed: each job has limits of memory and time (`process_limits`),
+       and a crash costs one job only. `runs` has several workers at once, here or in a cluster, and the journal that
+       keeps the results of a run in one SQLite file, so that an interrupted run can be resumed.
     4. `components` joins what shares names: blocks of equations, groups of constraints.
-    5. `arguments`, `spelling`, `endings` and `wording` check what is given from outside, suggest the nearest known
-       word, choose a format by the ending of a path, and put numbers with their nouns into English.
-    6. `display` is what `print` and a notebook show of a value; `themes` are the light and dark colours of pages;
-       `libraries` imports numpy and networkx when they are first used; `version` is the version.
+    5. `arguments` and `wording` check what is given from outside, suggest the nearest known word, choose a format by
+       the ending of a path, and put numbers with their nouns into English.
+    6. `display` is what `print` and a notebook show of a value; `libraries` imports numpy and networkx when they are
+       first used.
 """
+
+__version__ = "0.1.0"

@@ -1,7 +1,11 @@
-"""A bound on the time one scene may take: long loops ask `check`, which raises when it is used up."""
+"""A bound on the time of one scene: long loops call `check`, which raises when the time is used up.
+
+`gc_rarely` saves time: expressions are trees, and searching millions of them for garbage takes half of it.
+"""
 
 from __future__ import annotations
 
+import gc
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -17,6 +21,8 @@ DEFAULT_SECONDS = 60.0
 GRACE_SECONDS, GRACE_PART = 1.0, 0.25
 #: rows * columns * min(rows, columns) of a dense matrix that is still eliminated, and how much of that a second does.
 MAX_WORK, WORK_A_SECOND = 30_000_000_000, 3e9
+#: New objects before garbage is searched for, and rounds before older objects are.
+GC_THRESHOLD = (200_000, 20, 20)
 OUT_OF_TIME = "the time allowed for the scene was used up"
 
 T = TypeVar("T")
@@ -28,8 +34,19 @@ class OutOfTimeError(DofkitError):
     """The time allowed for the scene was used up; what was asked is undecided."""
 
 
+@contextmanager
+def gc_rarely() -> Iterator[None]:
+    """Search for garbage rarely within the block."""
+    before = gc.get_threshold()
+    gc.set_threshold(*map(max, before, GC_THRESHOLD))
+    try:
+        yield
+    finally:
+        gc.set_threshold(*before)
+
+
 def limit(seconds: float) -> float:
-    """The seconds after which work is killed that should have ended by itself after ``seconds``."""
+    """Return the seconds after which work is killed that should have ended by itself after ``seconds``."""
     return seconds + max(GRACE_SECONDS, GRACE_PART * seconds)
 
 
@@ -42,7 +59,7 @@ def _now() -> float:
 def by_processor(seconds: float) -> Iterator[None]:
     """Let `check` raise after so many seconds of this thread's processor time, whatever else the machine does.
 
-    Limits within are counted so too, and the clock's outside are left alone: the same work ends at the same place.
+    Limits within the block are counted so too, so that the same work ends at the same place.
     """
     clock, token = _clock.set(time.thread_time), _until.set(time.thread_time() + seconds)
     try:
@@ -63,19 +80,19 @@ def limited(seconds: float) -> Iterator[None]:
 
 
 def left() -> float:
-    """The seconds that are left."""
+    """Return the seconds that are left."""
     return max(0.0, _until.get() - _now())
 
 
 @contextmanager
 def part(share: float) -> Iterator[None]:
-    """Let `check` raise where this share of the time that is left is used up: the rest is for what comes after."""
+    """Let `check` raise after this share of the time that is left, so that the remainder serves what comes after."""
     with limited(share * left()):
         yield
 
 
 def unless_late(work: Callable[[], T], otherwise: T) -> T:
-    """The result of ``work``, or ``otherwise`` where the time is used up before."""
+    """Return the result of ``work``, or ``otherwise`` where the time is used up before."""
     try:
         return work()
     except OutOfTimeError:
@@ -106,5 +123,5 @@ def affordable(rows: int, columns: int) -> None:
 
 
 def expired() -> bool:
-    """Is the time used up?"""
+    """Return whether the time is used up."""
     return _now() > _until.get()

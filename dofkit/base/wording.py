@@ -1,13 +1,25 @@
-"""Numbers with their nouns, as English wants them."""
+"""Words for messages: numbers with their nouns, and the nearest known word to one that is misspelt."""
 
 from __future__ import annotations
 
+import difflib
+import re
+from collections.abc import Iterable, Sequence
+
 #: A ratio beyond which the rank of a numeric matrix is taken as certain in words.
 UNAMBIGUOUS = 1e12
+#: Words are compared with at most so many known ones.
+_MOST_COMPARED = 2000
+#: A shorter beginning of a known word does not stand for it.
+SHORTEST_BEGINNING = 3
+#: So many of them are listed.
+_MOST_LISTED = 12
+#: The least share of words that a name of several words has in common with the one that was meant.
+_LEAST_SHARED = 0.4
 
 
 def many(number: int, what: str) -> str:
-    """A number of things.
+    """Return a number of things in words.
 
     >>> many(1, "equation"), many(2, "body"), many(0, "link")
     ('1 equation', '2 bodies', '0 links')
@@ -18,13 +30,22 @@ def many(number: int, what: str) -> str:
     return f"{number} {what[:-1]}ies" if ends_in_y else f"{number} {what}s"
 
 
-def verb(number: int, one: str = "is", several: str = "are") -> str:
-    """The verb for a number of things.
+def verb(number: int, singular: str = "is", plural: str = "are") -> str:
+    """Return the verb for a number of things.
 
     >>> verb(1), verb(3, "has", "have")
     ('is', 'have')
     """
-    return one if number == 1 else several
+    return singular if number == 1 else plural
+
+
+def series(words: Sequence[str]) -> str:
+    """Return words as a series.
+
+    >>> series(["1", "2", "3"]), series(["2", "3"]), series(["3"])
+    ('1, 2 and 3', '2 and 3', '3')
+    """
+    return " and ".join([part for part in (", ".join(words[:-1]), *words[-1:]) if part])
 
 
 def gap_in_words(gap: float, what: str) -> str:
@@ -39,3 +60,61 @@ def gap_in_words(gap: float, what: str) -> str:
         return f"the rank is unambiguous: no {what} that is kept is below 10^12 times one that is taken as zero"
     digits = float(f"{gap:.1e}")
     return f"the smallest {what} that is kept is about {digits:.0f} times the largest that is taken as zero"
+
+
+def closest(word: str, known: Sequence[str], least: float = 0.6) -> str | None:
+    """Return the known word most like ``word`` (Ratcliff and Obershelp), at least ``least`` alike, or None.
+
+    >>> closest("thta", ["theta", "phi"])
+    'theta'
+    """
+    return next(iter(difflib.get_close_matches(word, known, 1, least)), None)
+
+
+def nearest(word: object, known: Iterable[str]) -> str | None:
+    """Return the known name most like ``word``, of about its length, in any case, or that it abbreviates; or None.
+
+    >>> nearest("lenght", ["between", "length"])
+    'length'
+    """
+    word, names = str(word), list(known)
+    near = [name for name in names if abs(len(name) - len(word)) <= 1 + len(word) // 2]
+    same = (name for name in near if name.lower() == word.lower())
+    longer = [name for name in names if len(word) >= SHORTEST_BEGINNING and name.startswith(word.lower())]
+    return closest(word, near[:_MOST_COMPARED]) or next(same, longer[0] if len(longer) == 1 else None)
+
+
+def guess(word: str, known: Iterable[str]) -> str:
+    """Return `` (did you mean ...?)`` with the nearest known word, or an empty text where none is near."""
+    near = nearest(word, known)
+    return "" if near is None else f" (did you mean '{near}'?)"
+
+
+def no_such(word: str, known: Iterable[str], what: str, plural: str = "") -> str:
+    """Return a sentence about a ``word`` that is unknown, with the nearest known word and the first dozen.
+
+    >>> no_such("exakt", ["count", "exact"], "method")
+    "there is no method 'exakt' (did you mean 'exact'?): the methods are count, exact"
+    """
+    names = list(known)
+    listed = ", ".join(names[:_MOST_LISTED]) + (", ..." if len(names) > _MOST_LISTED else "")
+    return f"there is no {what} '{word}'{guess(word, names)}: the {plural or what + 's'} are {listed or 'none'}"
+
+
+def nearest_title(name: str, known: Sequence[str]) -> str | None:
+    """Return the known name of several words that is most like ``name`` or shares most words with it, or None.
+
+    >>> nearest_title("rolling-disc", ["disc-rolling", "pendulum"])
+    'disc-rolling'
+    """
+    alike = closest(name, known)
+    if alike is not None:
+        return alike
+    words = _words(name)
+    shared = [(len(words & _words(other)) / len(words | _words(other)), other) for other in known]
+    share, best = max(shared, key=lambda pair: pair[0], default=(0.0, ""))
+    return best if share >= _LEAST_SHARED else None
+
+
+def _words(name: str) -> set[str]:
+    return set(re.split(r"[\W_]+", name.lower()))

@@ -6,40 +6,38 @@ import os
 import platform
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib.util import find_spec
 from pathlib import Path
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.table import Table
 
-from dofkit.base.version import __version__
-from dofkit.base.workers import Job
-from dofkit.base.workers.pool import cores
-from dofkit.benchmark import runner, storing, tasks
-from dofkit.benchmark import trial_job as asking
-from dofkit.benchmark.failures import explained
-from dofkit.benchmark.figures import table
-from dofkit.benchmark.record import ChartRun, Data, Ran, ReductionCost, TrialLine
-from dofkit.benchmark.selecting import Selection
-from dofkit.benchmark.storing import ChartError
-from dofkit.benchmark.summary import summary
-from dofkit.benchmark.table import tell
+from dofkit.base import __version__
+from dofkit.base.runs import cores
+from dofkit.base.workers import Job, function_named
+from dofkit.benchmark import record, runner, tasks
+from dofkit.benchmark.record import ALL, AUTO, ChartError, ChartRun, Data, Ran, ReductionCost, Score
+from dofkit.benchmark.sentences import TWICE, summary
+from dofkit.benchmark.tasks import Selection
 from dofkit.benchmark.trials import FAMILIES
 
 #: Seconds of processor time for a trial, and in a quick run.
 LIMIT, LIMIT_QUICK = 2.0, 0.5
 #: Seconds that measuring one reduction on one scene may take.
 REDUCTION_SECONDS = 120.0
+#: What draws the figures, and so needs matplotlib.
+FIGURES = "dofkit.benchmark.figures.table:write"
 NO_MATPLOTLIB = "nothing is drawn without matplotlib: pip install 'dofkit[chart]'"
 
 
 @dataclass(frozen=True)
 class ChartOptions:
-    """What the command line says. ``source``: a folder with the data of a run, to be drawn again."""
+    """The options of the command. ``source``: a folder with the data of a run, to be drawn again."""
 
     selection: Selection
     out: Path
@@ -50,81 +48,75 @@ class ChartOptions:
 
     @property
     def seconds(self) -> float:
-        """The limit for a trial."""
+        """The limit for a trial, in seconds of processor time."""
         return self.limit or (LIMIT_QUICK if self.selection.quick else LIMIT)
 
     def command(self) -> str:
-        """What makes the same data again, wherever it is written."""
+        """Return the command that makes the same data again, wherever it is written."""
         limit = [] if self.limit is None else [f"--timeout {self.limit:g}"]
         return " ".join(["dofkit chart", *self.selection.options(), *limit])
 
 
-@dataclass
-class ChartFiles:
-    """What was found so far."""
-
-    lines: list[TrialLine] = field(default_factory=list)
-    sweeps: list[TrialLine] = field(default_factory=list)
-    reductions: list[ReductionCost] = field(default_factory=list)
-    complete: bool = False
-
-
 def chart(options: ChartOptions) -> bool:
-    """Run, write, draw and tell; was it brought to its end? Raises ChartError, StoppedError and OSError."""
+    """Run, write, draw and print; return whether the run ended. Raises ChartError, StoppedError and OSError."""
     writable(options.out)
     if options.source is not None:
-        finish(storing.read(options.source), options.out)
+        finish(record.read(options.source), options.out)
         return True
-    started, found = time.monotonic(), ChartFiles()
-    date = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
     chosen = options.selection.with_names(FAMILIES)
-    trials = chosen.thinned(chosen.trials(FAMILIES))
+    trials = chosen.thinned(chosen.trials(FAMILIES, chosen.quick))
     work = list(tasks.trial_tasks(trials, chosen.methods))
-    swept = list(tasks.sweeps(chosen.swept(FAMILIES), chosen.methods, chosen.quick))
+    swept = list(tasks.sweeps(chosen.trials(FAMILIES, False), chosen.methods, chosen.quick))
+    seeds = sorted({task.knobs.seed for task in (*work, *swept)})
+    started, data = time.monotonic(), Data(_provenance(options, len(trials), seeds))
     try:
-        _gather(options, work, swept, found)
+        _gather(options, work, swept, data)
+        complete = True
     except KeyboardInterrupt:
-        done, whole = len(found.lines) + len(found.sweeps), len(work) + len(swept)
-        Console(stderr=True).print(f"interrupted after {done} of {whole} trials", highlight=False)
-    if not found.complete and not found.lines:
-        return False
-    ran = Ran(
+        complete = False
+        done, total = len(data.lines) + len(data.sweeps), len(work) + len(swept)
+        Console(stderr=True).print(f"interrupted after {done} of {total} trials", highlight=False)
+        if not data.lines:
+            return False
+    counts = {"lines": len(data.lines), "sweeps": len(data.sweeps)}
+    minutes = (time.monotonic() - started) / 60
+    data = replace(data, ran=data.ran.model_copy(update={**counts, "minutes": minutes, "complete": complete}))
+    finish(data, options.out)
+    return complete
+
+
+def _provenance(options: ChartOptions, trials: int, seeds: list[int]) -> Ran:
+    """Return how a run is made, before it begins."""
+    return Ran(
         version=__version__,
         command=options.command(),
-        date=date,
+        date=f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}",
         machine=machine(),
         cores=os.cpu_count() or 1,
         python=platform.python_version(),
         workers=options.workers or cores(),
         limit=options.seconds,
-        quick=chosen.quick,
-        trials=len(trials),
-        lines=len(found.lines),
-        sweeps=len(found.sweeps),
-        seeds=sorted({task.knobs.seed for task in (*work, *swept)}),
-        minutes=(time.monotonic() - started) / 60,
-        complete=found.complete,
+        quick=options.selection.quick,
+        trials=trials,
+        lines=0,
+        sweeps=0,
+        seeds=seeds,
+        minutes=0,
+        complete=False,
     )
-    finish(Data(ran, found.lines, found.sweeps, found.reductions), options.out)
-    return found.complete
 
 
 def finish(data: Data, out: Path) -> None:
-    """Write the data, draw them where that can be done, and tell what they say."""
+    """Write the data, draw them where matplotlib is installed, and print what they show."""
     order = {key: i for i, key in enumerate(dict.fromkeys((line.family, line.question) for line in data.lines))}
     data.lines.sort(key=lambda line: (order[line.family, line.question], line.size, line.trial))
     chart = summary(data)
-    storing.write(data, chart, out)
+    record.write(data, chart, out)
     able = find_spec("matplotlib") is not None
-    drawn = list(draw(chart, out)) if able and data.ran.complete else []
-    tell(chart, data, out, drawn)
+    drawn = list(function_named(FIGURES)(chart, out)) if able and data.ran.complete else []
+    show(chart, data, out, drawn)
     if not able:
         Console(stderr=True).print(NO_MATPLOTLIB, highlight=False, markup=False)
-
-
-def draw(chart: ChartRun, out: Path) -> Iterator[Path]:
-    """All figures. Raises OSError."""
-    return table.write(chart, out)
 
 
 def writable(out: Path) -> None:
@@ -138,52 +130,115 @@ def writable(out: Path) -> None:
 
 
 def _gather(
-    options: ChartOptions, work: Sequence[tasks.TrialTask], swept: Sequence[tasks.TrialTask], found: ChartFiles
+    options: ChartOptions, work: Sequence[tasks.TrialTask], swept: Sequence[tasks.TrialTask], data: Data
 ) -> None:
-    """Reductions are measured beside the trials: each of their runs needs the one before."""
+    """Fill the data. Reductions are measured beside the trials: each of their runs needs the one before."""
     with _bench(options) as bench, _bar() as bar:
-        job = Job(asking.ablation_rows, options.selection.quick, REDUCTION_SECONDS)
+        job = Job(runner.ablation_rows, options.selection.quick, REDUCTION_SECONDS)
         reduced = bench.crew.submit(bench.ask, job) if _reduces(options.selection) else None
-        for name, some, lines in (("trials", work, found.lines), ("sweeps", swept, found.sweeps)):
-            shown = bar.add_task(name, total=len(some))
-            for line in runner.run(some, bench):
+        for name, members, lines in (("trials", work, data.lines), ("sweeps", swept, data.sweeps)):
+            progress = bar.add_task(name, total=len(members))
+            for line in runner.run(members, bench):
                 lines.append(line)
-                bar.update(shown, advance=1)
+                bar.update(progress, advance=1)
         if reduced is not None:
-            shown = bar.add_task("reductions", total=None)
-            found.reductions += [ReductionCost.model_validate(row) for row in reduced.result().value or ()]
-            bar.update(shown, total=1, completed=1)
-    found.complete = True
+            progress = bar.add_task("reductions", total=None)
+            data.reductions.extend(ReductionCost.model_validate(row) for row in reduced.result().value or ())
+            bar.update(progress, total=1, completed=1)
 
 
 def _reduces(selection: Selection) -> bool:
-    """They are measured where everything is: they are about `auto` on scenes of their own."""
+    """Return whether reductions are measured: where everything is, as they are about `auto` on scenes of their own."""
     return not (selection.questions or selection.families or selection.methods)
 
 
-@contextmanager
-def _bench(options: ChartOptions) -> Iterator[runner.Bench]:
+def _bench(options: ChartOptions) -> AbstractContextManager[runner.Bench]:
     if options.scheduler is not None:
-        with runner.cluster_bench(options.scheduler, options.seconds, explained) as bench:
-            yield bench
-        return
-    with runner.local_bench(options.workers or cores(), options.seconds, explained) as bench:
-        yield bench
+        return runner.cluster_bench(options.scheduler, options.seconds)
+    return runner.local_bench(options.workers or cores(), options.seconds)
 
 
 def _bar() -> AbstractContextManager[Progress]:
-    """A progress bar on standard error, where that is a terminal."""
+    """Return a progress bar on standard error, where that is a terminal."""
     console = Console(stderr=True)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    shown = console.is_terminal and not console.is_jupyter
-    return Progress(*columns, TimeRemainingColumn(), console=console, transient=True, disable=not shown)
+    visible = console.is_terminal and not console.is_jupyter
+    return Progress(*columns, TimeRemainingColumn(), console=console, transient=True, disable=not visible)
 
 
 def machine() -> str:
-    """The processor as the system names it."""
+    """Return the processor as the system names it."""
     try:
-        with open("/proc/cpuinfo", encoding="utf-8", errors="replace") as told:
-            names = [line.partition(":")[2].strip() for line in told if line.startswith("model name")]
+        with open("/proc/cpuinfo", encoding="utf-8", errors="replace") as lines:
+            names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
     except OSError:
         names = []
     return names[0] if names else platform.processor() or platform.machine()
+
+
+# On the terminal
+
+
+def show(chart: ChartRun, data: Data, out: Path, drawn: Sequence[Path]) -> None:
+    """Print a table for each question, where the files are, and how ``auto`` did."""
+    console = Console(highlight=False, markup=False)
+    if chart.scores:
+        console.print(table(chart))
+        for sentence in auto_sentences(chart):
+            console.print(sentence, soft_wrap=True)
+    console.print(f"data: {out}/ (trials.csv, sweeps.csv, reductions.csv, chart.json)", soft_wrap=True)
+    if drawn:
+        names = ", ".join(path.stem for path in drawn)
+        console.print(f"figures, as .png and .svg: {names}", soft_wrap=True)
+    if not data.ran.complete:
+        console.print("the run was interrupted: this is only a part of it", soft_wrap=True)
+
+
+def table(chart: ChartRun) -> Table:
+    """Return the scores question by question, the fastest method first."""
+    columns = ("question", "method", "right", "wrong", "undecided", "timed out", "cannot", "median", "Pareto")
+    rows = Table(*columns, box=None, pad_edge=False)
+    for column in rows.columns[2:8]:
+        column.justify = "right"
+    totals = [score for score in chart.scores if score.family == ALL]
+    fronts = {front.question: front.methods for front in chart.fronts}
+    for question in dict.fromkeys(score.question for score in totals):
+        members = sorted((s for s in totals if s.question == question), key=lambda s: s.median_seconds or 0.0)
+        for i, score in enumerate(members):
+            mark = "yes" if score.method in fronts.get(question, ()) else ""
+            style = "bold" if score.method == AUTO else None
+            rows.add_row(
+                question if i == 0 else "", *_cells(score), mark, style=style, end_section=score is members[-1]
+            )
+    return rows
+
+
+def _cells(score: Score) -> tuple[str, ...]:
+    counts = (score.right, score.wrong, score.undecided, score.timed_out, score.cannot)
+    median = "" if score.median_seconds is None else f"{1000 * score.median_seconds:.3g} ms"
+    return (score.method, *(str(count) if count else "-" for count in counts), median)
+
+
+def auto_sentences(chart: ChartRun) -> list[str]:
+    """Return how many answers of ``auto`` are wrong, and where it is slower than the fastest method that is right."""
+    auto = [score for score in chart.scores if score.method == AUTO and score.family == ALL]
+    if not auto:
+        return []
+    trials, wrong = sum(score.trials for score in auto), sum(score.wrong for score in auto)
+    open_ = sum(score.undecided + score.timed_out + score.cannot for score in auto)
+    sentences = [f"auto: {trials} trials, {wrong} wrong, {open_} without an answer"]
+    if not chart.against:
+        return sentences
+    sound = [row for row in chart.against if row.sound_ratio is not None]
+    slow = [row for row in sound if row.sound_ratio is not None and row.sound_ratio > TWICE]
+    sentences.append(
+        f"auto: at most twice the time of the fastest method that is right on a family and never wrong: "
+        f"{len(sound) - len(slow)} of {len(sound)} families"
+    )
+    for row in sorted(slow, key=lambda row: -(row.sound_ratio or 0))[:5]:
+        sentences.append(f"  {row.question}, {row.family}: {row.sound_ratio:.1f} times {row.sound}")
+    within = sum(row.ratio <= TWICE for row in chart.against)
+    sentences.append(
+        f"auto: the same, with methods that are wrong elsewhere: {within} of {len(chart.against)} families"
+    )
+    return sentences

@@ -1,12 +1,17 @@
-"""What a run leaves: a line for every trial and method, and a summary of all of them with how it was made."""
+"""The record of a run: a line for every trial and method, a summary of all of them, and the files that hold both."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+import csv
+import json
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from dofkit.base.errors import DofkitError
 
 #: ``cannot``: the method never answers such a question or scene; ``undecided``: it tried, or failed on the way.
 Outcome = Literal["right", "wrong", "undecided", "timed out", "cannot"]
@@ -204,3 +209,62 @@ class Data:
     lines: list[TrialLine] = field(default_factory=list)
     sweeps: list[TrialLine] = field(default_factory=list)
     reductions: list[ReductionCost] = field(default_factory=list)
+
+
+# Files
+
+TRIALS, SWEEPS, REDUCTIONS, SUMMARY = "trials.csv", "sweeps.csv", "reductions.csv", "chart.json"
+#: Columns that hold JSON, and those that hold numbers; the others are plain text.
+_JSON = ("traits", "swept", "truth", "told")
+_NUMBERS: dict[str, Callable[[str], Any]] = {"size": int, "seconds": float, "value": float}
+_COLUMNS = [column.name for column in fields(TrialLine)]
+
+
+class ChartError(DofkitError):
+    """What was asked for cannot be charted, read or written."""
+
+
+def write(data: Data, chart: ChartRun, out: Path) -> None:
+    """Write all data of a run into an existing folder. Raises OSError."""
+    _write_table(out / TRIALS, _COLUMNS, map(_cells, data.lines))
+    _write_table(out / SWEEPS, _COLUMNS, map(_cells, data.sweeps))
+    rows = (row.model_dump().values() for row in data.reductions)
+    lists = ([json.dumps(v, ensure_ascii=False) if isinstance(v, list) else v for v in row] for row in rows)
+    _write_table(out / REDUCTIONS, list(ReductionCost.model_fields), lists)
+    (out / SUMMARY).write_text(chart.model_dump_json(indent=1) + "\n", encoding="utf-8")
+
+
+def read(folder: Path) -> Data:
+    """Return the data of a run. Raises ChartError where they are missing or incomplete."""
+    try:
+        chart = ChartRun.model_validate_json((folder / SUMMARY).read_text(encoding="utf-8"))
+        lines, swept = (list(_read_lines(folder / name)) for name in (TRIALS, SWEEPS))
+    except OSError as error:
+        raise ChartError(f"there is no run in {folder}: {error.strerror} ({error.filename})") from None
+    except (ValidationError, ValueError, KeyError, TypeError) as error:
+        first = str(error).splitlines()[0]
+        raise ChartError(f"the files in {folder} are not those of a run of this version: {first}") from None
+    return Data(chart.ran, lines, swept, chart.reductions)
+
+
+def _write_table(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
+    with path.open("w", encoding="utf-8", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(columns)
+        table.writerows(rows)
+
+
+def _cells(line: TrialLine) -> list[Any]:
+    cells = {name: getattr(line, name) for name in _COLUMNS} | {"seconds": f"{line.seconds:.6g}"}
+    cells |= {name: json.dumps(cells[name], ensure_ascii=False, sort_keys=True) for name in _JSON}
+    return list(cells.values())
+
+
+def _read_lines(path: Path) -> Iterable[TrialLine]:
+    with path.open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            cells: dict[str, Any] = {name: row[name] for name in _COLUMNS}
+            cells |= {name: json.loads(row[name]) for name in _JSON}
+            cells |= {name: number(row[name]) for name, number in _NUMBERS.items()}
+            cells["traits"] = tuple(cells["traits"])
+            yield TrialLine(**cells)

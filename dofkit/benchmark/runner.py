@@ -1,34 +1,147 @@
-"""Every trial by every method, each in a killable worker: those that hang or crash cost their own line, no other."""
+"""Every trial by every method, each in a worker that can be killed: one that hangs or crashes costs its own line only.
+
+The first half is what a worker does with a trial; the second gives out the trials and judges what was answered.
+"""
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+import sys
+import time
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass
 from functools import lru_cache
-from typing import Protocol
+from typing import Any
 
-from dofkit.base.workers import MEMORY, Job
+from dofkit.base.process_limits import LateError, interrupting
+from dofkit.base.runs import Cluster, Crew, Pool, StoppedError
+from dofkit.base.workers import MEMORY, Job, Json, function_named
 from dofkit.base.workers import JobOutcome as Ended
-from dofkit.base.workers.pool import Cluster, Crew, Pool, StoppedError
-from dofkit.benchmark.judging import outcome_of
+from dofkit.benchmark.failures import explained
 from dofkit.benchmark.record import Outcome, TrialLine
+from dofkit.benchmark.statistics import grouped
 from dofkit.benchmark.tasks import TrialTask
-from dofkit.benchmark.trial_job import AGAIN, MODULES, TrialQuestion, timed_reply
+from dofkit.methods.table import Knobs, MethodReply
+
+# In a worker
+
+#: What is shorter, in seconds, is done again, so many times, and the least is taken.
+SHORT, AGAIN = 0.05, 2
+#: What a worker imports before its first job, and who knows the methods, as ``module:function``.
+MODULES, ANSWERING = ("dofkit.benchmark.runner", "dofkit.methods.ask", "sympy"), "dofkit.methods.ask:answered"
+#: A method's first call in a process also loads what it needs: it answers this first, and no clock runs.
+_WARM_SCENE: Mapping[str, Any] = {
+    "name": "warm",
+    "coordinates": ["x", "y", "u"],
+    "constraints": [
+        {"name": "circle", "type": "equation", "text": "x^2 + y^2 = 1"},
+        {"name": "edge", "type": "equation", "text": "xdot*sin(u) - ydot*cos(u) = 0"},
+    ],
+}
+_WARM_ANSWER = {"constraint": "circle", "text": "2*x^2 + 2*y^2 = 2"}
+_warm: set[tuple[str, str, str]] = set()
+
+
+@dataclass(frozen=True)
+class TrialQuestion:
+    """What a worker is asked: a question about a scene, for one method; ``limit`` in seconds of processor time.
+
+    ``again``: how often a short one is repeated; ``answering``: what knows the methods, as ``module:function``.
+    """
+
+    scene: Mapping[str, Any]
+    question: str
+    method: str
+    knobs: Knobs
+    answer: Mapping[str, str] | None
+    limit: float
+    again: int = AGAIN
+    answering: str = ANSWERING
+
+
+def timed_reply(asked: TrialQuestion) -> Json:
+    """Return the reply as a mapping ``value, reason, cannot, seconds``; None where it took longer than the limit.
+
+    What is late is interrupted, so that the process stays warm; only what cannot be is killed with it.
+    """
+    function = function_named(asked.answering)
+    key = (asked.answering, asked.question, asked.method)
+    if key not in _warm:
+        _warm.add(key)
+        answer = _WARM_ANSWER if asked.question == "equivalence" else None
+        _timed(function, TrialQuestion(_WARM_SCENE, asked.question, asked.method, Knobs(), answer, asked.limit))
+    try:
+        with interrupting(asked.limit):
+            reply, seconds = _timed(function, asked)
+    except LateError:
+        return None
+    if seconds < SHORT:
+        seconds = min([seconds, *(_timed(function, asked)[1] for _ in range(asked.again))])
+    return {**asdict(reply), "seconds": seconds}
+
+
+def _timed(function: Callable[..., MethodReply], asked: TrialQuestion) -> tuple[MethodReply, float]:
+    """Return the reply and its processor time. SymPy's cache is emptied first: each trial counts for itself."""
+    if "sympy" in sys.modules:
+        sys.modules["sympy"].core.cache.clear_cache()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        start = time.thread_time()
+        try:
+            reply = function(asked.scene, asked.question, asked.method, asked.knobs, asked.answer)
+        except MemoryError:
+            raise
+        except Exception as error:
+            message = " ".join(str(error).split())[:200]
+            reply = MethodReply(None, f"it failed: {type(error).__name__}: {message}")
+        return reply, time.thread_time() - start
+
+
+def ablation_rows(quick: bool) -> Iterator[Json]:
+    """Yield what each reduction of the model saves: all rows so far, each time there is one more."""
+    rows: list[Json] = []
+    for row in function_named("dofkit.benchmark.ablation:ablation")(quick):
+        rows.append(row.model_dump())
+        yield rows
+
+
+# Judging
+
+
+def outcome_of(truth: Any, answer: Any) -> Outcome:
+    """Return how an answer compares with the truth. None is undecided, also for a single constraint of a mapping.
+
+    >>> outcome_of(2, 2), outcome_of(2, None), outcome_of(["c"], ["b"])
+    ('right', 'undecided', 'wrong')
+    >>> outcome_of({"a": True, "b": False}, {"a": True}), outcome_of({"a": True, "b": False}, {"a": False})
+    ('undecided', 'wrong')
+    """
+    if answer is None:
+        return "undecided"
+    if not isinstance(truth, Mapping) or not isinstance(answer, Mapping):
+        return "right" if _same(truth, answer) else "wrong"
+    decided = {name: value for name, value in answer.items() if value is not None}
+    if any(name not in truth or not _same(truth[name], value) for name, value in decided.items()):
+        return "wrong"
+    return "right" if len(decided) == len(truth) else "undecided"
+
+
+def _same(truth: Any, answer: Any) -> bool:
+    """Return whether two values are the same: True is not 1, and the order of what is redundant does not matter."""
+    if isinstance(truth, list | tuple) and isinstance(answer, list | tuple):
+        return sorted(map(str, truth)) == sorted(map(str, answer))
+    return isinstance(truth, bool) == isinstance(answer, bool) and bool(truth == answer)
+
+
+# Giving out trials
 
 #: Trials under way for each worker.
 AHEAD = 2
 #: By the clock a trial may take so many times its processor time, and this much more: the machine has others to serve.
 PATIENCE, SPARE = 4.0, 20.0
 SKIPPED = "timed out at a smaller size"
-
-
-class Explain(Protocol):
-    """Why a method is not right on a trial, in a sentence."""
-
-    def __call__(self, method: str, question: str, traits: tuple[str, ...], outcome: str, reason: str) -> str: ...
 
 
 @dataclass(frozen=True)
@@ -38,126 +151,85 @@ class Bench:
     crew: Crew
     ask: Callable[[Job], Ended]
     limit: float
-    explain: Explain
-    answering: str = "dofkit.methods.ask:answered"
+    answering: str
 
     def submit(self, task: TrialTask) -> Future[Ended]:
         """Begin with a trial."""
-        t = task.trial
-        again = 0 if task.knob else AGAIN
+        t, again = task.trial, 0 if task.knob else AGAIN
         asked = TrialQuestion(t.scene, t.question, task.method, task.knobs, t.answer, self.limit, again, self.answering)
         return self.crew.submit(self.ask, Job(timed_reply, asked, PATIENCE * self.limit + SPARE))
 
     def line(self, task: TrialTask, ended: Ended) -> TrialLine:
-        """What became of a trial."""
+        """Return the line of a trial that ended."""
         if ended.ended == "absent":
             raise StoppedError(ended.reason)
         if ended.finished and ended.value is not None:
-            told, seconds = ended.value["value"], float(ended.value["seconds"])
-            outcome = outcome_of(task.trial.truth, told)
-            if told is None and ended.value["cannot"]:
-                outcome = "cannot"
-            return self._line(task, told, outcome, seconds, str(ended.value["reason"]))
+            answer, seconds = ended.value["value"], float(ended.value["seconds"])
+            outcome = "cannot" if answer is None and ended.value["cannot"] else outcome_of(task.trial.truth, answer)
+            return _line(task, answer, outcome, seconds, str(ended.value["reason"]))
         if ended.finished or ended.ended in ("overrun", "memory"):
             reason = ended.reason if ended.ended == "memory" else f"not done after {self.limit:g} s"
-            return self._line(task, None, "timed out", self.limit, reason)
-        return self._line(task, None, "undecided", self.limit, f"it failed: {ended.reason}")
-
-    def skipped(self, task: TrialTask) -> TrialLine:
-        """A trial that is not run: a smaller one took too long."""
-        return self._line(task, None, "timed out", self.limit, SKIPPED)
-
-    def _line(self, task: TrialTask, told: object, outcome: Outcome, seconds: float, reason: str) -> TrialLine:
-        t = task.trial
-        why = "" if outcome == "right" else self.explain(task.method, t.question, t.traits, outcome, reason)
-        if reason == SKIPPED:
-            why = f"{SKIPPED}: {why}"
-        about = (t.family, t.name, t.question, task.method, t.size, tuple(t.traits), dict(t.swept), t.truth)
-        return TrialLine(
-            *about, told, outcome, seconds, " ".join(why.split()), task.knob, float(task.value), task.group
-        )
+            return _line(task, None, "timed out", self.limit, reason)
+        return _line(task, None, "undecided", self.limit, f"it failed: {ended.reason}")
 
 
-@dataclass
-class _Ladder:
-    """Trials that differ in size, the smallest first; ``climbing`` of them are under way, all of one size."""
-
-    tasks: deque[TrialTask]
-    climbing: int = 0
-    at: int = 0
-    broken: bool = False
-
-    def ready(self) -> bool:
-        """May the next one begin? Only beside others of its size: what takes too long ends the ladder."""
-        return bool(self.tasks) and (self.broken or not self.climbing or self.tasks[0].trial.size == self.at)
-
-
-@dataclass
-class _Ladders:
-    """All ladders; those with trials left take turns."""
-
-    left: deque[_Ladder] = field(default_factory=deque)
-
-    @classmethod
-    def of(cls, tasks: Iterable[TrialTask]) -> _Ladders:
-        """Sorted into ladders."""
-        found: dict[tuple[str, ...], list[TrialTask]] = {}
-        for task in tasks:
-            found.setdefault(task.ladder, []).append(task)
-        return cls(deque(_Ladder(deque(sorted(row, key=lambda task: task.trial.size))) for row in found.values()))
-
-    def next(self) -> tuple[_Ladder, TrialTask] | None:
-        """A trial that may begin now."""
-        for _ in range(len(self.left)):
-            ladder = self.left.popleft()
-            if ladder.ready():
-                task = ladder.tasks.popleft()
-                if ladder.tasks:
-                    self.left.append(ladder)
-                return ladder, task
-            self.left.append(ladder)
-        return None
+def _line(task: TrialTask, answer: object, outcome: Outcome, seconds: float, reason: str) -> TrialLine:
+    t = task.trial
+    why = "" if outcome == "right" else explained(task.method, t.question, t.traits, outcome, reason)
+    if reason == SKIPPED:
+        why = f"{SKIPPED}: {why}"
+    about = (t.family, t.name, t.question, task.method, t.size, tuple(t.traits), dict(t.swept), t.truth)
+    return TrialLine(*about, answer, outcome, seconds, " ".join(why.split()), task.knob, float(task.value), task.group)
 
 
 def run(tasks: Iterable[TrialTask], bench: Bench) -> Iterator[TrialLine]:
-    """A line for every task, as they end. Raises StoppedError where no worker can be had."""
-    ladders = _Ladders.of(tasks)
-    running: dict[Future[Ended], tuple[_Ladder, TrialTask]] = {}
-    while True:
-        while len(running) < AHEAD * bench.crew.width and (found := ladders.next()):
-            ladder, task = found
-            if ladder.broken and task.trial.size > ladder.at:
-                yield bench.skipped(task)
-                continue
-            ladder.climbing, ladder.at = ladder.climbing + 1, task.trial.size
-            running[bench.submit(task)] = found
-        if not running:
-            return
+    """Yield a line for every task, as they end. Raises StoppedError where no worker can be had.
+
+    Trials of which only the size differs make a ladder. Of a ladder only trials of one size are under way at a time,
+    the smallest first; where one times out, the larger ones are not run.
+    """
+    ladders = grouped(sorted(tasks, key=lambda task: task.trial.size), lambda task: task.ladder)
+    running: dict[Future[Ended], TrialTask] = {}
+    broken: dict[tuple[str, ...], int] = {}
+    while ladders or running:
+        for ladder, rungs in [*ladders.items()]:
+            climbing = {task.trial.size for task in running.values() if task.ladder == ladder}
+            while rungs and len(running) < AHEAD * bench.crew.width and climbing <= {rungs[0].trial.size}:
+                task = rungs.pop(0)
+                if task.trial.size > broken.get(ladder, task.trial.size):
+                    yield _line(task, None, "timed out", bench.limit, SKIPPED)
+                else:
+                    climbing = {task.trial.size}
+                    running[bench.submit(task)] = task
+            if not rungs:
+                del ladders[ladder]
+            if len(running) >= AHEAD * bench.crew.width:
+                break
         for future in wait(running, return_when=FIRST_COMPLETED).done:
-            ladder, task = running.pop(future)
+            task = running.pop(future)
             line = bench.line(task, future.result())
-            ladder.climbing -= 1
-            ladder.broken = ladder.broken or line.outcome == "timed out"
+            if line.outcome == "timed out":
+                broken[task.ladder] = task.trial.size
             yield line
 
 
 @contextmanager
-def local_bench(workers: int, limit: float, explain: Explain, memory: int = MEMORY) -> Iterator[Bench]:
+def local_bench(workers: int, limit: float, memory: int = MEMORY) -> Iterator[Bench]:
     """Workers on this machine, copies of this process where it may be forked."""
     with Pool(workers, memory, MODULES) as pool:
         pool.fork()
-        yield Bench(pool, pool.run, limit, explain)
+        yield Bench(pool, pool.run, limit, ANSWERING)
 
 
 @contextmanager
-def cluster_bench(address: str, limit: float, explain: Explain) -> Iterator[Bench]:
+def cluster_bench(address: str, limit: float) -> Iterator[Bench]:
     """The machines of a Dask scheduler, each with workers of its own. Raises StoppedError."""
     with Cluster(address) as cluster:
-        yield Bench(cluster, run_there, limit, explain)
+        yield Bench(cluster, run_there, limit, ANSWERING)
 
 
 def run_there(job: Job) -> Ended:
-    """A job, on a machine of the cluster."""
+    """Return how a job ended, on a machine of the cluster."""
     return _pool().run(job)
 
 

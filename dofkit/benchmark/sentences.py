@@ -1,4 +1,7 @@
-"""What the charts say, in sentences: each is worked out from the data of a run, and so may stand beside them."""
+"""The summary of a run: its statistics, a caption for each figure, and what the figures show, in sentences.
+
+Each sentence is worked out from the data of the run, and so may stand beside the figures.
+"""
 
 from __future__ import annotations
 
@@ -7,8 +10,10 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
-from dofkit.benchmark.record import ALL, AUTO, ChartRun, Score, Step
-from dofkit.relations.reductions import REDUCTIONS
+from dofkit.benchmark import statistics
+from dofkit.benchmark.record import ALL, AUTO, ChartRun, Data, Ran, ReductionCost, Score
+from dofkit.benchmark.statistics import grouped
+from dofkit.relations.setting import REDUCTIONS
 
 #: `auto` should take no more than so many times the fastest method that is right.
 TWICE = 2
@@ -17,12 +22,77 @@ NAMED, LEAST = 3, 8
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
 
+def summary(data: Data) -> ChartRun:
+    """Return all that is drawn and printed."""
+    scores, points = statistics.scores(data.lines), statistics.points(data.lines)
+    chart = ChartRun(
+        ran=data.ran,
+        scores=scores,
+        fronts=statistics.fronts(scores),
+        points=points,
+        fits=statistics.fits(points),
+        steps=statistics.steps(data.sweeps),
+        against=statistics.against(data.lines),
+        reductions=data.reductions,
+        captions={name: f"{text} {provenance(data.ran)}" for name, text in _CAPTIONS.items()},
+    )
+    return chart.model_copy(update={"sentences": sentences(chart)})
+
+
+def provenance(ran: Ran) -> str:
+    """Return what was run on what, and by which command."""
+    return (
+        f"{ran.trials} trials whose answers are known by construction, at most {ran.limit:g} s of processor time each; "
+        f"dofkit {ran.version}, Python {ran.python}, {ran.machine}, {ran.cores} cores, {ran.date[:10]}. "
+        f"Made by: {ran.command}"
+    )
+
+
+_CAPTIONS = {
+    "fronts": (
+        "Each square is a method at the median time of the trials that it can answer, the whisker goes from the 10th "
+        "to the 90th of 100 of them (one that timed out counts with the limit). Upwards, logarithmically, the share "
+        "of trials without the right answer; wrong answers are listed in red, and separately trials without an answer "
+        "(undecided, timed out or not applicable). The grey steps are the Pareto front of the methods that were never "
+        "wrong."
+    ),
+    "matrix": (
+        "Every cell shows the shares of the outcomes of a method on the trials of a family (their number stands next "
+        "to it). A red number is the percentage of wrong answers; a grey one, where none is wrong, that of trials "
+        "without an answer; no number means that all are right. Under each heading the hardest families stand last, "
+        "by the share that all methods together do not get right."
+    ),
+    "cost": (
+        "Medians over the trials of a size. A cross marks a trial that timed out (dotted line); larger sizes are not "
+        "run. The exponents are fitted by least squares on logarithms over the largest decade of sizes, and given "
+        "where a power law fits (standard error below a tenth of the exponent). The other methods are grey; all "
+        "families are in chart.json."
+    ),
+    "tolerance": (
+        "Singular configurations with coordinates rounded to the given number of digits; the right answer is that of "
+        "the unrounded geometry. Each bar shows the shares of ten trials. Left: ranks by singular values, where "
+        "values below that fraction of the largest count as 0. Right: dofkit, with that tolerance written in the "
+        "scene. The triangle marks the tolerance equal to the rounding; a smaller one is not true of the rounded "
+        "geometry."
+    ),
+    "bits": (
+        "Ball arithmetic of one precision on its own, on scenes that miss a special case by a gap: with too few bits "
+        "no ball distinguishes the gap from 0, and taking it for 0 is wrong."
+    ),
+    "reductions": (
+        "Each dot compares a scene answered with one reduction switched off with the same scene and all of them on, "
+        "both after a first run. Blue: scenes made for the reduction, of growing size; grey: scenes of the catalog. "
+        "The bar is the median of the blue dots."
+    ),
+}
+
+
 def sentences(chart: ChartRun) -> dict[str, str]:
-    """By what they are about; what the run has no data of is left out."""
-    found = {"trials": _trials(chart), "time": _time(chart), "tolerance": _tolerance(chart), "bits": _bits(chart)}
-    found |= {"primes": _primes(chart), "cost": _cost(chart), "reductions": _reductions(chart)}
-    found |= {method: _method(chart, method) for method in dict.fromkeys(score.method for score in chart.scores)}
-    return {key: text for key, text in found.items() if text}
+    """Return the sentences by what they are about; those that the run has no data of are left out."""
+    texts = {"trials": _trials(chart), "time": _time(chart), "tolerance": _tolerance(chart), "bits": _bits(chart)}
+    texts |= {"primes": _primes(chart), "cost": _cost(chart), "reductions": _reductions(chart)}
+    texts |= {method: _method(chart, method) for method in dict.fromkeys(score.method for score in chart.scores)}
+    return {key: text for key, text in texts.items() if text}
 
 
 def _trials(chart: ChartRun) -> str:
@@ -30,11 +100,11 @@ def _trials(chart: ChartRun) -> str:
     if mine is None:
         return ""
     methods = len({score.method for score in chart.scores})
-    left = mine.trials - mine.right - mine.wrong
+    undecided = mine.trials - mine.right - mine.wrong
     wrong = f"{mine.wrong} {'is' if mine.wrong == 1 else 'are'}" if mine.wrong else "none is"
     return (
         f"{_spaced(chart.ran.trials)} trials by {_word(methods)} methods, at most {chart.ran.limit:g} s each: of the "
-        f"answers of `auto` {wrong} wrong and {_percent(left, mine.trials)} are undecided."
+        f"answers of `auto` {wrong} wrong and {_percent(undecided, mine.trials)} are undecided."
     )
 
 
@@ -52,22 +122,20 @@ def _time(chart: ChartRun) -> str:
 
 
 def _method(chart: ChartRun, method: str) -> str:
-    """How often it is wrong and open, and where most."""
-    whole = _total(chart, method)
-    if whole is None:
+    """Return how often a method is wrong and undecided, and where most."""
+    total = _total(chart, method)
+    if total is None:
         return ""
-    left = whole.trials - whole.right - whole.wrong
-    told = (
-        f"`{method}` is wrong on {_percent(whole.wrong, whole.trials)} and undecided on {_percent(left, whole.trials)}"
-    )
-    most = list(_worst(chart, method, wrong=bool(whole.wrong)))
+    undecided = _percent(total.trials - total.right - total.wrong, total.trials)
+    start = f"`{method}` is wrong on {_percent(total.wrong, total.trials)} and undecided on {undecided}"
+    most = list(_worst(chart, method, wrong=bool(total.wrong)))
     if not most:
-        return told + "."
-    return f"{told}; it is {'wrong' if whole.wrong else 'undecided'} most often in {_listed(most)}."
+        return start + "."
+    return f"{start}; it is {'wrong' if total.wrong else 'undecided'} most often in {_listed(most)}."
 
 
 def _worst(chart: ChartRun, method: str, *, wrong: bool) -> Iterator[str]:
-    """The families with the largest share of what is wrong, or else of what is open."""
+    """Yield the families with the largest share of wrong, or else of undecided answers."""
     rows: dict[str, tuple[int, int]] = {}
     for score in chart.scores:
         if score.method == method and score.family != ALL:
@@ -92,7 +160,8 @@ def _rounded(chart: ChartRun, sweep: str) -> _Rounded | None:
     equal = [step for step in steps if round(math.log10(step.value)) == -int(step.group)]
     if not equal:
         return None
-    best = max(sum(s.right for s in same) / sum(s.trials for s in same) for same in _by_value(steps))
+    values = grouped(steps, lambda step: step.value).values()
+    best = max(sum(s.right for s in same) / sum(s.trials for s in same) for same in values)
     return _Rounded(sum(s.right for s in equal), sum(s.wrong for s in equal), sum(s.trials for s in equal), best)
 
 
@@ -109,11 +178,6 @@ def _tolerance(chart: ChartRun) -> str:
     )
 
 
-def _by_value(steps: Sequence[Step]) -> Iterator[list[Step]]:
-    for value in {step.value for step in steps}:
-        yield [step for step in steps if step.value == value]
-
-
 def _bits(chart: ChartRun) -> str:
     steps = [step for step in chart.steps if step.sweep == "bits"]
     gaps = sorted({float(Fraction(step.group)) for step in steps}, reverse=True)
@@ -126,8 +190,8 @@ def _bits(chart: ChartRun) -> str:
     if not needed:
         return ""
     ends = [max(needed), min(needed)]
-    told = [f"{needed[gap]:g} bits for a gap of 10^{round(math.log10(gap))}" for gap in ends]
-    return f"`balls` on its own is never wrong from {told[0]} and from {told[1]} on."
+    needs = [f"{needed[gap]:g} bits for a gap of 10^{round(math.log10(gap))}" for gap in ends]
+    return f"`balls` on its own is never wrong from {needs[0]} and from {needs[1]} on."
 
 
 def _primes(chart: ChartRun) -> str:
@@ -141,9 +205,9 @@ def _primes(chart: ChartRun) -> str:
         return f"`field` was wrong with no size of its primes, from {values[0]:g} bits on."
     count, asked = sum(s.wrong for s in steps), sum(s.trials for s in steps if s.value in wrong)
     above = next((v for v in values if v > wrong[-1]), None)
-    told = f"`field` on its own was wrong {count} times in {_spaced(asked)}, with primes of {_span(wrong)} bits"
-    told += "" if above is None else f", and never from {above:g} bits on"
-    return told + (f"; with {_span(lost)} bits it decided nothing." if lost else ".")
+    start = f"`field` on its own was wrong {count} times in {_spaced(asked)}, with primes of {_span(wrong)} bits"
+    start += "" if above is None else f", and never from {above:g} bits on"
+    return start + (f"; with {_span(lost)} bits it decided nothing." if lost else ".")
 
 
 def _cost(chart: ChartRun) -> str:
@@ -158,9 +222,14 @@ def _cost(chart: ChartRun) -> str:
     )
 
 
+def compared(chart: ChartRun) -> list[tuple[ReductionCost, ReductionCost]]:
+    """Return each scene without a reduction beside the same with all of them."""
+    full = {row.scene: row for row in chart.reductions if not row.off}
+    return [(row, full[row.scene]) for row in chart.reductions if row.off and row.scene in full]
+
+
 def _reductions(chart: ChartRun) -> str:
-    whole = {row.scene: row for row in chart.reductions if not row.off}
-    pairs = [(row, whole[row.scene]) for row in chart.reductions if row.off and row.scene in whole]
+    pairs = compared(chart)
     if not pairs:
         return ""
     titles = {str(key): reduction.title for key, reduction in REDUCTIONS.items()}
@@ -169,12 +238,12 @@ def _reductions(chart: ChartRun) -> str:
     return (
         f"Left out one by one in {_spaced(len(pairs))} cases, the reductions change {changed or 'no'} "
         f"answer{'s' * (changed > 1)}; on scenes made for it, one reduction saves at most a factor of "
-        f"{off.seconds / on.seconds:.2g} of the time ({titles[off.off]})."
+        f"{off.seconds / on.seconds:.2g} of the time ({titles.get(off.off, off.off)})."
     )
 
 
 def _total(chart: ChartRun, method: str) -> Score | None:
-    """A method on all questions together."""
+    """Return the score of a method on all questions together."""
     rows = [score for score in chart.scores if score.method == method and score.family == ALL]
     counts = {name: sum(getattr(row, name) for row in rows) for name in ("trials", "right", "wrong")}
     return rows[0].model_copy(update=counts) if rows else None
@@ -190,7 +259,7 @@ def _percent(count: float, trials: float) -> str:
 
 
 def percent(share: float, below: str = "<", above: str = ">") -> str:
-    """Never rounded to 0 or 100 where it is not.
+    """Return a share in per cent, never rounded to 0 or 100 where it is not.
 
     >>> percent(0.5), percent(0.0004), percent(0.9996), percent(1.0)
     ('50 %', '<0.1 %', '>99.9 %', '100 %')

@@ -1,11 +1,13 @@
-"""What the lines of a run say together: scores, Pareto fronts, how cost grows, sweeps, and `auto` against the rest."""
+"""Statistics of a run: scores, Pareto fronts, how cost grows, sweeps, and `auto` against the other methods."""
 
 from __future__ import annotations
 
-import math
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from statistics import fmean, median
+from statistics import median
 from typing import TypeVar
+
+import numpy as np
 
 from dofkit.benchmark.record import ALL, AUTO, Against, Fit, Front, MedianTime, Score, Step, TrialLine
 
@@ -15,44 +17,53 @@ K = TypeVar("K")
 SIZES, DECADE = 3, 10
 
 
+def grouped(members: Iterable[T], key: Callable[[T], K]) -> dict[K, list[T]]:
+    """Return the members by key, in the order of first occurrence."""
+    groups: dict[K, list[T]] = {}
+    for member in members:
+        groups.setdefault(key(member), []).append(member)
+    return groups
+
+
 def scores(lines: Sequence[TrialLine]) -> list[Score]:
-    """Of every question and method, over all families and for each."""
-    whole = _grouped(lines, lambda line: (line.question, ALL, line.method))
-    parts = _grouped(lines, lambda line: (line.question, line.family, line.method))
-    return [_score(*key, members) for key, members in {**whole, **parts}.items()]
+    """Return the scores of every question and method, over all families and for each."""
+    total = grouped(lines, lambda line: (line.question, ALL, line.method))
+    parts = grouped(lines, lambda line: (line.question, line.family, line.method))
+    return [_score(*key, members) for key, members in {**total, **parts}.items()]
 
 
 def _score(question: str, family: str, method: str, lines: Sequence[TrialLine]) -> Score:
-    counts = {name: sum(line.outcome == name for line in lines) for name in {line.outcome for line in lines}}
-    seconds = sorted(line.seconds for line in lines if line.outcome != "cannot")
+    counts = Counter(line.outcome for line in lines)
+    seconds = [line.seconds for line in lines if line.outcome != "cannot"]
+    low, middle, high = np.quantile(seconds, (0.1, 0.5, 0.9)).tolist() if seconds else (None, None, None)
     return Score(
         question=question,
         family=family,
         method=method,
         trials=len(lines),
-        right=counts.get("right", 0),
-        wrong=counts.get("wrong", 0),
-        undecided=counts.get("undecided", 0),
-        timed_out=counts.get("timed out", 0),
-        cannot=counts.get("cannot", 0),
-        median_seconds=median(seconds) if seconds else None,
-        low_seconds=seconds[len(seconds) // 10] if seconds else None,
-        high_seconds=seconds[-1 - len(seconds) // 10] if seconds else None,
+        right=counts["right"],
+        wrong=counts["wrong"],
+        undecided=counts["undecided"],
+        timed_out=counts["timed out"],
+        cannot=counts["cannot"],
+        median_seconds=middle,
+        low_seconds=low,
+        high_seconds=high,
         total_seconds=sum(seconds),
     )
 
 
-def fronts(found: Iterable[Score]) -> list[Front]:
-    """The Pareto front of each question, over all families."""
-    whole = _grouped([score for score in found if score.family == ALL], lambda score: score.question)
+def fronts(every: Iterable[Score]) -> list[Front]:
+    """Return the Pareto front of each question, over all families."""
+    questions = grouped([score for score in every if score.family == ALL], lambda score: score.question)
     return [
         Front(question=question, methods=front(rows), never_wrong=front([row for row in rows if not row.wrong]))
-        for question, rows in whole.items()
+        for question, rows in questions.items()
     ]
 
 
 def front(members: Sequence[Score]) -> list[str]:
-    """The methods that none beats in median seconds, share of right and share of wrong answers; the fastest first.
+    """Return the methods that none beats in median seconds, share of right and share of wrong answers; fastest first.
 
     A method that is never right is no choice at all.
     """
@@ -61,36 +72,31 @@ def front(members: Sequence[Score]) -> list[str]:
     return [score.method for score in sorted(best, key=lambda score: score.median_seconds or 0.0)]
 
 
-def beats(one: Score, other: Score) -> bool:
-    """Is one at least as good in everything, and better in something? (Pareto dominance.)"""
-    a, b = _goodness(one), _goodness(other)
+def beats(score: Score, other: Score) -> bool:
+    """Return whether a score is at least as good in everything, and better in something (Pareto dominance)."""
+    a, b = ((-(s.median_seconds or 0.0), s.share_right, -s.share_wrong) for s in (score, other))
     return a != b and all(x >= y for x, y in zip(a, b, strict=True))
 
 
-def _goodness(score: Score) -> tuple[float, float, float]:
-    return -(score.median_seconds or 0.0), score.share_right, -score.share_wrong
-
-
 def points(lines: Sequence[TrialLine]) -> list[MedianTime]:
-    """The cost at each size, where a family has at least three."""
+    """Return the cost at each size, where a family has at least three."""
     sized = [line for line in lines if line.outcome != "cannot" and line.size > 0]
-    families = _grouped(sized, lambda line: (line.question, line.family))
-    found = []
-    for (question, family), members in families.items():
+    times = []
+    for (question, family), members in grouped(sized, lambda line: (line.question, line.family)).items():
         if len({line.size for line in members}) < SIZES:
             continue
-        for (method, size), same in sorted(_grouped(members, lambda line: (line.method, line.size)).items()):
+        for (method, size), same in sorted(grouped(members, lambda line: (line.method, line.size)).items()):
             late = sum(line.outcome == "timed out" for line in same)
             seconds = median(line.seconds for line in same)
             about = {"question": question, "family": family, "method": method}
-            found.append(MedianTime(**about, size=size, seconds=seconds, trials=len(same), timed_out=late))
-    return found
+            times.append(MedianTime(**about, size=size, seconds=seconds, trials=len(same), timed_out=late))
+    return times
 
 
-def fits(found: Sequence[MedianTime]) -> list[Fit]:
-    """A power law for every curve of at least three sizes, without those that timed out."""
-    curves = _grouped(found, lambda point: (point.question, point.family, point.method))
+def fits(times: Sequence[MedianTime]) -> list[Fit]:
+    """Return a power law for every curve of at least three sizes, without those that timed out."""
     fitted = []
+    curves = grouped(times, lambda point: (point.question, point.family, point.method))
     for (question, family, method), curve in curves.items():
         timed = [(p.size, p.seconds) for p in curve if not p.timed_out and p.size > 0 and p.seconds > 0]
         largest = max((size for size, _ in timed), default=0)
@@ -104,7 +110,7 @@ def fits(found: Sequence[MedianTime]) -> list[Fit]:
 
 
 def power_law(pairs: Sequence[tuple[float, float]]) -> tuple[float, float, float] | None:
-    """(a, its standard error, c) of y = c x^a by least squares on logarithms; None for fewer than three places x.
+    """Return (a, its standard error, c) of y = c x^a by least squares on logarithms; None for fewer than three x.
 
     >>> a, error, c = power_law([(1, 3.0), (2, 12.0), (4, 48.0)])
     >>> round(a, 9), round(error, 9), round(c, 9)
@@ -112,75 +118,57 @@ def power_law(pairs: Sequence[tuple[float, float]]) -> tuple[float, float, float
     """
     if len({x for x, _ in pairs}) < SIZES:
         return None
-    u, v = [math.log(x) for x, _ in pairs], [math.log(y) for _, y in pairs]
-    mu, mv = fmean(u), fmean(v)
-    spread = math.fsum((x - mu) ** 2 for x in u)
-    a = math.fsum((x - mu) * (y - mv) for x, y in zip(u, v, strict=True)) / spread
-    left = math.fsum((y - mv - a * (x - mu)) ** 2 for x, y in zip(u, v, strict=True))
-    return a, math.sqrt(left / (len(pairs) - 2) / spread), math.exp(mv - a * mu)
+    u, v = np.log(np.array(pairs, dtype=float).T)
+    (exponent, constant), covariance = np.polyfit(u, v, 1, full=False, cov=True)
+    return float(exponent), float(np.sqrt(covariance[0, 0])), float(np.exp(constant))
 
 
 def steps(lines: Sequence[TrialLine]) -> list[Step]:
-    """Every sweep, step by step; what a method cannot answer at all is left out."""
+    """Return every sweep, step by step; what a method cannot answer at all is left out."""
     able = [line for line in lines if line.outcome != "cannot"]
-    groups = _grouped(able, lambda line: (line.knob, line.method, line.group, line.value))
-    return [
-        Step(
-            sweep=sweep,
-            method=method,
-            group=group,
-            value=value,
-            trials=len(members),
-            right=sum(line.outcome == "right" for line in members),
-            wrong=sum(line.outcome == "wrong" for line in members),
-            undecided=sum(line.outcome in ("undecided", "timed out") for line in members),
-        )
-        for (sweep, method, group, value), members in groups.items()
-    ]
+    found = []
+    for key, members in grouped(able, lambda line: (line.knob, line.method, line.group, line.value)).items():
+        sweep, method, group, value = key
+        counts = Counter(line.outcome for line in members)
+        about = {"trials": len(members), "right": counts["right"], "wrong": counts["wrong"]}
+        undecided = counts["undecided"] + counts["timed out"]
+        found.append(Step(sweep=sweep, method=method, group=group, value=value, undecided=undecided, **about))
+    return found
 
 
 def against(lines: Sequence[TrialLine]) -> list[Against]:
-    """`auto` against the fastest method that is right on all trials of a family, trial by trial.
+    """Return `auto` against the fastest method that is right on all trials of a family, trial by trial.
 
     A method that is wrong on another family is right on this one by luck: to know that it is, is the work.
     """
-    found = []
+    rows = []
     erring = {(line.question, line.method) for line in lines if line.outcome == "wrong"}
-    for (question, family), members in _grouped(lines, lambda line: (line.question, line.family)).items():
-        methods = _grouped(members, lambda line: line.method)
-        if AUTO not in methods:
-            continue
-        auto = {line.trial: line.seconds for line in methods.pop(AUTO)}
+    for (question, family), members in grouped(lines, lambda line: (line.question, line.family)).items():
+        methods = grouped(members, lambda line: line.method)
+        auto = {line.trial: line.seconds for line in methods.pop(AUTO, ())}
         right = {m: row for m, row in methods.items() if all(line.outcome == "right" for line in row)}
-        if not right:
+        if not auto or not right:
             continue
         ratios = {m: _ratio(auto, row) for m, row in right.items()}
-        ranked = sorted(right, key=lambda m: median(line.seconds for line in right[m]))
-        sound = next((m for m in ranked if (question, m) not in erring), None)
-        found.append(
+        seconds = {m: median(line.seconds for line in row) for m, row in right.items()}
+        fastest = min(seconds, key=seconds.__getitem__)
+        sound = min((m for m in seconds if (question, m) not in erring), key=seconds.__getitem__, default=None)
+        rows.append(
             Against(
                 question=question,
                 family=family,
-                fastest=ranked[0],
-                fastest_seconds=median(line.seconds for line in right[ranked[0]]),
+                fastest=fastest,
+                fastest_seconds=seconds[fastest],
                 auto_seconds=median(auto.values()),
-                ratio=ratios[ranked[0]],
-                lucky=(question, ranked[0]) in erring,
+                ratio=ratios[fastest],
+                lucky=(question, fastest) in erring,
                 sound=sound,
                 sound_ratio=None if sound is None else ratios[sound],
             )
         )
-    return found
+    return rows
 
 
 def _ratio(auto: Mapping[str, float], row: Sequence[TrialLine]) -> float:
-    """The median over trials of the time of `auto` by that of another method."""
+    """Return the median over trials of the time of `auto` divided by that of another method."""
     return float(median(auto[line.trial] / max(line.seconds, 1e-9) for line in row if line.trial in auto))
-
-
-def _grouped(members: Iterable[T], key: Callable[[T], K]) -> dict[K, list[T]]:
-    """By key, in the order of first occurrence."""
-    found: dict[K, list[T]] = {}
-    for member in members:
-        found.setdefault(key(member), []).append(member)
-    return found

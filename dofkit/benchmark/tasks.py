@@ -1,15 +1,21 @@
-"""What is to be run: each trial by each method, and sweeps of what can be turned on a method."""
+"""What is to be run: the trials that are asked for by name, each by each method, and sweeps of methods' parameters."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from typing import Any, NamedTuple
+from itertools import chain, islice, zip_longest
+from typing import Any, NamedTuple, get_args
 
-from dofkit.benchmark.trials.trial import Trial
-from dofkit.methods.table import Knobs
+from dofkit.benchmark.record import ChartError
+from dofkit.benchmark.statistics import grouped
+from dofkit.benchmark.trials.construction import Trial
+from dofkit.methods.table import METHODS, Knobs, Question
+from dofkit.scene.fields import suggestion
 
+#: Trials of each family and question, at most, where nothing is said; and in a quick run.
+MOST, MOST_QUICK = 32, 2
 #: Of each question in a group of a sweep so many trials, at most; the fewer where it is to be quick.
 MOST_SWEPT, MOST_SWEPT_QUICK = 10, 2
 #: Sweeps of balls take what misses a special case by less than this.
@@ -22,6 +28,68 @@ PRIME_BITS = (3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 31, 61)
 SMALL = 8
 #: The questions that a scene's tolerance bears on.
 BY_GEOMETRY = ("dof", "redundancy")
+Families = Mapping[str, Callable[[bool], Iterator[Trial]]]
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Questions, families and methods by name; an empty one stands for all of them.
+
+    ``most``: so many trials of each family and question, at most; 0: all.
+    """
+
+    questions: Sequence[str] = ()
+    families: Sequence[str] = ()
+    methods: Sequence[str] = ()
+    quick: bool = False
+    most: int | None = None
+
+    def with_names(self, families: Families) -> Selection:
+        """Return it with all names written out. Raises ChartError with the nearest one for a name that is none."""
+        return replace(
+            self,
+            questions=_names(self.questions, get_args(Question), "question", "questions"),
+            families=_names(self.families, list(families), "family", "families"),
+            methods=_names(self.methods, list(METHODS), "method", "methods"),
+        )
+
+    def trials(self, families: Families, quick: bool) -> list[Trial]:
+        """Return all trials of what was chosen, family by family. Raises ChartError where there are none."""
+        chosen = [t for name in self.families for t in families[name](quick) if t.question in self.questions]
+        if not chosen:
+            raise ChartError("no trial of these families asks such a question")
+        return chosen
+
+    def thinned(self, trials: Sequence[Trial]) -> list[Trial]:
+        """Return not more of each family and question than wanted, from the smallest to the largest."""
+        most = self.most if self.most is not None else MOST_QUICK if self.quick else MOST
+        rows = grouped(trials, lambda trial: (trial.family, trial.question)).values()
+        return [trial for row in rows for trial in evenly(sorted(row, key=lambda t: t.size), most or len(row))]
+
+    def options(self) -> Iterator[str]:
+        """Yield the same, as it is written on the command line."""
+        for option, names in (("question", self.questions), ("families", self.families), ("methods", self.methods)):
+            if names:
+                yield f"--{option} {','.join(names)}"
+        if self.quick:
+            yield "--quick"
+        if self.most is not None:
+            yield f"--most {self.most}"
+
+
+def evenly(row: Sequence[Any], most: int) -> list[Any]:
+    """Return at most so many members: the first, the last and what lies between them at even distances."""
+    if len(row) <= most:
+        return list(row)
+    return [row[round(i * (len(row) - 1) / max(1, most - 1))] for i in range(most)]
+
+
+def _names(asked: Iterable[str], known: Sequence[str], what: str, plural: str) -> list[str]:
+    names = [name.strip() for text in asked for name in text.split(",") if name.strip()]
+    for name in names:
+        if name not in known:
+            raise ChartError(f"there is no {what} '{name}': {suggestion(name, known, plural)}")
+    return [name for name in known if name in names] if names else list(known)
 
 
 @dataclass(frozen=True)
@@ -44,21 +112,11 @@ class TrialTask:
 
 
 def trial_tasks(trials: Iterable[Trial], methods: Sequence[str]) -> Iterator[TrialTask]:
-    """Every trial by every method."""
-    for trial in trials:
-        for method in methods:
-            yield TrialTask(trial, method)
+    """Yield every trial by every method."""
+    return (TrialTask(trial, method) for trial in trials for method in methods)
 
 
-def sweeps(trials: Sequence[Trial], methods: Sequence[str], quick: bool) -> Iterator[TrialTask]:
-    """The tolerance of numbers, the tolerance of scenes, the precision of balls and the size of a field's primes."""
-    few = Few(MOST_SWEPT_QUICK, 3, 1) if quick else Few(MOST_SWEPT, 1, 3)
-    for method, swept in (("numeric", _rounding), ("auto", _tolerant), ("balls", _precision), ("field", _primes)):
-        if method in methods:
-            yield from swept(trials, few)
-
-
-class Few(NamedTuple):
+class SweepSize(NamedTuple):
     """So many trials of a group at most, every so-many-th value of a knob, and so many seeds."""
 
     most: int
@@ -66,71 +124,63 @@ class Few(NamedTuple):
     seeds: int
 
 
-def _rounding(trials: Sequence[Trial], few: Few) -> Iterator[TrialTask]:
-    for trial, group in _groups(trials, _digits, few.most):
+def sweeps(trials: Sequence[Trial], methods: Sequence[str], quick: bool) -> Iterator[TrialTask]:
+    """Yield tasks over tolerances of numbers and of scenes, the precision of balls and the size of a field's primes."""
+    size = SweepSize(MOST_SWEPT_QUICK, 3, 1) if quick else SweepSize(MOST_SWEPT, 1, 3)
+    for method, swept in (("numeric", _rounding), ("auto", _tolerant), ("balls", _precision), ("field", _primes)):
+        if method in methods:
+            yield from swept(trials, size)
+
+
+def _rounding(trials: Sequence[Trial], size: SweepSize) -> Iterator[TrialTask]:
+    for trial, group in _groups(trials, _digits, size.most):
         scene = {key: part for key, part in trial.scene.items() if key != "tolerance"}
-        for value in TOLERANCES[:: few.stride]:
+        for value in TOLERANCES[:: size.stride]:
             task = replace(trial, scene=scene)
             yield TrialTask(task, "numeric", Knobs(tolerance=value), "tolerance", value, group)
 
 
-def _tolerant(trials: Sequence[Trial], few: Few) -> Iterator[TrialTask]:
-    for trial, group in _groups([t for t in trials if t.question in BY_GEOMETRY], _digits, few.most):
-        for value in TOLERANCES[:: few.stride]:
+def _tolerant(trials: Sequence[Trial], size: SweepSize) -> Iterator[TrialTask]:
+    for trial, group in _groups([t for t in trials if t.question in BY_GEOMETRY], _digits, size.most):
+        for value in TOLERANCES[:: size.stride]:
             scene: dict[str, Any] = {**trial.scene, "tolerance": value}
             yield TrialTask(replace(trial, scene=scene), "auto", Knobs(), "scene tolerance", value, group)
 
 
-def _precision(trials: Sequence[Trial], few: Few) -> Iterator[TrialTask]:
-    for trial, group in _groups(trials, _gap, few.most):
-        for bits in BITS[:: few.stride]:
+def _precision(trials: Sequence[Trial], size: SweepSize) -> Iterator[TrialTask]:
+    for trial, group in _groups(trials, _gap, size.most):
+        for bits in BITS[:: size.stride]:
             yield TrialTask(trial, "balls", Knobs(bits=bits), "bits", bits, group)
 
 
+def _primes(trials: Sequence[Trial], size: SweepSize) -> Iterator[TrialTask]:
+    small = (t for t in trials if t.size <= SMALL and t.question != "equivalence")
+    for trial in _spread(small, size.most):
+        for seed in range(size.seeds):
+            for bits in PRIME_BITS[:: size.stride]:
+                yield TrialTask(trial, "field", Knobs(prime_bits=bits, seed=seed), "prime bits", bits, trial.question)
+
+
 def _digits(trial: Trial) -> str | None:
-    """To how many digits its numbers are rounded, where the truth is that of what was rounded."""
+    """Return to how many digits its numbers are rounded, where the truth is that of what was rounded."""
     return str(trial.swept["digits"]) if "digits" in trial.swept and "tolerance" in trial.swept else None
 
 
 def _gap(trial: Trial) -> str | None:
-    """By how much it misses a special case, where that is little."""
+    """Return by how much it misses a special case, where that is little."""
     gap = abs(float(Fraction(str(trial.swept.get("gap", 0)))))
     return f"{gap:g}" if 0 < gap < NEAR else None
 
 
-def _primes(trials: Sequence[Trial], few: Few) -> Iterator[TrialTask]:
-    small = (t for t in trials if t.size <= SMALL and t.question != "equivalence")
-    for trial in _spread(small, few.most):
-        for seed in range(few.seeds):
-            for bits in PRIME_BITS[:: few.stride]:
-                yield TrialTask(trial, "field", Knobs(prime_bits=bits, seed=seed), "prime bits", bits, trial.question)
-
-
 def _groups(trials: Iterable[Trial], key: Callable[[Trial], str | None], most: int) -> Iterator[tuple[Trial, str]]:
-    """Small trials of each group, with its name."""
-    groups: dict[str, list[Trial]] = {}
-    for trial in trials:
-        group = key(trial) if trial.size <= SMALL else None
+    """Yield small trials of each group, with its name."""
+    for group, members in grouped((t for t in trials if t.size <= SMALL), key).items():
         if group is not None:
-            groups.setdefault(group, []).append(trial)
-    for group, members in groups.items():
-        for trial in _spread(members, most):
-            yield trial, group
+            yield from ((trial, group) for trial in _spread(members, most))
 
 
 def _spread(trials: Iterable[Trial], most: int) -> Iterator[Trial]:
-    """So many trials of each question, taking the families in turn."""
-    rows: dict[tuple[str, str], list[Trial]] = {}
-    for trial in trials:
-        rows.setdefault((trial.question, trial.family), []).append(trial)
-    for question in dict.fromkeys(question for question, _ in rows):
-        families = [iter(row) for (q, _), row in rows.items() if q == question]
-        left = most
-        while families and left:
-            for family in families[:]:
-                chosen = next(family, None)
-                if chosen is None:
-                    families.remove(family)
-                elif left:
-                    left -= 1
-                    yield chosen
+    """Yield so many trials of each question, taking the families in turn."""
+    for same in grouped(trials, lambda trial: trial.question).values():
+        rounds = zip_longest(*grouped(same, lambda trial: trial.family).values())
+        yield from islice((trial for trial in chain.from_iterable(rounds) if trial is not None), most)

@@ -11,11 +11,11 @@ from dofkit.configuration import singular_points
 from dofkit.configuration.generic_points import generators_of
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
+from dofkit.exact.independence import independent_on_set
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import jacobian
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
 from dofkit.exact.ring.program import values
-from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
@@ -23,7 +23,7 @@ from dofkit.relations.chart import Chart
 #: Blocks with more columns than this are not certified with balls.
 BALL_COLUMNS = 60
 NEARLY = "nearly dependent equations are satisfied at a real point within its precision, but a zero was not certified"
-ALLOWING = "the answers assume unknown functions for which real configurations exist"
+ALLOWING = "the answers assume that the unknown functions are such that a real configuration exists"
 
 
 def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:

@@ -9,18 +9,18 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, Literal, cast
 
 from flint import ctx
 
 from dofkit.base.deadline import OutOfTimeError, by_processor
 from dofkit.base.errors import DofkitError, TextError
-from dofkit.base.spelling import nearest
+from dofkit.base.wording import nearest
 from dofkit.exact.points.balls import PRECISION
 from dofkit.homework.answers.prose import says_nothing
 from dofkit.homework.answers.sources import read_submission
 from dofkit.homework.answers.submission import Submission
-from dofkit.homework.answers.typed import in_whole, shown_text
+from dofkit.homework.answers.words import in_whole, shown_text
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.judgement import (
     FULL,
@@ -34,15 +34,15 @@ from dofkit.homework.judgement import (
     unreadable,
 )
 from dofkit.homework.key.key import Key
-from dofkit.homework.own_sheets import NobodysSheetError, SheetDrawer
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import NumberQuestion, QuestionBase
 from dofkit.homework.repairs import nearest_reading, parts_read
 from dofkit.homework.result import Item, PossibleReading, Result
 from dofkit.homework.review.filled_table import read_table
-from dofkit.homework.review.identity import answer_id
-from dofkit.homework.review.rows import Decision
+from dofkit.homework.review.queue import Decision, answer_id
 from dofkit.homework.sentences.translations import Said, in_language, say
+from dofkit.homework.variants import NobodysVariantError, own
+from dofkit.report import ToldModel
 
 #: Seconds of processor time for one answer; what is not decided then needs a review.
 ANSWER_SECONDS = 5.0
@@ -69,7 +69,7 @@ class Grader:
         self.condemned = {} if condemned is None else condemned
         self.max_score = sum((q.points for _, q in prepared.questions()), Fraction(0))
         self._known: dict[Spot, tuple[Judgement, Fraction | None]] = {}
-        self._drawer = SheetDrawer(prepared)
+        self._variants: dict[str, Grader] = {}
 
     def grade(self, submission: Submission) -> Result:
         """Every question with what the student answered, in the assignment's order; then what was not asked."""
@@ -95,12 +95,14 @@ class Grader:
     def _steps(self, submission: Submission) -> Generator[Spot, None, Result]:
         if submission.error is not None:
             return self.refused(submission.student, submission.error)
-        try:
-            sheet = yield from self._drawer.own_steps(submission.student)
-        except NobodysSheetError as error:
-            return self.refused(submission.student, str(error))
-        if sheet is not self.prepared:
-            return (yield from Grader(sheet, self.seconds, self.condemned).steps(submission))
+        if self.prepared.assignment.variants is not None:
+            try:
+                sheet = own(self.prepared, submission.student)
+            except NobodysVariantError as error:
+                return self.refused(submission.student, str(error))
+            grader = self._variants.setdefault(sheet.variant, Grader(sheet, self.seconds))
+            grader.condemned = self.condemned
+            return (yield from grader.steps(submission))
         items: list[Item] = []
         for problem in self.prepared.assignment.problems:
             items += yield from self._problem(problem, submission.answers.get(problem.id, {}))
@@ -132,7 +134,7 @@ class Grader:
                 if (number := _number(question, answer)) is not None:
                     earlier.setdefault(question.kind(), number)
                 continue
-            spot = _spot(problem, question, answer, earlier) + self.prepared.marks.get(problem.id, "")
+            spot = _spot(problem, question, answer, earlier) + self.prepared.marks.get((problem.id, question.id), "")
             if spot not in self._known and spot not in self.condemned:
                 yield spot
             found, number = self.judge(spot, problem, question, answer, earlier)
@@ -145,7 +147,7 @@ class Grader:
         """What a person decided of this answer, whoever gave it."""
         if not self.prepared.decisions:
             return None
-        variant = self.prepared.marks.get(problem.id, "")
+        variant = self.prepared.marks.get((problem.id, question.id), "")
         return self.prepared.decisions.get(answer_id(problem.id, question.id, shown_text(answer), variant))
 
     def _decided(self, problem: Problem, question: QuestionBase, decision: Decision, answer: Given) -> Item:
@@ -220,7 +222,7 @@ class Grader:
             column=found.column,
             answer=None if answer is None else shown_text(answer),
             would_read=found.ways[0].read_as if found.status == "unreadable" and len(found.ways) == 1 else None,
-            variant=self.prepared.marks.get(problem.id),
+            variant=self.prepared.marks.get((problem.id, question.id)),
             readings=[PossibleReading(read_as=way.read_as, score=_points(way.share, question)) for way in found.ways],
         )
 
@@ -316,3 +318,60 @@ def grade(assignment: Any, submission: Any, reviewed: str | os.PathLike[str] | N
         prepared = replace(prepared, decisions={**prepared.decisions, **decided})
     given = submission if isinstance(submission, Submission) else read_submission(submission, prepared.columns())
     return Grader(prepared).grade(given)
+
+
+class EchoedAnswer(ToldModel):
+    """One answer as it was understood; ``column`` is where one that is not understood could not be read further."""
+
+    problem: str
+    question: str
+    status: Literal["read", "unreadable", "missing"]
+    read_as: str
+    feedback: str = ""
+    column: int | None = None
+
+
+class Echo(ToldModel):
+    """One student's answers as they were understood. ``error``: why the submission could not be read."""
+
+    student: str
+    items: list[EchoedAnswer]
+    error: str | None = None
+
+
+def echo(prepared: Prepared, submission: Submission) -> Echo:
+    """Read every answer, in the assignment's order; then those that were not asked for."""
+    if submission.error is not None:
+        return Echo(student=submission.student, items=[], error=submission.error)
+    try:
+        prepared = own(prepared, submission.student)
+    except NobodysVariantError as error:
+        return Echo(student=submission.student, items=[], error=str(error))
+    items = [
+        _echoed(
+            problem.id, question, prepared.keys[problem.id], submission.answers.get(problem.id, {}).get(question.id)
+        )
+        for problem, question in prepared.questions()
+    ]
+    for item in unasked(prepared, submission):
+        told = {"status": "unreadable", "read_as": "", "feedback": item.feedback}
+        items.append(EchoedAnswer.model_validate({"problem": item.problem, "question": item.question, **told}))
+    return Echo(student=submission.student, items=items)
+
+
+def _echoed(problem: str, question: QuestionBase, key: Key, answer: Given | None) -> EchoedAnswer:
+    if answer is None or says_nothing(answer):
+        return EchoedAnswer(problem=problem, question=question.id, status="missing", read_as="")
+    try:
+        with by_processor(ANSWER_SECONDS):
+            shown = question.read(answer, key)
+    except MemoryError:
+        raise
+    except Exception as error:
+        found = error if isinstance(error, TextError) else TextError(f"it could not be read ({type(error).__name__})")
+        hint = f" ({found.hint})" if found.hint else ""
+        return EchoedAnswer(
+            problem=problem, question=question.id, status="unreadable", read_as="",
+            feedback=f"{found.message}{hint}", column=found.column or 1,
+        )  # fmt: skip
+    return EchoedAnswer(problem=problem, question=question.id, status="read", read_as=shown)

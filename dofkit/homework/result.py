@@ -12,6 +12,11 @@ from dofkit.report import ToldModel
 Status = Literal["right", "partly", "wrong", "unreadable", "missing", "needs_review"]
 
 
+def one_line(text: str) -> str:
+    """Return JSON with the characters escaped that some readers take for the end of a line."""
+    return text.replace("\u2028", "\\u2028").replace("\u2029", "\\u2029").replace("\x85", "\\u0085")
+
+
 class PossibleReading(ToldModel):
     """A way to read an answer that is open, and what it would earn; None where that is open too."""
 
@@ -62,3 +67,7 @@ class Result(Displayed, ToldModel):
     needs_review: int = 0
     error: str | None = None
     doubt: str | None = None
+
+    def json_line(self) -> str:
+        """Return the result as one line of JSON, also for readers that end a line at U+2028."""
+        return one_line(self.model_dump_json())

@@ -18,20 +18,19 @@ from math import isqrt
 from flint import nmod, nmod_mat
 
 from dofkit.base.deadline import check
-from dofkit.exact.errors import NoValueError
-from dofkit.exact.matrices.modular import rank_of
+from dofkit.base.errors import NoValueError
+from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import field_frame, kernel, pairing
 from dofkit.exact.ring.canonical import Canon, Poly, determinant, polynomials, remainder
-from dofkit.exact.ring.instructions import Scalar
-from dofkit.exact.ring.program import gradient, values
-from dofkit.exact.solving.triangular import TriangularSolver
+from dofkit.exact.ring.program import Scalar, gradient, values
+from dofkit.exact.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.normal_shape import arranged, upright
 from dofkit.integrability.pfaffian_system import Codistribution
-from dofkit.relations.ambient import free_point
+from dofkit.relations.chart import free_point
 
 #: Products of up to so many functions, so many products, and so many functions in them at most.
 MAX_DEGREE, MAX_PRODUCTS, MAX_FUNCTIONS = 3, 170, 12

@@ -20,17 +20,17 @@ from typing import Any
 from flint import arb, arb_mat, arb_poly, nmod_mat, nmod_poly
 
 from dofkit.base.deadline import affordable, check
+from dofkit.base.errors import NoValueError
 from dofkit.configuration.reality import real_point
 from dofkit.configuration.variety import Variety
-from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, Pivots, field_frame, kernel, rank_over
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.points.series import Series, SeriesPoint, series_values, zero_poly
-from dofkit.exact.ring.instructions import Scalar
-from dofkit.exact.ring.program import gradient, values
+from dofkit.exact.ring.program import Scalar, gradient, values
 from dofkit.expressions import tree as ex
 from dofkit.integrability.pfaffian_system import Codistribution
 

@@ -8,14 +8,13 @@ from functools import cached_property
 from itertools import combinations
 from typing import Any
 
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import NoValueError
+from dofkit.exact.independence import doubt, independent_generators, odd_constants
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, field_frame
-from dofkit.exact.ring.instructions import VAR, Scalar
-from dofkit.exact.ring.program import gradient, values
+from dofkit.exact.ring.program import VAR, Scalar, gradient, values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import zero_and_verdict
-from dofkit.exact.zero.independence import doubt, independent_generators, odd_constants
+from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
@@ -23,7 +22,7 @@ from dofkit.integrability.integrals import search
 from dofkit.integrability.lie_algebra import lie_span
 from dofkit.integrability.pfaffian_system import Codistribution
 from dofkit.integrability.traits import exact
-from dofkit.relations.ambient import free_point
+from dofkit.relations.chart import free_point
 from dofkit.relations.normal.pieces import Pfaffian
 
 

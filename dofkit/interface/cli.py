@@ -16,9 +16,9 @@ import typer
 from typer.main import get_command_name
 from typer.models import CommandInfo
 
-from dofkit.base.endings import format_of_path, is_folder_path
+from dofkit.base import __version__
+from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.errors import ArgumentError
-from dofkit.base.version import __version__
 from dofkit.interface import options
 from dofkit.interface.assignment_commands import assignment_app
 from dofkit.interface.catalog_commands import catalog
@@ -144,16 +144,14 @@ def grade(
     form: options.ResultFormat = "native",
     out: options.ResultPath = None,
     workers: options.Workers = None,
-    scheduler: options.Scheduler = None,
     check_only: options.CheckOnly = False,
-    certificates: options.CertificateFolder = None,
     reviewed: options.ReviewTable = None,
     roster: options.RosterPath = None,
 ) -> None:
     """Grade the submissions of an assignment, with feedback."""
     from dofkit.homework.runs.run import GradingOptions, run
 
-    chosen = GradingOptions(form, out, workers, scheduler, check_only, certificates, reviewed, roster)
+    chosen = GradingOptions(form, out, workers, check_only, reviewed, roster)
     with failures_of(assignment):
         clean = run(assignment, submissions, chosen)
     if not clean:
@@ -266,7 +264,7 @@ def chart(
 ) -> None:
     """Compare methods by speed and accuracy on known scenes."""
     from dofkit.benchmark.command import ChartOptions, chart
-    from dofkit.benchmark.selecting import Selection
+    from dofkit.benchmark.tasks import Selection
 
     selection = Selection(question or (), families or (), methods or (), quick, most)
     with failures_of("chart"):

@@ -5,15 +5,17 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from dofkit.base import __version__
+from dofkit.base.documents import yaml_text
 from dofkit.base.errors import DofkitError, SceneError
-from dofkit.base.version import __version__
 from dofkit.models.formats import is_model, read_model
 from dofkit.models.model_document import ModelFile
-from dofkit.models.scene_text import scene_text
 from dofkit.scene.found_files import find
 from dofkit.scene.reading import SceneFile
 from dofkit.scene.schema import scene_schema
 
+#: The sections of a scene that are written with an entry on each line.
+SECTIONS = ("particles", "bodies", "constraints", "forces", "left_out", "configuration")
 #: The schema beside a scene; its name is hidden, so that it is not read as a scene of the folder.
 SCHEMA = ".dofkit-schema.json"
 FIRST_SCENE = """\
@@ -41,7 +43,7 @@ def converted(file: str, limits: bool = False) -> str:
     remarks = [f"Made from {Path(file).name} by dofkit {__version__}."]
     if model.tolerance is not None and "tolerance" not in model.value:
         remarks.append(f"The joints form a tree. If you close a loop, add `tolerance: {model.tolerance:g}`.")
-    return scene_text({"name": found.name, **model.value}, tuple(remarks))
+    return yaml_text({"name": found.name, **model.value}, SECTIONS, tuple(remarks))
 
 
 def write_converted(file: str, out: Path | None, limits: bool) -> str:

@@ -10,9 +10,9 @@ from importlib import resources
 from typing import NamedTuple
 
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.spelling import closest, nearest
+from dofkit.base.wording import closest, nearest, series
 from dofkit.classification.arguments import TABLE
-from dofkit.homework.key.codes import CODES
+from dofkit.homework.key.misconceptions import CODES
 from dofkit.interface.field_meanings import OF_CONSTRAINT, OF_REPORT
 from dofkit.interface.show.assurance import VERDICT_MEANS
 from dofkit.scene.constraints import TYPES, ConstraintBase
@@ -68,7 +68,7 @@ def explanations_of(word: str) -> list[Explanation]:
     """All that a word means, in whatever case. Raises SceneError with the nearest words where it is none.
 
     >>> explanations_of("NH_HALF")[0].kind, [told.kind for told in explanations_of("holonomic")]
-    ('code of feedback', ['field of a report', 'field of a constraint'])
+    ('feedback code', ['field of a report', 'field of a constraint'])
     """
     wanted = _plain(word)
     found = [told for told in all_explanations() if _plain(told.word) == wanted]
@@ -103,14 +103,14 @@ def _plain(word: str) -> str:
 def all_explanations() -> tuple[Explanation, ...]:
     """Every word that is explained."""
     return (
-        *(Explanation(code, "code of feedback", meaning) for code, meaning in CODES.items()),
+        *(Explanation(code, "feedback code", meaning) for code, meaning in CODES.items()),
         *_fields("field of a report", OF_REPORT),
         *_fields("field of a constraint", OF_CONSTRAINT),
         *(Explanation(name, "verdict", _sentence(meaning)) for name, meaning in VERDICT_MEANS.items()),
-        *(Explanation(word, "word", meaning) for word, meaning in _WORDS.items()),
+        *(Explanation(word, "term", meaning) for word, meaning in _WORDS.items()),
         *(_section(name) for name in SECTIONS),
         *(_type(name, cls) for name, cls in TYPES.items()),
-        *(Explanation(word, "synonym", f"In a scene: `{kind}`.") for word, kind in synonyms().items()),
+        *(Explanation(word, "synonym", f"In a scene it means `{kind}`.") for word, kind in synonyms().items()),
         *_arguments(),
         *_theorems(),
     )
@@ -134,15 +134,17 @@ def _sentence(text: str) -> str:
 def _type(name: str, cls: type[ConstraintBase]) -> Explanation:
     about = " ".join((cls.__doc__ or "").split())
     fields = [f"{key} ({field.description})" for key, field in cls.model_fields.items() if key not in ("type", "name")]
-    spaces = " and ".join(str(d) for d in cls.dimensions)
-    told = f"{about} In {spaces} dimensions. Fields: {'; '.join(fields)}. `dofkit catalog '{name}'` finds scenes."
-    return Explanation(name, "type of constraint", told)
+    spaces = series([str(d) for d in cls.dimensions])
+    told = (
+        f"{about} Defined in {spaces} dimensions. Fields: {'; '.join(fields)}. `dofkit catalog '{name}'` finds scenes."
+    )
+    return Explanation(name, "constraint type", told)
 
 
 def _arguments() -> Iterator[Explanation]:
     for key, row in TABLE.items():
         theorem = f" Theorem: {row.theorem}." if row.theorem else ""
-        yield Explanation(key, "argument", f"It shows: {row.claims}. Hypotheses: {row.hypotheses}.{theorem}")
+        yield Explanation(key, "argument", f"Claim: {row.claims}. Hypotheses: {row.hypotheses}.{theorem}")
 
 
 def _theorems() -> Iterator[Explanation]:

@@ -19,7 +19,7 @@ OF_REPORT: dict[str, str] = {
     "instantaneous_dof": "instantaneous freedom: the number of independent velocities that the constraints allow at "
     "the reference configuration",
     "singular": "true if the instantaneous freedom differs from the velocity freedom",
-    "holonomic": "true if every constraint is: it is implied by equations between coordinates (and time)",
+    "holonomic": "true if every constraint is holonomic, that is, implied by equations between coordinates (and time)",
     "scleronomic": "true if time occurs explicitly in no constraint, nor in an equation that one integrates to",
     "count": "the textbook count f = N d - k of all holonomic equations as written, and why the count is off",
     "redundant_equations": "the number of scalar equations that depend on the others",

@@ -8,9 +8,9 @@ from typing import Annotated, Any
 
 import typer
 
-from dofkit.base.endings import format_of_path, is_folder_path
+from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.errors import ArgumentError
-from dofkit.base.spelling import no_such
+from dofkit.base.wording import no_such
 from dofkit.interface.help_panels import ADVANCED
 from dofkit.interface.outcome import FAILURES
 from dofkit.methods.table import METHODS
@@ -206,26 +206,26 @@ Scheduler = Annotated[
 
 # of certificates
 
+
+def _certificate(path: str | None) -> str | None:
+    """Return the path of a certificate or of a folder. Raises BadParameter for a file that does not end in .json."""
+    if path is not None and not is_folder_path(Path(path)):
+        _of_format(Path(path), ("json",))
+    return path
+
+
 CertificatePath = Annotated[
     str | None,
     typer.Option(
         "--certificate",
         metavar="OUT.json",
+        callback=_certificate,
         help="Write a certificate that `dofkit verify` can check; for several files name a folder.",
     ),
 ]
 CertificateFiles = Annotated[
     list[str],
     typer.Argument(metavar="[SCENE] CERT", help="A scene and its certificate, or a certificate that holds its scene."),
-]
-CertificateFolder = Annotated[
-    Path | None,
-    typer.Option(
-        "--certificates",
-        metavar="DIR",
-        callback=folder,
-        help="Write the evidence behind keys and judgements, for appeals.",
-    ),
 ]
 Strict = Annotated[bool, typer.Option("--strict", help="Fail if a claim is not covered by evidence, too.")]
 

@@ -12,6 +12,8 @@ from dofkit.base.wording import many
 from dofkit.interface.outcome import FAILURES
 
 _MOST_NAMED, _SLOWEST = 8, 3
+#: What a finding is called after a number of scenes, where its name alone would be misread.
+_FINDINGS = {"redundant": "with redundant constraints"}
 
 
 class Summary:
@@ -52,11 +54,15 @@ class Summary:
             said.append(f"{self._unread} could not be read")
         yield f"{many(self._files, 'scene')} in {_seconds(self._seconds)}: {', '.join(said)}"
         if self._asked:
-            yield f"  right by their own answers: {self._asked - self._wrong} of {self._asked}"
+            yield f"  agree with the answers in their files: {self._asked - self._wrong} of {self._asked}"
         if self._wrong:
             more = f" and {self._wrong - _MOST_NAMED} more" if self._wrong > _MOST_NAMED else ""
-            yield f"  otherwise than they expect: {', '.join(self._named)}{more}"
-        are = [f"{self._are[name]} {name}" for name in FAILURES if self._are[name] and name != "undecided"]
+            yield f"  differ from the answers in their files: {', '.join(self._named)}{more}"
+        are = [
+            f"{self._are[name]} {_FINDINGS.get(name, name)}"
+            for name in FAILURES
+            if self._are[name] and name != "undecided"
+        ]
         if are:
             yield f"  {', '.join(are)}"
         if self._slowest:

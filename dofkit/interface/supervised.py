@@ -16,9 +16,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
+from dofkit.base.arguments import is_folder_path
 from dofkit.base.deadline import DEFAULT_SECONDS, limit
-from dofkit.base.documents.document import MOST_BYTES
-from dofkit.base.endings import is_folder_path
+from dofkit.base.documents import MOST_BYTES
 from dofkit.base.workers import Job, JobOutcome, Worker
 from dofkit.interface.presentation import Telling
 from dofkit.interface.streams import ascii_only

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from dofkit.base.errors import TextError
-from dofkit.exact.ring.instructions import Point, Scalar
-from dofkit.exact.ring.program import gradient, values
+from dofkit.exact.ring.program import Point, Scalar, gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.differentials import accelerations_of, cleared, in_velocities

@@ -23,17 +23,16 @@ from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.labels.entries import labels_in_system
 from dofkit.classification.study import Study, study
-from dofkit.exact.engines import BALLS, BOTH, FIELD, Engines
 from dofkit.exact.points.balls import balls_of, precise_for, precision
 from dofkit.exact.points.field import primes_of
+from dofkit.exact.zero import BALLS, BOTH, FIELD, Engines
 from dofkit.expressions import tree as ex
 from dofkit.methods.table import METHODS, QUESTIONS, Knobs, MethodName, MethodReply, Question, cannot, function_of
 from dofkit.mobility.frameworks import unprescribed_links
-from dofkit.mobility.graph.answers import linkage
+from dofkit.mobility.graph.linkage import linkage
 from dofkit.mobility.rank_at_drawing import drawn_rank
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.pieces import Finite
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.normal.pieces import Finite, Reduced
 from dofkit.scene.added_equations import read_equations, with_equations
 from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.lowering import lower

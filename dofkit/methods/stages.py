@@ -10,13 +10,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from typing import Any
 
-from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, limit, limited
+from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, gc_rarely, limit, limited
 from dofkit.base.errors import Fault, PoleError, SceneError
-from dofkit.base.memory import gc_rarely
+from dofkit.base.runs import shared
 from dofkit.base.verdicts import OPEN, About, Claim, Verdict, weakest
 from dofkit.base.wording import many
 from dofkit.base.workers import Job, Json
-from dofkit.base.workers.pool import shared
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.passes import PASSES, PLAIN, examined
 from dofkit.classification.undecided import open_entry, open_report, sketch, undecided, why_nothing

@@ -13,7 +13,7 @@ from importlib import import_module
 from typing import Any, Literal
 
 from dofkit.base.verdicts import Verdict
-from dofkit.exact.engines import BALLS, BOTH, FIELD, Engines
+from dofkit.exact.zero import BALLS, BOTH, FIELD, Engines
 
 MethodName = Literal["auto", "count", "graph", "field", "balls", "exact", "numeric", "symbolic"]
 Question = Literal["dof", "integrability", "redundancy", "equivalence"]

@@ -1,4 +1,4 @@
-"""The formats of models that are read, told by how a file begins."""
+"""The formats of models that are read, recognised by how a file begins."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from dofkit.models.model_document import ModelDocument, ModelFile
 
 
 class ModelFormat(NamedTuple):
-    """A format: the tag that its files begin with, the module whose `read` takes them, and what that ``needs``."""
+    """A format: the tag that its files begin with, the module whose `read` takes them, and the libraries it needs."""
 
     title: str
     tag: str
@@ -27,52 +27,52 @@ FORMATS = (
     ModelFormat("URDF", "robot", "dofkit.models.urdf", ("defusedxml",)),
     ModelFormat("SolveSpace", "SolveSpace", "dofkit.models.solvespace"),
 )
-#: Roots of what is only a part of a model.
+#: Roots of files that are only a part of a model.
 _PARTS = ("mujocoinclude", "config")
 _TAG = re.compile(rb"<([A-Za-z][\w:.-]*)")
-#: What may stand before the first tag: how it begins and ends.
-_BEFORE = ((b"<?", b"?>"), (b"<!--", b"-->"), (b"<!", b">"))
-#: A beginning is looked for in so many bytes.
+#: Declarations, comments and document types, before the first tag.
+_PROLOGUE = re.compile(rb"(?:\s++|<\?.*?\?>|<!--.*?-->|<![A-Z][^>\[]*+(?:\[.*?\]\s*+)?>)*+", re.DOTALL)
+#: The first tag is searched in so many bytes.
 LOOKED_AT = 200_000
 
 
 def is_model(data: bytes | str) -> bool:
-    """Does a file begin as no scene does: with a tag, or with SolveSpace's letters?"""
+    """Return whether a file begins as no scene does: with a tag, or with SolveSpace's letters."""
     start = _beginning(data)
     return start.startswith((b"<?xml", b"<!", _SKETCH)) or _TAG.match(start) is not None
 
 
 def is_known_model(data: bytes | str) -> bool:
-    """Does a file begin as one of the `FORMATS`?"""
-    return is_model(data) and _first_tag(_beginning(data)) in {one.tag for one in FORMATS}
+    """Return whether a file begins as one of the `FORMATS`."""
+    return is_model(data) and _first_tag(data) in {known.tag for known in FORMATS}
 
 
 def format_of(data: bytes | str) -> ModelFormat | None:
-    """The format of a file by its beginning; None for a scene. Raises SceneError for XML that is no model."""
+    """Return the format of a file; None for a scene. Raises SceneError for XML that is no model."""
     if not is_model(data):
         return None
-    tag = _first_tag(_beginning(data))
-    found = next((one for one in FORMATS if one.tag == tag), None)
-    if found is None and tag:
+    tag = _first_tag(data)
+    known = next((known for known in FORMATS if known.tag == tag), None)
+    if known is None and tag:
         message = f"an XML file that begins with <{tag}> is not a model that dofkit reads"
         hint = "models begin with <mujoco> (MJCF) or <robot> (URDF)"
         if tag in _PARTS:
             hint = "this is a part of a model: give the file that includes it"
         raise SceneError((Fault(message, line=1, column=1, hint=hint),))
-    return found
+    return known
 
 
 def read_model(file: ModelFile) -> ModelDocument:
-    """The scene of a model's file. Raises SceneError with what is at fault, each in its line."""
-    found = format_of(file.data)
-    if found is None:
-        titles = ", ".join(one.title for one in FORMATS)
+    """Return the scene of a model's file. Raises SceneError with all its faults, each in its line."""
+    known = format_of(file.data)
+    if known is None:
+        titles = ", ".join(known.title for known in FORMATS)
         raise SceneError((Fault("this is not a model", hint=f"the formats that are read: {titles}"),), file.name)
-    missing = [name for name in found.needs if find_spec(name) is None]
+    missing = [name for name in known.needs if find_spec(name) is None]
     if missing:
-        message = f"{found.title} is read with {' and '.join(missing)}, which is not installed"
+        message = f"{known.title} is read with {' and '.join(missing)}, which is not installed"
         raise SceneError((Fault(message, hint="install it: pip install 'dofkit[models]'"),), file.name)
-    document: ModelDocument = import_module(found.module).read(file)
+    document: ModelDocument = import_module(known.module).read(file)
     return document
 
 
@@ -82,20 +82,11 @@ def _beginning(data: bytes | str) -> bytes:
     return raw.removeprefix(b"\xef\xbb\xbf").lstrip()
 
 
-def _first_tag(start: bytes) -> str:
-    """The first tag after declarations and comments; empty where none is found."""
+def _first_tag(data: bytes | str) -> str:
+    """Return the first tag after declarations and comments; an empty text where there is none."""
+    start = _beginning(data)
     if start.startswith(_SKETCH):
         return "SolveSpace"
-    at = 0
-    while True:
-        at += len(start[at:]) - len(start[at:].lstrip())
-        pair = next((pair for pair in _BEFORE if start.startswith(pair[0], at)), None)
-        if pair is None:
-            match = _TAG.match(start, at)
-            return "" if match is None else match[1].decode("ascii", "replace")
-        end = start.find(pair[1], at)
-        if pair[0] == b"<!" and 0 <= start.find(b"[", at) < end:
-            end = start.find(b">", start.find(b"]", at))
-        if end < 0:
-            return ""
-        at = end + len(pair[1])
+    prologue = _PROLOGUE.match(start)
+    match = _TAG.match(start, prologue.end() if prologue else 0)
+    return "" if match is None else match[1].decode("ascii", "replace")

@@ -1,9 +1,8 @@
-"""A SolveSpace file as records of keys and values, each with its line; nothing of its geometry is known here."""
+"""A SolveSpace file as records of keys and values, each with its line, and the names that SolveSpace shows."""
 
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
@@ -15,47 +14,53 @@ MOST_RECORDS = 400_000
 _KINDS = ("Group", "Request", "Entity", "Constraint")
 #: The handles of what groups made have this bit.
 DERIVED = 0x80000000
-#: A line of the table of what a group made: its number, of which entity, and which copy.
-_COPY = re.compile(r"\s+(\d{1,9}) ([0-9a-fA-F]{1,8}) (\d{1,9})\s*")
+#: Types of entities.
+POINT_2D, POINTS, LINE, CIRCLE, ARC = 2001, range(2000, 3000), 11000, 13000, 14000
+CUBICS, RECTANGLES = (12000, 12001), (15000, 16000)
+#: The least and the largest number of points of a cubic.
+_CUBIC_POINTS = 4, 12
+#: Types of groups that are drawn, in space and in a workplane, and the handle of the group of the axes.
+DRAWN_GROUPS, REFERENCES = (5000, 5001), 1
+#: Names of the points of an entity.
+_ROLES = {LINE: ("start", "end"), CIRCLE: ("centre",), ARC: ("centre", "start", "end")}
 
 
 @dataclass(frozen=True)
 class Record:
-    """What stands before an ``Add...``: its values by key, without the kind, and the line where it begins.
-
-    ``copies``: of a group, the number of what it made, the handle of what that was made of, and which copy it is.
-    """
+    """What stands before an ``Add...``: its values by key, without the kind, and the line where it begins."""
 
     kind: str
     values: Mapping[str, str]
     line: int
-    copies: tuple[tuple[int, int, int], ...] = ()
 
     def handle(self, key: str = "h.v") -> int:
-        """A handle, in hexadecimal; 0 for none. Raises SceneError for what is none."""
+        """Return a handle, written in hexadecimal; 0 for none. Raises SceneError for any other text."""
         return int(self._read(key, lambda text: int(text, 16), "a handle such as 00040001"))
 
     def whole(self, key: str) -> int:
-        """A whole number; 0 where there is none. Raises SceneError for what is none."""
+        """Return a whole number; 0 where there is none. Raises SceneError for any other text."""
         return int(self._read(key, int, "a whole number"))
 
     def number(self, key: str) -> float:
-        """A number; 0 where there is none. Raises SceneError for what is none."""
-        found = self._read(key, float, "a number")
-        if not math.isfinite(found):
+        """Return a number; 0 where there is none. Raises SceneError for any other text."""
+        value = self._read(key, float, "a number")
+        if not math.isfinite(value):
             raise SceneError((self.fault(f"{self.kind}.{key} is not finite", "write a number"),))
-        return found
+        return value
 
-    def place(self, key: str) -> tuple[float, float, float]:
-        """Three numbers: x, y and z."""
-        return self.number(f"{key}.x"), self.number(f"{key}.y"), self.number(f"{key}.z")
+    def numbers(self, key: str, components: str) -> list[float]:
+        """Return the components of a vector or a quaternion, named by a list such as ``x y z``."""
+        return [self.number(f"{key}.{component}") for component in components.split()]
 
-    def turn(self, key: str) -> tuple[float, ...]:
-        """Four numbers, a quaternion: w, x, y and z."""
-        return tuple(self.number(f"{key}.{part}") for part in ("w", "vx", "vy", "vz"))
+    def corners(self) -> int:
+        """Return how many points define the entity; 0 where it is not read."""
+        kind, (least, most) = self.whole("type"), _CUBIC_POINTS
+        if kind == CUBICS[0]:
+            return min(max(least, least + self.whole("extraPoints")), most)
+        return 4 if kind in RECTANGLES else len(_ROLES.get(kind, ()))
 
     def fault(self, message: str, hint: str) -> Fault:
-        """A fault in the line of this record."""
+        """Return a fault in the line of this record."""
         return Fault(message, line=self.line, column=1, hint=hint)
 
     def _read(self, key: str, read: Callable[[str], float], what: str) -> float:
@@ -77,42 +82,55 @@ class SketchFile:
     constraints: dict[int, Record] = field(default_factory=dict)
 
     def group_of(self, handle: int) -> int:
-        """The group in which an entity was drawn, or which made it; 0 where that is not known."""
-        if handle & DERIVED:
+        """Return the group in which an entity was drawn, or which made it; 0 where that is not known."""
+        if not is_drawn(handle):
             return (handle & ~DERIVED) >> 16
         request = self.requests.get(handle >> 16)
         return 0 if request is None else request.handle("group.v")
 
+    def point_name(self, handle: int) -> str:
+        """Return SolveSpace's name of an entity with the role of one of its points, such as ``r004_start``."""
+        entity = self.entities.get(handle & ~0xFFFF)
+        roles = () if entity is None else _ROLES.get(entity.whole("type"), ())
+        points = [entity.handle(f"point[{k}].v") for k in range(len(roles))] if entity is not None else []
+        return drawn_name(handle) + (f"_{roles[points.index(handle)]}" if handle in points else "")
+
+
+def drawn_name(handle: int) -> str:
+    """Return SolveSpace's name of what was drawn by one request, such as ``r004``."""
+    return f"r{handle >> 16:03x}"
+
+
+def is_drawn(handle: int) -> bool:
+    """Return whether an entity was drawn, and not made by a group."""
+    return not handle & DERIVED
+
 
 def read_sketch(file: ModelFile) -> SketchFile:
-    """The records of a file. Raises SceneError for what is no such file."""
-    found = SketchFile()
-    kept = {"Group": found.groups, "Request": found.requests, "Entity": found.entities, "Constraint": found.constraints}
+    """Return the records of a file. Raises SceneError for what is no such file."""
+    sketch = SketchFile()
+    by_kind = {kind: getattr(sketch, name) for kind, name in zip(_KINDS, vars(sketch), strict=True)}
     for count, record in enumerate(_records(file.text)):
         if count >= MOST_RECORDS:
             raise SceneError((record.fault(f"more than {MOST_RECORDS} records", "split the sketch"),), file.name)
-        kept[record.kind][record.handle()] = record
-    if not found.entities:
+        by_kind[record.kind][record.handle()] = record
+    if not sketch.entities:
         hint = "save it with SolveSpace: a sketch has entities"
         raise SceneError((Fault("this file has no entity", line=1, column=1, hint=hint),), file.name)
-    return found
+    return sketch
 
 
 def _records(text: str) -> Iterator[Record]:
     values: dict[str, str] = {}
-    copies: list[tuple[int, int, int]] = []
     first = 1
     for number, line in enumerate(text.splitlines(), 1):
         if line.startswith("Add"):
-            kind = line[3:].strip()
-            if kind in _KINDS:
-                yield Record(kind, values, first, tuple(copies))
-            values, copies = {}, []
+            if line[3:].strip() in _KINDS:
+                yield Record(line[3:].strip(), values, first)
+            values = {}
             continue
         key, equals, value = line.partition("=")
-        kind, dot, rest = key.partition(".")
+        kind, dot, name = key.partition(".")
         if equals and dot and kind in _KINDS:
             first = first if values else number
-            values[rest] = value.strip()
-        elif found := _COPY.fullmatch(line):
-            copies.append((int(found[1]), int(found[2], 16), int(found[3])))
+            values[name] = value.strip()

@@ -1,47 +1,237 @@
-"""SolveSpace's sketches as scenes: in a plane where one plane holds everything, else in space.
+"""SolveSpace's sketches as scenes of the plane: points are particles, radii of circles are coordinates.
 
-Names are those that SolveSpace shows: r004 for what was drawn fourth, c001 for the first constraint. All groups hold
-at once: SolveSpace solves each after those before it, which stay where they are then.
+One workplane is read, the one in which most points were drawn; what lies in space or is derived from a sketch is left
+out, and the scene says so. Names are those that SolveSpace shows: r004 for what was drawn fourth, c001 for the first
+constraint. All groups hold at once: SolveSpace solves each after those before it, which then stay as they are.
 """
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
 
 from dofkit.base.errors import Fault, SceneError
-from dofkit.models.model_document import ModelDocument, ModelFile, SceneDraft
-from dofkit.models.plane_sketch import PlaneSketch
-from dofkit.models.sketch_file import SketchFile, read_sketch
-from dofkit.models.sketch_scene import SketchScene
-from dofkit.models.sketch_types import POINT_2D, is_own
-from dofkit.models.spatial_sketch import SpatialSketch
-from dofkit.system import BINDING
+from dofkit.base.wording import many
+from dofkit.expressions.text.bounds import MAX_CHARACTERS
+from dofkit.models.joint_relations import figures
+from dofkit.models.model_document import COARSEST, FINEST, ModelDocument, ModelFile, SceneDraft, listed, number
+from dofkit.models.sketch_constraints import KINDS, NOT_READ, Arrow, Cubic, Round, SketchMentions, SketchPoint, Written
+from dofkit.models.sketch_file import (
+    ARC,
+    CUBICS,
+    DRAWN_GROUPS,
+    LINE,
+    POINT_2D,
+    POINTS,
+    RECTANGLES,
+    REFERENCES,
+    Record,
+    SketchFile,
+    drawn_name,
+    is_drawn,
+    read_sketch,
+)
+
+#: SolveSpace stops where its equations are satisfied to within this.
+SOLVED = 1e-6
+_COMMENT, _COINCIDENT = 1000, 20
+#: Kinds that have a number, which a group may make all of them measure.
+_DIMENSIONS = frozenset({*range(30, 35), 51, 56, 90, 120, *range(210, 214)})
+_MENTIONS = ("ptA", "ptB", "entityA", "entityB", "entityC", "entityD")
 
 
 def read(file: ModelFile) -> ModelDocument:
-    """The scene of a sketch. Raises SceneError for what is no such file."""
-    found = read_sketch(file)
-    planes = _planes(found)
-    title = f"SolveSpace sketch {file.name}"
-    scenes: list[SketchScene] = []
-    if planes:
-        scenes.append(PlaneSketch(found, SceneDraft(title, dimension=2), planes.most_common(1)[0][0]))
-    scenes.append(SpatialSketch(found, SceneDraft(title)))
-    best: tuple[ModelDocument, tuple[int, int]] | None = None
-    for scene in scenes:
-        document = scene.document()
-        lost = (scene.missed, sum(told.startswith(BINDING) for told in scene.draft.left_out))
-        if best is None or lost < best[1] or (scene.missed and lost == best[1]):
-            best = document, lost
-        if not any(lost):
-            break
-    if best is None or "particles" not in best[0].value:
-        hint = "draw something: points, lines, circles"
+    """Return the scene of a sketch. Raises SceneError for what is no such file, or has no point in a workplane."""
+    sketch = read_sketch(file)
+    drawn = [e for h, e in sketch.entities.items() if is_drawn(h) and e.whole("type") == POINT_2D]
+    planes = Counter(plane for e in drawn if (plane := e.handle("workplane.v")) in sketch.entities)
+    if not planes:
+        hint = "draw points, lines or circles in a workplane; sketches in space are not read"
         raise SceneError((Fault("this file has no point that dofkit reads", line=1, column=1, hint=hint),), file.name)
-    return best[0]
+    draft = SceneDraft(f"SolveSpace sketch {file.name}", dimension=2)
+    return _SketchScene(sketch, draft, planes.most_common(1)[0][0]).document()
 
 
-def _planes(file: SketchFile) -> Counter[int]:
-    """The workplanes in which points were drawn, and how many."""
-    drawn = [e for h, e in file.entities.items() if is_own(h) and e.whole("type") == POINT_2D]
-    return Counter(plane for e in drawn if (plane := e.handle("workplane.v")) in file.entities)
+class UnreadError(Exception):
+    """A constraint that is not read, and why."""
+
+
+@dataclass
+class _SketchScene:
+    """The scene while it is written: points, lines and curves by the handles of their entities."""
+
+    file: SketchFile
+    draft: SceneDraft
+    plane: int
+    points: dict[int, SketchPoint] = field(default_factory=dict)
+    lines: dict[int, Arrow] = field(default_factory=dict)
+    curves: dict[int, Round | Cubic] = field(default_factory=dict)
+    outside: int = 0
+
+    def __post_init__(self) -> None:
+        plane = self.file.entities[self.plane]
+        normal, origin = (self.file.entities.get(plane.handle(key)) for key in ("normal.v", "point[0].v"))
+        self.origin = np.zeros(3) if origin is None else np.array(origin.numbers("actPoint", "x y z"))
+        self.axes = np.eye(3)[:2]
+        if normal is not None:
+            w, x, y, z = normal.numbers("actNormal", "w vx vy vz")
+            u = (w * w + x * x - y * y - z * z, 2 * (w * z + x * y), 2 * (x * z - w * y))
+            v = (2 * (x * y - w * z), w * w - x * x + y * y - z * z, 2 * (w * x + y * z))
+            self.axes = np.array([u, v])
+
+    def document(self) -> ModelDocument:
+        """Return the scene, its parts in the order of the file."""
+        for handle, record in self.file.entities.items():
+            if record.whole("type") in POINTS:
+                self._point(handle, record)
+        for handle, record in self.file.entities.items():
+            points = [self.points.get(record.handle(f"point[{k}].v")) for k in range(record.corners())]
+            corners = [point for point in points if point is not None]
+            if corners and len(corners) == len(points):
+                self._drawn(handle, record, corners)
+        for record in self.file.constraints.values():
+            if record.whole("type") != _COMMENT:
+                self._constraint(record)
+        self._leave_out()
+        size = float(np.ptp(np.array([p.at for p in self.points.values()]), axis=0).max()) or 1.0
+        return self.draft.document(min(COARSEST, max(FINEST, SOLVED / size)), special=True)
+
+    def _point(self, handle: int, record: Record) -> None:
+        """Add a point of the sketch, or one of the references, which is fixed."""
+        at = self.axes @ (np.array(record.numbers("actPoint", "x y z")) - self.origin)
+        place = (float(number(at[0])), float(number(at[1])))
+        drawn = is_drawn(handle)
+        if drawn and record.whole("type") == POINT_2D and record.handle("workplane.v") == self.plane:
+            name = self.draft.particle(self.file.point_name(handle), record.line, place)
+            self.points[handle] = SketchPoint(f"x_{name}", f"y_{name}", place, name)
+        elif self.file.entities[self.plane].handle("point[0].v") == handle or (
+            drawn and self.file.group_of(handle) == REFERENCES
+        ):
+            self.points[handle] = SketchPoint(figures(place[0]), figures(place[1]), place)
+        else:
+            self.outside += drawn
+
+    def _drawn(self, handle: int, record: Record, ends: list[SketchPoint]) -> None:
+        """Add a line, circle, arc, cubic or text; the ends of an arc have the same distance from its centre."""
+        kind = record.whole("type")
+        if kind == LINE:
+            self.lines[handle] = Arrow(ends[0], ends[1])
+        elif kind in CUBICS:
+            self.curves[handle] = Cubic((Arrow(ends[1], ends[0]), Arrow(ends[-2], ends[-1])))
+        elif kind in RECTANGLES:
+            self._rectangle(handle, record, ends)
+        elif kind == ARC:
+            first, second = Arrow(ends[0], ends[1]), Arrow(ends[0], ends[2])
+            self.curves[handle] = Round(ends[0], first.squared, first.length, (ends[1], ends[2]))
+            if is_drawn(handle) and not self._is_whole_circle(record):
+                self._equation(f"{drawn_name(handle)}-arc", record, f"{first.squared} = {second.squared}")
+        else:
+            distance = self.file.entities.get(record.handle("distance.v"))
+            radius = f"radius_{drawn_name(handle)}"
+            if distance is not None and is_drawn(handle):
+                self.draft.coordinate(radius, distance.number("actDistance"))
+                self.curves[handle] = Round(ends[0], f"{radius}^2", radius)
+
+    def _rectangle(self, handle: int, record: Record, ends: list[SketchPoint]) -> None:
+        """Corners a, o, b, c of a text or an image: b - o = c - a = k (a - o), turned right by a right angle."""
+        a, o, b, c = ends
+        up, over = Arrow(o, a), Arrow(o, b)
+        (x, y), (u, v) = up.drawn, over.drawn
+        ratio = figures((u * y - v * x) / ((x * x + y * y) or 1.0))
+        for name, side in (("bottom", over), ("top", Arrow(a, c))):
+            texts = (
+                f"{side.components[0]} = {ratio}*{up.components[1]}",
+                f"{side.components[1]} = -({ratio})*{up.components[0]}",
+            )
+            for axis, text in zip("uv", texts, strict=True):
+                self._equation(f"{drawn_name(handle)}-{name}-{axis}", record, text)
+
+    def _equation(self, name: str, record: Record, text: str) -> None:
+        self.draft.constraint(name, "equation", record.line, text=text)
+
+    def _is_whole_circle(self, arc: Record) -> bool:
+        """Return whether the ends of an arc are joined by a constraint of its group, so that it is a circle."""
+        ends = frozenset((arc.handle("point[1].v"), arc.handle("point[2].v")))
+        return not self._joined.isdisjoint({(ends, 0), (ends, self.file.group_of(arc.handle()))})
+
+    @cached_property
+    def _joined(self) -> set[tuple[frozenset[int], int]]:
+        """Pairs of points that constraints put in one place, with the group of each constraint."""
+        together = [c for c in self.file.constraints.values() if c.whole("type") == _COINCIDENT]
+        return {(frozenset((c.handle("ptA.v"), c.handle("ptB.v"))), c.handle("group.v")) for c in together}
+
+    def _constraint(self, record: Record) -> None:
+        kind = KINDS.get(record.whole("type"))
+        title = NOT_READ.get(record.whole("type"), "") if kind is None else kind.name
+        name = f"c{record.handle():03x}" + (f"-{title}" if title else f": of kind {record.whole('type')}")
+        if idle := self._idle(record):
+            self.draft.leave_out(f"{name}: {idle}")
+            return
+        try:
+            written = list(self._written(record))
+        except UnreadError as why:
+            self.draft.leave_out(f"{name}: {why}", binding=True)
+            return
+        for k, constraint in enumerate(written):
+            fields = {"type": "equation", "text": constraint} if isinstance(constraint, str) else dict(constraint)
+            called = name if len(written) == 1 else f"{name}-{'abcd'[k]}"
+            self.draft.constraint(called, fields.pop("type"), record.line, **fields)
+
+    def _idle(self, record: Record) -> str:
+        """Return why a constraint is not enforced in SolveSpace either; empty where it is."""
+        kind, group = record.whole("type"), self.file.groups.get(record.handle("group.v"))
+        measures = group is not None and kind in _DIMENSIONS and group.whole("allDimsReference")
+        if record.whole("reference") or measures:
+            return "a reference dimension, which only measures"
+        relaxed = group is not None and group.whole("relaxConstraints") and kind != _COINCIDENT
+        return "its group is relaxed, so it is not enforced" if relaxed else ""
+
+    def _written(self, record: Record) -> Iterable[Written]:
+        """Return what a constraint states. Raises UnreadError where it is not read."""
+        kind = KINDS.get(record.whole("type"))
+        if kind is None:
+            raise UnreadError("constraints of this kind are not read")
+        if record.handle("workplane.v") not in (0, self.plane):
+            raise UnreadError("it belongs to a workplane other than the one that is read")
+        mentions = self._mentions(record)
+        given = len(mentions.points), len(mentions.lines), len(mentions.curves)
+        named = sum(bool(record.handle(f"{key}.v")) for key in _MENTIONS)
+        allowed = all(isinstance(curve, kind.curves) for curve in mentions.curves)
+        if given not in kind.needs or sum(given) != named or not allowed:
+            raise UnreadError("it refers to something outside the plane that is read")
+        written = list(kind.writes(mentions))
+        if not written:
+            raise UnreadError("the entities that it refers to have no such ends")
+        if any(len(text) > MAX_CHARACTERS for text in written if isinstance(text, str)):
+            raise UnreadError("its equation is longer than a text of a scene may be")
+        return written
+
+    def _mentions(self, record: Record) -> SketchMentions:
+        handles = [record.handle(f"{key}.v") for key in _MENTIONS]
+        return SketchMentions(
+            tuple(self.points[h] for h in handles[:2] if h in self.points),
+            tuple(self.lines[h] for h in handles[2:] if h in self.lines),
+            tuple(self.curves[h] for h in handles[2:] if h in self.curves),
+            record.number("valA"),
+            bool(record.whole("other")),
+            bool(record.whole("other2")),
+        )
+
+    def _leave_out(self) -> None:
+        """Note what of the file is outside the plane, or derived, or not enforced in the same order."""
+        if self.outside:
+            self.draft.leave_out(f"{many(self.outside, 'point')} outside the plane of most points: one plane is read")
+        if len({c.handle("group.v") for c in self.file.constraints.values()}) > 1:
+            self.draft.leave_out(
+                "the order of the groups: all constraints are enforced at once, whereas SolveSpace keeps earlier "
+                "groups as they were solved"
+            )
+        if any(is_drawn(h) and e.whole("type") in CUBICS for h, e in self.file.entities.items()):
+            self.draft.leave_out("cubic curves: only their points and the tangents at their ends are read")
+        groups = [g.values.get("name", "") for g in self.file.groups.values() if g.whole("type") not in DRAWN_GROUPS]
+        if groups:
+            self.draft.leave_out(f"{listed(groups)}: groups that are derived from sketches")

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.spelling import nearest
+from dofkit.base.wording import nearest
 from dofkit.models.markup import Element, read_markup
 from dofkit.models.model_document import ModelFile, listed
 

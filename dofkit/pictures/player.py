@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from dofkit.base.themes import schemes
+from dofkit.base.display import schemes
 from dofkit.pictures.layout import MARGIN, WIDTH, Standpoint, margins_of, name_size, ruler_of, standpoint_of
 from dofkit.pictures.looks import ON_DARK, Ink, ink_of, keys_of
 from dofkit.pictures.shapes import Array, Clip, Displacement, Poses, Sketch

@@ -11,7 +11,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from dofkit.base.endings import format_of_path
+from dofkit.base.arguments import format_of_path
 from dofkit.methods.classify import classify
 from dofkit.pictures.constraint_graph import graph_sketch, hover_script
 from dofkit.pictures.coordinates import MOST, coordinate_sketch, is_bare

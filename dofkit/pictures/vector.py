@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from xml.sax.saxutils import escape, quoteattr
 
-from dofkit.base.themes import schemes
+from dofkit.base.display import schemes
 from dofkit.pictures.looks import ON_DARK, Ink
 from dofkit.pictures.paper import Mark, Page, Spot
 

@@ -10,7 +10,7 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.spelling import nearest_title
+from dofkit.base.wording import nearest_title
 
 _TITLE = re.compile(r"^title:[ \t]*(?:\"(?P<double>[^\"\\\n]*)\"|'(?P<single>[^'\n]*)'|(?P<plain>[^\"'\n#]+))", re.M)
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from dofkit.base.spelling import nearest
+from dofkit.base.wording import nearest
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.fields import meant_key
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import check as out_of_time
 from dofkit.base.errors import Fault
-from dofkit.expressions.unwritten import Unwritten
+from dofkit.expressions.renaming import Unwritten
 from dofkit.scene.constraints import ConstraintBase
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.ledger import Ledger

@@ -31,7 +31,7 @@ from pydantic import (
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from dofkit.base.errors import Fault
-from dofkit.base.spelling import nearest
+from dofkit.base.wording import nearest
 
 #: A number is refused beyond this power of ten, up or down.
 LARGEST_EXPONENT = 1000

@@ -6,9 +6,9 @@ import os
 from pathlib import Path
 from typing import NamedTuple
 
-from dofkit.base.documents.document import MOST_BYTES
+from dofkit.base.documents import MOST_BYTES
 from dofkit.base.errors import Fault, SceneError
-from dofkit.base.spelling import nearest_title
+from dofkit.base.wording import nearest_title
 from dofkit.scene.catalog import catalog_names, catalog_text, nearest_hint
 
 

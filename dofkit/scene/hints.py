@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
+from dofkit.base.documents import on_one_line
 from dofkit.base.errors import Fault
-from dofkit.base.spelling import nearest
-from dofkit.models.scene_text import on_one_line
+from dofkit.base.wording import nearest
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.constraints.equations import Equation
 from dofkit.scene.corrections import likely_types, with_right_keys

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import NamedTuple, Protocol
 
 from dofkit.base.errors import Fault
-from dofkit.base.spelling import nearest
+from dofkit.base.wording import nearest
 from dofkit.expressions.text import Names, spelled, valid_name
 from dofkit.expressions.tree import Expr, num, parameter
 from dofkit.scene.ledger import Ledger, ParsedTexts, Texts

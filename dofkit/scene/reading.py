@@ -13,10 +13,9 @@ from typing import Any, NamedTuple
 from pydantic import ValidationError
 
 from dofkit.base.arguments import description_of
-from dofkit.base.documents import Document, read_document
-from dofkit.base.documents.composer import DEEPEST
+from dofkit.base.deadline import gc_rarely
+from dofkit.base.documents import DEEPEST, Document, read_document
 from dofkit.base.errors import ArgumentError, Fault, SceneError
-from dofkit.base.memory import gc_paused
 from dofkit.models.formats import is_model, read_model
 from dofkit.models.model_document import ModelFile
 from dofkit.scene.constraints.equations import as_equation
@@ -40,7 +39,7 @@ _TAKEN = "a Scene, a path, a catalog name or a mapping"
 SceneLike = Scene | str | os.PathLike[str] | Mapping[str, Any]
 
 
-@gc_paused()
+@gc_rarely()
 def load(source: SceneLike, *, name: str | None = None, limits: bool = False) -> Scene:
     """Return the scene of a YAML or JSON file, of the catalog, of a model or of a mapping.
 
@@ -84,7 +83,7 @@ def load(source: SceneLike, *, name: str | None = None, limits: bool = False) ->
     return SceneFile.read(found.data, name or found.name, found.path, limits).scene()
 
 
-@gc_paused()
+@gc_rarely()
 def loads(data: bytes | str, name: str = "scene") -> Scene:
     """Return the scene of a YAML or JSON text, or of its bytes in UTF-8.
 
@@ -193,10 +192,10 @@ def _model_document(file: ModelFile) -> Document:
     try:
         model = read_model(file)
     except SceneError as error:
-        return Document(file.name, file.text, None, error.faults, lambda places: None)
+        return Document(file.name, file.text, None, error.faults)
     found = {path: (starts[line - 1], -1) for path, line in model.lines.items() if line <= len(starts)}
     value = {"name": file.name, **model.value}
-    return Document(file.name, file.text, value, (), lambda places: places.update(found))
+    return Document(file.name, file.text, value, (), lambda: found)
 
 
 def _from_mapping(source: Mapping[str, Any], name: str | None) -> Scene:

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import Any, Protocol
 
+from dofkit.base.deadline import gc_rarely
 from dofkit.base.errors import Fault
-from dofkit.base.memory import gc_rarely
 from dofkit.expressions.text import Names
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.vectors import Vec

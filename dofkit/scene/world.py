@@ -15,7 +15,7 @@ from itertools import chain
 from typing import NamedTuple
 
 from dofkit.base.errors import Fault, TextError
-from dofkit.base.spelling import nearest
+from dofkit.base.wording import nearest
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate, differs_from_zero
 from dofkit.expressions.text import UnknownNameError

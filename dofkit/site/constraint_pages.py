@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from inspect import cleandoc
 
+from dofkit.base.wording import series
 from dofkit.expressions.text.printing import to_text
 from dofkit.scene.constraints import TYPES, ConstraintBase
 from dofkit.scene.lowering import lower
@@ -107,9 +108,7 @@ def _meaning(cls: type[ConstraintBase]) -> str:
 
 
 def _spaces(cls: type[ConstraintBase]) -> str:
-    return " and ".join([", ".join(SPACES[d] for d in cls.dimensions[:-1]), SPACES[cls.dimensions[-1]]]).removeprefix(
-        " and "
-    )
+    return series([SPACES[d] for d in cls.dimensions])
 
 
 def _fields(cls: type[ConstraintBase]) -> Iterator[tuple[str, str, str]]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from importlib import resources
 
 from dofkit.classification.arguments import TABLE
-from dofkit.homework.key.codes import CODES
+from dofkit.homework.key.misconceptions import CODES
 from dofkit.interface.explanations import all_explanations
 from dofkit.interface.field_meanings import OF_CONSTRAINT, OF_REPORT
 from dofkit.interface.show.assurance import VERDICT_MEANS
@@ -30,7 +30,7 @@ def report_pages(written: str) -> Iterator[SitePage]:
 
 def _tables() -> Iterator[str]:
     yield "## Terms"
-    words = sorted(((w.word, w.meaning) for w in all_explanations() if w.kind == "word"), key=lambda row: row[0])
+    words = sorted(((w.word, w.meaning) for w in all_explanations() if w.kind == "term"), key=lambda row: row[0])
     yield table(("term", "meaning"), [(prose(word), prose(meaning)) for word, meaning in words])
     yield "## Fields of a report"
     yield "`report.NAME` in Python, the keys of `dofkit classify --json`, and what `dofkit explain NAME` prints."

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from dofkit.benchmark.trials.construction import KnownScene, truths
 from dofkit.benchmark.trials.frameworks import End, Framework, Position
-from dofkit.benchmark.trials.sweeps import rounded
+from dofkit.benchmark.trials.poses import rounded
 
 from .draws import at
 

@@ -11,7 +11,7 @@ from typing import Any
 from flint import fmpq, fmpq_mat
 
 from dofkit.benchmark.trials.construction import KnownScene, truths
-from dofkit.benchmark.trials.random_systems import exact_rank
+from dofkit.benchmark.trials.frameworks import exact_rank
 
 from .draws import names, nonzero
 

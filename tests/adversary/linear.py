@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from dofkit.benchmark.trials.construction import IMPOSSIBLE, KnownScene, scene_of, truths
-from dofkit.benchmark.trials.random_systems import exact_rank
+from dofkit.benchmark.trials.frameworks import exact_rank
 
 from .draws import names
 

@@ -23,9 +23,9 @@ from shared.late import LONG, let_time_run_out
 from shared.work import counted
 
 import dofkit
+from dofkit.base.process_limits import SPARE
+from dofkit.base.runs import AHEAD, MOST_BYTES, Pool, StoppedError, in_order
 from dofkit.base.workers import Job, Worker
-from dofkit.base.workers.child import SPARE
-from dofkit.base.workers.pool import AHEAD, MOST_BYTES, Pool, StoppedError, in_order
 
 HERE = Path(__file__).parents[1]
 SMALL = 1 << 29
@@ -261,7 +261,7 @@ LEFT = """
 import os, sys
 from shared import worker_jobs
 from dofkit.base.workers import Job, Worker
-from dofkit.base.workers.pool import Pool
+from dofkit.base.runs import Pool
 pool = Pool(2)
 worker = Worker()
 pids = [worker.run(Job(worker_jobs.process, None, 30)).value]
@@ -334,7 +334,7 @@ def test_work_that_hears_no_deadline_is_killed(monkeypatch: pytest.MonkeyPatch) 
     """8 coordinates, one finite equation as written: the lecture's count is 7."""
     monkeypatch.setattr("dofkit.methods.stages.WORKER_STAGES", "shared.worker_jobs:sketched")
     monkeypatch.setattr(
-        "dofkit.base.workers.pool._shared",
+        "dofkit.base.runs._shared",
         cache(lambda *_: Pool(1, modules=["shared.worker_jobs", "dofkit.methods.stages"])),
     )
     scene = dofkit.load(HARD)
@@ -379,7 +379,7 @@ def test_a_budget_is_a_number() -> None:
 
 
 def test_where_no_process_can_start_the_time_is_watched(monkeypatch: pytest.MonkeyPatch) -> None:
-    import dofkit.base.workers.pool as pools
+    import dofkit.base.runs as pools
 
     monkeypatch.setattr(sys, "executable", "/no/such/python")
     monkeypatch.setattr(pools, "_shared", lambda *_: Pool(1))

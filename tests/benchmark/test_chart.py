@@ -14,14 +14,14 @@ import pytest
 from shared import chart_methods
 from typer.testing import CliRunner
 
-from dofkit.base.workers.pool import Pool
-from dofkit.benchmark import command, runner, statistics, storing, table, tasks
+from dofkit.base.runs import Pool
+from dofkit.benchmark import command, record, runner, statistics, tasks
 from dofkit.benchmark.figures import table as figures_table
-from dofkit.benchmark.judging import outcome_of
 from dofkit.benchmark.record import AUTO, Data, Outcome, Ran, ReductionCost, Score, TrialLine
-from dofkit.benchmark.selecting import Selection
-from dofkit.benchmark.summary import summary
-from dofkit.benchmark.trials.trial import Trial
+from dofkit.benchmark.runner import outcome_of
+from dofkit.benchmark.sentences import summary
+from dofkit.benchmark.tasks import Selection
+from dofkit.benchmark.trials.construction import Trial
 from dofkit.interface.cli import app
 from dofkit.methods.table import Knobs
 
@@ -44,15 +44,10 @@ RAN = Ran(
 )
 
 
-def said(method: str, question: str, traits: tuple[str, ...], outcome: str, reason: str) -> str:
-    """Everything, in one sentence."""
-    return f"{method} {question} {'+'.join(traits)} {outcome}: {reason}"
-
-
 def ran(methods: Sequence[str], limit: float = 0.3) -> list[TrialLine]:
     """The trials of the family by these methods, in two workers."""
-    with Pool(2, modules=("dofkit.benchmark.trial_job", "shared.chart_methods")) as pool:
-        bench = runner.Bench(pool, pool.run, limit, said, "shared.chart_methods:answered")
+    with Pool(2, modules=("dofkit.benchmark.runner", "shared.chart_methods")) as pool:
+        bench = runner.Bench(pool, pool.run, limit, "shared.chart_methods:answered")
         return list(runner.run(tasks.trial_tasks(chart_methods.family(False), methods), bench))
 
 
@@ -72,10 +67,10 @@ def test_every_trial_has_its_line_whatever_the_method_does() -> None:
     assert found["hangs"] == {(1, "right"), (2, "right"), (4, "timed out"), (8, "timed out")}
     why = {(line.method, line.size): line.why for line in lines}
     assert why["right", 1] == ""
-    assert why["wrong", 1] == "wrong dof large wrong:"
-    assert why["raises", 8] == "raises dof large undecided: it failed: KeyError: 'x'"
+    assert why["wrong", 1] == "wrong does not answer this."
+    assert why["raises", 8] == "It failed: KeyError: 'x'."
     assert "SIGSEGV" in why["crashes", 2]
-    assert why["hangs", 4] == "hangs dof large timed out: not done after 0.3 s"
+    assert why["hangs", 4] == "hangs does not answer this."
     assert why["hangs", 8].startswith("timed out at a smaller size: ")
     assert all(line.seconds == 0.3 for line in lines if line.outcome == "timed out")
     assert all(line.seconds < 0.1 for line in lines if line.outcome in ("right", "wrong", "cannot"))
@@ -289,8 +284,8 @@ def test_scores_points_and_auto_against_the_fastest() -> None:
         ("3", 1e-3, 1, 0, 0),
         ("3", 1e-1, 0, 0, 1),
     ]
-    assert table.sentences(chart)[0] == "auto: 4 trials, 0 wrong, 0 without an answer"
-    assert table.sentences(chart)[1:] == [
+    assert command.auto_sentences(chart)[0] == "auto: 4 trials, 0 wrong, 0 without an answer"
+    assert command.auto_sentences(chart)[1:] == [
         "auto: at most twice the time of the fastest method that is right on a family and never wrong: 0 of 1 families",
         "  dof, boxes: 4.0 times graph",
         "auto: the same, with methods that are wrong elsewhere: 0 of 1 families",
@@ -303,8 +298,8 @@ def test_scores_points_and_auto_against_the_fastest() -> None:
 
 def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     chart = summary(DATA)
-    storing.write(DATA, chart, tmp_path)
-    back = storing.read(tmp_path)
+    record.write(DATA, chart, tmp_path)
+    back = record.read(tmp_path)
     assert back == DATA
     assert summary(back) == chart
     header, first = (tmp_path / "trials.csv").read_text(encoding="utf-8").splitlines()[:2]
@@ -313,10 +308,10 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     schema = json.loads(CliRunner().invoke(app, ["schema", "chart"]).output)
     assert set(schema["properties"]) == set(json.loads((tmp_path / "chart.json").read_text(encoding="utf-8")))
     (tmp_path / "chart.json").write_text(json.dumps({"ran": 1}))
-    with pytest.raises(storing.ChartError, match="are not those of a run"):
-        storing.read(tmp_path)
-    with pytest.raises(storing.ChartError, match="there is no run in"):
-        storing.read(tmp_path / "none")
+    with pytest.raises(record.ChartError, match="are not those of a run"):
+        record.read(tmp_path)
+    with pytest.raises(record.ChartError, match="there is no run in"):
+        record.read(tmp_path / "none")
 
 
 @pytest.mark.sweep
@@ -341,8 +336,7 @@ def tiny(monkeypatch: pytest.MonkeyPatch) -> None:
     families = {"boxes": chart_methods.family, "crates": chart_methods.family}
     monkeypatch.setattr(command, "FAMILIES", families)
     monkeypatch.setattr(runner, "MODULES", ("shared.chart_methods",))
-    monkeypatch.setattr(runner.Bench, "answering", "shared.chart_methods:answered")
-    monkeypatch.setattr(runner.Bench.__init__, "__defaults__", ("shared.chart_methods:answered",))
+    monkeypatch.setattr(runner, "ANSWERING", "shared.chart_methods:answered")
     monkeypatch.setattr(command, "find_spec", lambda name: None)
 
 
@@ -354,13 +348,13 @@ def test_the_command_runs_tells_and_redraws(tmp_path: Path) -> None:
     assert done.exit_code == 0, done.output
     assert "auto: 2 trials, 0 wrong, 0 without an answer" in done.output
     assert "nothing is drawn without matplotlib: pip install 'dofkit[chart]'" in done.output
-    data = storing.read(out)
+    data = record.read(out)
     assert len(data.lines) == 2 * 2
     assert {found.outcome for found in data.lines} == {"right"}
     assert data.ran.command == "dofkit chart --families boxes --methods auto,field --quick"
     again = CliRunner().invoke(app, ["chart", "--from", str(out), "--out", str(tmp_path / "again")])
     assert again.exit_code == 0, again.output
-    assert storing.read(tmp_path / "again") == data
+    assert record.read(tmp_path / "again") == data
 
 
 @pytest.mark.usefixtures("tiny")
@@ -400,5 +394,5 @@ def test_an_interrupted_run_keeps_what_it_has(tmp_path: Path, monkeypatch: pytes
     assert done.exit_code == 130
     assert "interrupted after 1 of " in done.output
     assert "the run was interrupted: this is only a part of it" in done.output
-    assert len(storing.read(tmp_path).lines) == 1
+    assert len(record.read(tmp_path).lines) == 1
     assert isinstance(next(chart_methods.family(True)), Trial)

@@ -13,10 +13,8 @@ import pytest
 import dofkit
 from dofkit.benchmark.failures import TRAITS
 from dofkit.benchmark.trials import FAMILIES
-from dofkit.benchmark.trials.construction import kind
-from dofkit.benchmark.trials.frameworks import Framework
-from dofkit.benchmark.trials.random_systems import dependent
-from dofkit.benchmark.trials.trial import Trial
+from dofkit.benchmark.trials.construction import Trial, kind
+from dofkit.benchmark.trials.frameworks import Framework, dependent
 from dofkit.methods.ask import answered
 
 #: Families meant for cost against size.

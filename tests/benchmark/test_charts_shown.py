@@ -6,10 +6,10 @@ import re
 from functools import cache
 from pathlib import Path
 
-from dofkit.benchmark import storing
+from dofkit.benchmark import record
 from dofkit.benchmark.record import AUTO, ChartRun, Data
+from dofkit.benchmark.sentences import summary
 from dofkit.benchmark.statistics import against
-from dofkit.benchmark.summary import summary
 from dofkit.benchmark.trials import FAMILIES
 from dofkit.methods.table import METHODS
 
@@ -23,7 +23,7 @@ TWICE = 2
 
 @cache
 def data() -> Data:
-    return storing.read(CHARTS)
+    return record.read(CHARTS)
 
 
 def test_of_more_than_two_thousand_trials_auto_answers_none_wrong() -> None:
@@ -57,7 +57,7 @@ def test_auto_is_on_the_front_and_hardly_slower_than_what_is_sound() -> None:
 def test_every_sentence_about_a_chart_is_worked_out_from_its_data() -> None:
     """Those of chart.json follow from the lines, and each is told as it stands there."""
     chart = summary(data())
-    stored = ChartRun.model_validate_json((CHARTS / storing.SUMMARY).read_text(encoding="utf-8"))
+    stored = ChartRun.model_validate_json((CHARTS / record.SUMMARY).read_text(encoding="utf-8"))
     assert stored.sentences == chart.sentences
     assert set(chart.sentences) >= {"trials", "time", "tolerance", "bits", "primes", "cost", "reductions", *METHODS}
     told = " ".join(PAGE.split())
@@ -79,7 +79,7 @@ def test_the_figures_of_the_site_are_there_and_made_by_its_command() -> None:
     shown = re.findall(r"\]\(../charts/([^)]+)\)", PAGE)
     assert shown
     assert all((CHARTS / path).is_file() for path in shown)
-    chart = ChartRun.model_validate_json((CHARTS / storing.SUMMARY).read_text(encoding="utf-8"))
+    chart = ChartRun.model_validate_json((CHARTS / record.SUMMARY).read_text(encoding="utf-8"))
     assert chart.ran.complete
     assert chart.ran.command == "dofkit chart"
     assert "`dofkit chart --out tests/charts`" in PAGE

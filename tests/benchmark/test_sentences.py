@@ -1,16 +1,14 @@
-"""What charts say and show: sentences worked out by hand, headings and hardness, labels that cover nothing."""
+"""What charts state and show: sentences worked out by hand, headings and hardness."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import combinations
 
 from benchmark.test_chart import DATA, line
 
 from dofkit.benchmark.record import AUTO, Fit, Outcome, TrialLine
-from dofkit.benchmark.sentences import sentences
-from dofkit.benchmark.summary import summary
+from dofkit.benchmark.sentences import sentences, summary
 from dofkit.benchmark.trials import FAMILIES, GLOSSES, HEADINGS
 
 
@@ -65,50 +63,24 @@ def test_every_family_has_its_heading_and_says_what_it_is() -> None:
 
 
 def test_families_stand_under_their_headings_the_hardest_last() -> None:
-    from dofkit.benchmark.figures import matrix
+    from dofkit.benchmark.figures import outcomes
 
     lines = [
         *(replace(line("a", "count", "right", 0.1), family=family) for family in ("trailers", "time", "walls")),
         *(replace(line("b", "count", "wrong", 0.1), family=family) for family in ("time", "time")),
         *(replace(line("b", "count", "wrong", 0.1), family=family) for family in ("trailers",)),
     ]
-    cells = matrix.together(score for score in summary(replace(DATA, lines=lines)).scores if score.family != "all")
+    cells = outcomes.together(score for score in summary(replace(DATA, lines=lines)).scores if score.family != "all")
     differential, equations = HEADINGS["time"], HEADINGS["walls"]
-    assert matrix.in_order(cells) == ["all", differential, "trailers", "time", equations, "walls"]
+    assert outcomes.in_order(cells) == ["all", differential, "trailers", "time", equations, "walls"]
     assert (cells["all", "count"].trials, cells["all", "count"].wrong) == (6, 3)
 
 
 def test_an_exponent_stands_where_a_power_law_fits() -> None:
-    from dofkit.benchmark.figures import cost
+    from dofkit.benchmark.figures import speed
 
     fit = Fit(question="dof", family="trailers", method=AUTO, exponent=2, error=0.1, factor=1, points=5)
-    assert cost.holds(fit)
-    assert not cost.holds(fit.model_copy(update={"error": 0.3}))
-    assert not cost.holds(fit.model_copy(update={"points": 3}))
-    assert not cost.holds(fit.model_copy(update={"exponent": -0.15, "error": 0.07}))
-
-
-def test_labels_cover_no_mark_and_no_other_label() -> None:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-    from matplotlib.offsetbox import AnnotationBbox
-    from matplotlib.transforms import Bbox
-
-    from dofkit.benchmark.figures.labels import Label, Piece, place
-
-    figure = Figure(figsize=(5, 4))
-    FigureCanvasAgg(figure)
-    axes = figure.subplots()
-    axes.set_xlim(0, 10)
-    axes.set_ylim(0, 10)
-    marks = [(5.0 + 0.5 * (k % 3), 5.0 + 0.4 * (k // 3)) for k in range(6)]
-    place(axes, [Label(at, ([Piece(f"method {k}", "#000000")],)) for k, at in enumerate(marks)], 4.0)
-    figure.canvas.draw()
-    boxes = [box for box in axes.get_children() if isinstance(box, AnnotationBbox)]
-    texts = [box.offsetbox.get_window_extent() for box in boxes]
-    assert len(texts) == 6
-    assert not [1 for one, other in combinations(texts, 2) if Bbox.intersection(one.padded(-1), other.padded(-1))]
-    middles = [axes.transData.transform(at) for at in marks]
-    assert not [1 for text in texts for x, y in middles if text.contains(x, y)]
-    inside = axes.get_window_extent()
-    assert all(inside.contains(text.x0, text.y0) and inside.contains(text.x1, text.y1) for text in texts)
+    assert speed.holds(fit)
+    assert not speed.holds(fit.model_copy(update={"error": 0.3}))
+    assert not speed.holds(fit.model_copy(update={"points": 3}))
+    assert not speed.holds(fit.model_copy(update={"exponent": -0.15, "error": 0.07}))

@@ -82,4 +82,4 @@ def test_what_is_redundant_on_one_branch_says_so() -> None:
     report = dofkit.classify(governor(dimension=2))
     assert report.redundant == ["c5"]
     assert report.verdicts["redundant"].about == "component"
-    assert "This is stated for the component of the configuration space" in report.constraints[-1].reason
+    assert "The claim is about the component of the configuration space" in report.constraints[-1].reason

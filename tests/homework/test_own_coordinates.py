@@ -10,7 +10,7 @@ import pytest
 from dofkit.homework.assignment import AssignmentError, load_assignment
 from dofkit.homework.grading import grade
 from dofkit.homework.key.key import Key
-from dofkit.homework.key.polar_angles import polar_angles
+from dofkit.homework.key.own_coordinates import polar_angles
 from dofkit.homework.starting import starting
 from dofkit.scene.reading import load
 

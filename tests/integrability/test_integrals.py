@@ -20,7 +20,8 @@ from shared.work import calls_of, counted
 
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
-from dofkit.expressions.text import Names, parse_expression, parse_relations
+from dofkit.expressions.text import parse_expression, parse_relations
+from dofkit.expressions.text.names import Names
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.search import Integral, integrate
 from dofkit.relations.normal.normal_form import cleared, in_velocities, linear_form

@@ -15,9 +15,8 @@ from shared.command_line import called
 from shared.late import LONG
 
 import dofkit
-from dofkit.base.journal import BusyError, Journal
+from dofkit.base.runs import BusyError, Journal, Pool
 from dofkit.base.workers import Job, JobOutcome
-from dofkit.base.workers.pool import Pool
 from dofkit.interface.many.run import Helpers, answer, kept_reports
 from dofkit.interface.many.scene_files import SceneGiven
 from dofkit.interface.named_files import named_files
@@ -220,16 +219,13 @@ def test_a_journal_keeps_what_is_written_again(tmp_path: Path) -> None:
     assert not list(path.parent.iterdir())
 
 
-def test_a_model_is_another_where_a_part_of_it_is(tmp_path: Path, counting: Counting) -> None:
-    (tmp_path / "part.xml").write_text("<mujocoinclude/>")
-    (tmp_path / "deep.xml").write_text("<mujocoinclude><include file='part.xml'/></mujocoinclude>")
-    model = tmp_path / "m.xml"
+def test_a_model_that_includes_files_is_analysed_again(tmp_path: Path, counting: Counting) -> None:
+    model, alone = tmp_path / "m.xml", tmp_path / "alone.xml"
     model.write_text("<mujoco><include file='deep.xml'/><mesh file='no.stl'/></mujoco>")
+    alone.write_text("<mujoco><worldbody/></mujoco>")
     out = tmp_path / "out"
-    assert counting.run(out, [model]) == ["m"]
-    assert counting.run(out, [model]) == []
-    (tmp_path / "part.xml").write_text("<mujocoinclude> </mujocoinclude>")
-    assert counting.run(out, [model]) == ["m"]
+    assert sorted(counting.run(out, [model, alone])) == ["alone", "m"]
+    assert counting.run(out, [model, alone]) == ["m"]
 
 
 # What breaks a worker

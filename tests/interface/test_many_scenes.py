@@ -68,7 +68,7 @@ def test_more_than_three_scenes_are_a_line_each_and_a_summary(capsys: pytest.Cap
     ]
     assert lines[3].endswith("proved     1 redundant")
     assert re.fullmatch(r"4 scenes in [\d.]+ s: 4 proved", lines[6])
-    assert lines[7:9] == ["  right by their own answers: 4 of 4", "  1 redundant"]
+    assert lines[7:9] == ["  agree with the answers in their files: 4 of 4", "  1 with redundant constraints"]
     assert lines[9].startswith("  slowest: ")
 
 
@@ -97,7 +97,7 @@ def test_what_cannot_be_read_and_what_is_otherwise_than_expected_is_counted(
     assert status == 2
     assert "3 scenes in" in out
     assert "2 proved, 1 could not be read" in out
-    assert "right by their own answers: 1 of 2\n  otherwise than they expect: wrong\n" in out
+    assert "agree with the answers in their files: 1 of 2\n  differ from the answers in their files: wrong\n" in out
     assert "there is no file 'nonsense'" in err
     assert (
         "Differs from what the scene expects\n  ! dof: 2 expected, but the report has 1\n"
@@ -194,7 +194,7 @@ def test_what_is_undecided_is_not_said_to_be_the_same() -> None:
     sure = {**report.verdicts, "dof": FieldVerdict(verdict="undecided")}
     unsure = report.model_copy(update={"dof": None, "verdicts": sure})
     said = changed(unsure, unsure, ["c1"]).parts
-    assert said == [Remark("undecided", "it is open whether these change: degrees of freedom")]
+    assert said == [Remark("undecided", "it is undecided whether these change: degrees of freedom")]
 
 
 # Exit status
@@ -235,15 +235,15 @@ def test_undecided_fails_where_it_is_asked(capsys: pytest.CaptureFixture[str]) -
 @pytest.mark.parametrize(
     ("word", "kind", "said"),
     [
-        ("NH_HALF", "code of feedback", "half a degree of freedom"),
-        ("nh-half", "code of feedback", "half a degree of freedom"),
+        ("NH_HALF", "feedback code", "half a degree of freedom"),
+        ("nh-half", "feedback code", "half a degree of freedom"),
         ("velocity_dof", "field of a report", "non-holonomic constraints reduce it"),
         ("circuit", "field of a constraint", "minimal set"),
         ("proved", "verdict", "exact arithmetic"),
         ("regular point", "argument", "ImplicitFunctions"),
         ("Laman1970", "theorem", "minimally rigid"),
-        ("revolute", "type of constraint", "between (the two bodies"),
-        ("rheonomic", "word", "Time occurs explicitly"),
+        ("revolute", "constraint type", "between (the two bodies"),
+        ("rheonomic", "term", "Time occurs explicitly"),
         ("hinge", "synonym", "`revolute`"),
     ],
 )

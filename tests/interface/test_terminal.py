@@ -98,7 +98,9 @@ def test_what_a_model_has_besides_has_one_line() -> None:
 
 
 def test_time_is_counted_in_a_growth_vector_that_begins_above_the_velocities() -> None:
-    assert re.search(r"growth vector +\(10, 11\)  of \(q, t\)\n", shown(report(growth_vector=[10, 11])))
+    assert re.search(
+        r"growth vector +\(10, 11\)  in \(q, t\): time is counted\n", shown(report(growth_vector=[10, 11]))
+    )
     assert re.search(r"growth vector +\(9, 10\)\n", shown(report(growth_vector=[9, 10])))
 
 
@@ -169,7 +171,7 @@ def test_redundancy_forces_and_warnings() -> None:
     for piece in (
         "maximal redundant set: c2", "Overconstrained by 1: the equations of c1, c2 are dependent.",
         "c2: implied by c1", "0 of 1",
-        "spring: It only pulls.", "! Look out.", "c1, c2: It is closed.",
+        "spring: It only pulls.", "! Look out.", "c1, c2: Each is closed.",
     ):  # fmt: skip
         assert piece in text
 

@@ -12,8 +12,8 @@ import dofkit
 import dofkit.methods
 from dofkit.base.verdicts import VERDICTS
 from dofkit.benchmark.failures import TRAITS, WHY, explained
-from dofkit.methods.ask import Knobs, answered
-from dofkit.methods.table import METHODS, QUESTIONS, MethodName, Question, function_of
+from dofkit.methods.ask import answered
+from dofkit.methods.table import METHODS, QUESTIONS, Knobs, MethodName, Question, function_of
 from dofkit.report import Report
 
 HOME = Path(dofkit.methods.__file__).parent

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 import dofkit
+from dofkit.base.documents import yaml_text
 from dofkit.base.errors import SceneError
 from dofkit.models.formats import FORMATS, format_of, is_model
 from dofkit.models.model_document import tolerance_of
-from dofkit.models.scene_text import scene_text
 
 BEGINNINGS = {
     "<mujoco>": "MJCF",
@@ -94,6 +94,6 @@ def test_the_text_of_a_scene_is_read_as_it_was() -> None:
         ],
         "left_out": ['it said "no": don\'t'],
     }
-    scene = dofkit.loads(scene_text(value, ("a remark",)))
+    scene = dofkit.loads(yaml_text(value, ("bodies", "constraints", "left_out"), ("a remark",)))
     assert scene == dofkit.load(value)
     assert scene.constraints[0].name == "a: b, [c]"

@@ -9,39 +9,21 @@ from collections.abc import Iterator
 
 import pytest
 from models.sketches import random_sketch
-from models.spatial_sketches import random_space
 from models.test_urdf import LOOPS, MIMIC, OPEN_LOOP, TREE, robot
 
 import dofkit
 from dofkit.base.errors import SceneError
 
-#: A random sketch in space with an extrusion and a workplane on its copies.
-SPACE = 13
 STARTS = {
     "tree": TREE.encode(),
     "mimic": MIMIC.encode(),
     "loop": robot(*OPEN_LOOP, LOOPS["hinge"]).encode(),
     "sketch": random_sketch(3).text().encode("latin-1"),
-    "space": random_space(SPACE).text().encode("latin-1"),
 }
 PIECES = (
-    b"",
-    b"<",
-    b">",
-    b"'",
-    b"\x00",
-    b"1e999",
-    b"nan",
-    b"-",
-    b"\xff",
-    b"link",
-    b"&a;",
-    b"joint",
-    b"=",
-    b"0",
-    b"\n",
+    b"", b"<", b">", b"'", b"\x00", b"1e999", b"nan", b"-", b"\xff", b"link", b"&a;", b"joint", b"=", b"0", b"\n",
     b"9" * 400,
-)
+)  # fmt: skip
 
 
 def changed(data: bytes, seed: int) -> Iterator[bytes]:

@@ -9,7 +9,7 @@ import pytest
 
 import dofkit
 from dofkit.base.errors import SceneError
-from dofkit.models.compiled_by_mujoco import compiled
+from dofkit.models.mjcf import compiled
 from dofkit.models.model_document import ModelFile
 
 GEOM = "<geom type='sphere' size='0.1' mass='1'/>"

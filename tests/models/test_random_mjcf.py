@@ -8,7 +8,7 @@ import random
 import pytest
 
 import dofkit
-from dofkit.models.compiled_by_mujoco import compiled
+from dofkit.models.mjcf import compiled
 from dofkit.models.model_document import ModelFile
 
 

@@ -14,7 +14,7 @@ from models.sketches import PLANE, RandomSketch, distance, random_sketch
 
 import dofkit
 from dofkit.base.errors import SceneError
-from dofkit.models.sketch_relations import KINDS
+from dofkit.models.sketch_constraints import KINDS
 
 
 def load(text: str) -> dofkit.Scene:
@@ -144,18 +144,20 @@ def test_an_arc_that_is_a_whole_circle_is_told_once() -> None:
     assert (report.dof, report.redundant) == (4, [])
 
 
-def test_what_is_seen_in_another_workplane_is_not_read_as_in_its_own() -> None:
-    """Two points of the plane x, y in the same place as seen along x: only y is the same."""
+def test_what_belongs_to_another_workplane_or_to_space_is_left_out_with_a_warning() -> None:
+    """A constraint in the plane y, z and a free point of space: the square keeps its 8, and the report says so."""
     sketch = square()
     (h, a), (i, b) = sketch.points[0], sketch.points[2]
     sketch.record("Entity", h_v="00030000", type="10000", point_0="00010001", normal_v="00030020")
     half = {f"actNormal_{k}": "0.5" for k in ("w", "vx", "vy", "vz")}
     sketch.record("Entity", h_v="00030020", type="3000", **half)
     sketch.record("Request", h_v="00000003", type="100", group_v="00000001")
+    sketch.record("Entity", h_v="00090001", type="2000")
     sketch.add(20, equal((a + 1, b + 1)), ptA=h, ptB=i, workplane=0x30000)
-    scene = load(sketch.text())
-    assert scene.dimension == 3
-    assert dofkit.classify(scene).dof == 7
+    report = dofkit.classify(load(sketch.text()))
+    assert report.dof == 8
+    assert any("c005-points-coincident: it belongs to a workplane other than" in told for told in report.warnings)
+    assert "1 point outside the plane of most points" in report.modelled
 
 
 START = "\xb1\xb2\xb3SolveSpaceREVa\n"
@@ -163,6 +165,7 @@ POINT = "Entity.h.v=00010001\nEntity.type={}\nAddEntity\n"
 FAULTS = {
     "no entity": START,
     "no point that dofkit reads": START + POINT.format(2001),
+    "sketches in space are not read": START + POINT.format(2000),
     "line 2, column 1: Entity.type is 'no'": START + POINT.format("no"),
 }
 
@@ -180,7 +183,7 @@ def test_every_kind_that_is_read_has_a_random_sketch() -> None:
     """But those whose equations are those of distances and angles, and cubics."""
     met = {line.rpartition("=")[2] for seed in range(200) for line in random_sketch(seed).text().split("\n")
            if line.startswith("Constraint.type")}  # fmt: skip
-    assert {str(k) for k, kind in KINDS.items() if kind.says is not None} - met == {"52", "53", "54", "124"}
+    assert {str(k) for k in KINDS} - met == {"52", "53", "54", "124"}
 
 
 def compared(seed: int) -> str:

@@ -17,7 +17,7 @@ import pytest
 
 import dofkit
 from dofkit.base.errors import SceneError
-from dofkit.models.compiled_by_mujoco import compiled
+from dofkit.models.mjcf import compiled
 from dofkit.models.model_document import ModelFile
 
 pytestmark = pytest.mark.sweep

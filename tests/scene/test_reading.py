@@ -14,8 +14,8 @@ import yaml
 
 import dofkit
 from dofkit.base.documents import read_document
-from dofkit.base.documents.composer import Composer, compose
 from dofkit.base.errors import Fault, SceneError
+from dofkit.base.yaml_events import ComposedText, compose
 from dofkit.interface.explanations import explanations_of
 from dofkit.scene.found_files import find
 from dofkit.scene.reading import MOST_FAULTS, SceneFile, load, loads
@@ -76,8 +76,8 @@ def test_json_reads_as_json(text: str) -> None:
 def test_a_scene_reads_alike_in_yaml_and_json(path: Path) -> None:
     """Also by PyYAML's own parser, which is asked where libyaml's finds an error."""
     text = path.read_text(encoding="utf-8")
-    document, slow = read_document(text, "x"), Composer()
-    assert slow.read(text, yaml.SafeLoader) == document.value
+    document, slow = read_document(text, "x"), ComposedText(text, yaml.SafeLoader)
+    assert slow.value == document.value
     assert slow.places == document.places
     assert document.faults == ()
     written = json.dumps(document.value, default=float, ensure_ascii=False)

@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from dofkit.benchmark.trials.trial import Trial
+from dofkit.benchmark.trials.construction import Trial
 from dofkit.methods.table import Knobs, MethodReply
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from dofkit.base.workers.worker import STARTING, Worker
+from dofkit.base.workers import STARTING, Worker
 
 #: Seconds that are never used up: whoever waits for something waits so long, and fails then.
 LONG = 300.0

@@ -74,8 +74,8 @@ def test_every_field_and_verdict_is_told_of() -> None:
     assert all(f"| `{field}` |" in glossary for field in {*Report.model_fields, *ConstraintEntry.model_fields})
     assert all(f"| `{v}` |" in glossary for v in ("proved", "probable", "numeric", "undecided"))
     assert all(prose(key) in glossary for key in TABLE)
-    explained = [word for word in all_explanations() if word.kind in ("word", "code of feedback")]
-    assert {word.kind for word in explained} == {"word", "code of feedback"}
+    explained = [word for word in all_explanations() if word.kind in ("term", "feedback code")]
+    assert {word.kind for word in explained} == {"term", "feedback code"}
     assert all(prose(word.word) in glossary or f"`{word.word}`" in glossary for word in explained)
     assert glossary.index("## Terms") < glossary.index("## Feedback codes") < glossary.index("## How dofkit writes")
 

@@ -14,14 +14,26 @@ from adversary.running import answered
 from shared.known_scenes import swept
 
 from dofkit.benchmark.trials.construction import KnownScene
-from dofkit.benchmark.trials.contexts import identities, near_misses
+from dofkit.benchmark.trials.identities import CONTEXTS, NOT_ZERO, TRAPS, Trap, tiny_steps
+from dofkit.benchmark.trials.poses import JOINTED, NEAR, SWEEPS, FrameworkPose
 from dofkit.benchmark.trials.rewritten import other_coordinates
-from dofkit.benchmark.trials.steps import tiny_steps
-from dofkit.benchmark.trials.sweeps import JOINTED, NEAR, SWEEPS, Near
-from dofkit.benchmark.trials.traps import TRAPS, Trap
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import num
+
+
+def identities() -> Iterator[KnownScene]:
+    """Yield expressions that are zero by an identity, in every context."""
+    for trap in TRAPS:
+        yield from (known for context in CONTEXTS if (known := context(trap, trap.zero, True)))
+
+
+def near_misses() -> Iterator[KnownScene]:
+    """Yield expressions that are nearly such an identity and are not zero, in every context."""
+    every = [*((trap, miss) for trap in TRAPS for miss in trap.misses), *((trap, trap.zero) for trap in NOT_ZERO)]
+    for trap, text in every:
+        yield from (known for context in CONTEXTS if (known := context(trap, text, False)))
+
 
 #: The scenes of each family, and the least share of right answers.
 FAMILIES: Mapping[str, tuple[Callable[[], Iterator[KnownScene]], float]] = {
@@ -73,11 +85,12 @@ def test_near_singular_poses(sweep: str, step: int) -> None:
     assert share_right(scenes[step // 2 :: step]) >= (FLOORS.get(sweep, 1) if step == 1 else 0)
 
 
-@pytest.mark.parametrize("near", NEAR, ids=lambda near: near.name)
-def test_the_velocities_by_hand_are_those_of_the_matrix(near: Near) -> None:
+@pytest.mark.parametrize("pose", NEAR, ids=lambda pose: pose.name)
+def test_the_velocities_by_hand_are_those_of_the_matrix(pose: FrameworkPose) -> None:
     """The rank over the rationals, at the singular pose and beside it."""
-    for step, (dof, first) in ((Fraction(0), near.there), (Fraction(1, 1000), near.beside)):
-        assert near.at(step).by_rank() == first
+    for step in (Fraction(0), Fraction(1, 1000)):
+        dof, first = pose.freedom(step)
+        assert pose.at(step).by_rank() == first
         assert dof is None or dof <= first
 
 

@@ -7,17 +7,17 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from dofkit.benchmark.figures import cost, fronts, matrix, reductions, sweeps
-from dofkit.benchmark.figures.style import settle, styled
+from dofkit.benchmark.figures import outcomes, speed
+from dofkit.benchmark.figures.style import styled
 from dofkit.benchmark.record import ChartRun
 
 FIGURES: Mapping[str, Callable[[ChartRun], Figure | None]] = {
-    "fronts": fronts.draw,
-    "matrix": matrix.draw,
-    "cost": cost.draw,
-    "tolerance": sweeps.tolerance,
-    "bits": sweeps.bits,
-    "reductions": reductions.draw,
+    "fronts": speed.fronts,
+    "matrix": outcomes.matrix,
+    "cost": speed.cost,
+    "tolerance": outcomes.tolerance,
+    "bits": outcomes.bits,
+    "reductions": outcomes.reductions,
 }
 
 
@@ -28,7 +28,6 @@ def write(chart: ChartRun, out: Path) -> Iterator[Path]:
             figure = draw(chart)
             if figure is None:
                 continue
-            settle(figure)
             figure.savefig(out / f"{name}.svg", metadata={"Date": None})
             figure.savefig(out / f"{name}.png", dpi=144, metadata={"Software": None})
         yield out / f"{name}.png"

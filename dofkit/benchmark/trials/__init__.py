@@ -1,4 +1,9 @@
-"""The families of stress trials: one function each, in one module a theme."""
+"""The families of trials with known answers: one function each, in one module for each kind of mathematics.
+
+A family yields scenes with what is true of them by construction (`construction.KnownScene`); every question whose
+answer is known becomes a trial. Scenes that follow no rule stand in tables (the YAML files of this folder), with their
+truth derived by hand.
+"""
 
 from __future__ import annotations
 
@@ -6,69 +11,48 @@ from collections.abc import Callable, Iterator, Mapping
 from types import ModuleType
 
 from dofkit.benchmark.trials import (
-    blocks,
-    catalog,
+    bodies,
     chains,
-    equivalence,
+    equations,
     forms,
     graphs,
     identities,
-    joints,
-    mechanisms,
-    near_singular,
-    powers,
-    relations,
-    times,
+    lectures,
+    poses,
 )
-from dofkit.benchmark.trials.construction import KnownScene, few
-from dofkit.benchmark.trials.trial import Trial
+from dofkit.benchmark.trials.construction import KnownScene, Trial, few
 
 Family = Callable[[bool], Iterator[Trial]]
 
 #: What the families are about: five headings, and the modules under each.
 _HEADINGS: Mapping[str, tuple[ModuleType, ...]] = {
-    "Lectures and homework": (catalog, equivalence),
-    "Linkages and mechanisms": (graphs, joints, mechanisms),
-    "Drawings: nearly singular, rounded, far away": (near_singular,),
-    "Differential constraints, time, long chains": (forms, times, chains, blocks),
-    "Equations between coordinates": (relations, powers, identities),
-}
-#: The scenes of each family by name.
-KNOWN_SCENES: Mapping[str, Callable[[bool], Iterator[KnownScene]]] = {
-    **catalog.FAMILIES,
-    **graphs.FAMILIES,
-    **joints.FAMILIES,
-    **mechanisms.FAMILIES,
-    **near_singular.FAMILIES,
-    **chains.FAMILIES,
-    **blocks.FAMILIES,
-    **forms.FAMILIES,
-    **times.FAMILIES,
-    **relations.FAMILIES,
-    **powers.FAMILIES,
-    **identities.FAMILIES,
-    **equivalence.FAMILIES,
+    "Lectures and homework": (lectures,),
+    "Linkages and mechanisms": (graphs, bodies),
+    "Drawings: nearly singular, rounded, far away": (poses,),
+    "Differential constraints, time, long chains": (forms, chains),
+    "Equations between coordinates": (equations, identities),
 }
 #: The heading that each family stands under.
 HEADINGS: Mapping[str, str] = {
     name: heading for heading, modules in _HEADINGS.items() for module in modules for name in module.FAMILIES
 }
-
-
-def _trials(name: str, constructions: Iterator[KnownScene]) -> Iterator[Trial]:
-    return (trial for construction in constructions for trial in construction.trials(name))
+#: The scenes of each family by name. ``quick``: small ones.
+KNOWN_SCENES: Mapping[str, Callable[[bool], Iterator[KnownScene]]] = {
+    name: scenes for modules in _HEADINGS.values() for module in modules for name, scenes in module.FAMILIES.items()
+}
+#: What each family is, in a line.
+GLOSSES: Mapping[str, str] = {
+    name: (scenes.__doc__ or "").partition("\n")[0].rstrip(".") for name, scenes in KNOWN_SCENES.items()
+}
 
 
 def _family(name: str) -> Family:
-    """Of the small members, a few that stand for the others."""
-    return lambda quick: (
-        few(_trials(name, KNOWN_SCENES[name](True))) if quick else _trials(name, KNOWN_SCENES[name](False))
-    )
+    def trials(quick: bool) -> Iterator[Trial]:
+        every = (trial for known in KNOWN_SCENES[name](quick) for trial in known.trials(name))
+        return few(every) if quick else every
+
+    return trials
 
 
-#: What each family is, in a line.
-GLOSSES: Mapping[str, str] = {
-    name: (made.__doc__ or "").partition("\n")[0].rstrip(".") for name, made in KNOWN_SCENES.items()
-}
 #: Every family by name. ``quick``: a few small members that stand for the others.
 FAMILIES: Mapping[str, Family] = {name: _family(name) for name in KNOWN_SCENES}

@@ -1,4 +1,4 @@
-"""Long connected chains: links, bodies, forms, trailers."""
+"""Long connected chains: links, bodies, forms, trailers, equations."""
 
 from __future__ import annotations
 
@@ -10,34 +10,24 @@ from dofkit.benchmark.trials.construction import KnownScene, every, known_scene,
 
 def pendulums(quick: bool) -> Iterator[KnownScene]:
     """Links one after the other from the ground; closed on the ground; and with links written twice."""
+    because = "each link takes one; a chain that is not straight is regular; a link written again adds nothing"
     for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16, 32, 64, 128)) for d in (2, 3)):
         places = [[k, k * k % 3, k % 2][:d] for k in range(n + 1)]
-        names = [f"P{k}" for k in range(1, n + 1)]
-        particles = [{"name": name, "at": at} for name, at in zip(names, places[1:], strict=True)]
-        ends: list[Any] = [places[0], *names]
+        ends: list[Any] = [places[0], *(f"P{k}" for k in range(1, n + 1))]
+        particles = [{"name": name, "at": at} for name, at in zip(ends[1:], places[1:], strict=True)]
         links = [_link(f"l{k}", ends[k], ends[k + 1]) for k in range(n)]
-        open_chain = {"dimension": d, "particles": particles, "constraints": links}
         twice = [_link(f"again{k}", ends[k], ends[k + 1]) for k in range(0, n, 2)]
-        closed = {
-            "dimension": d,
-            "particles": particles[:-1],
-            "constraints": [*links[:-1], _link(f"l{n - 1}", ends[n - 1], places[n])],
-        }
-        for name, made, dof, over in (
-            ("open", open_chain, d * n - n, []),
-            ("written twice", {**open_chain, "constraints": [*links, *twice]}, d * n - n, [t["name"] for t in twice]),
-            ("closed", closed, d * (n - 1) - n, []),
+        closed = [*links[:-1], _link(f"l{n - 1}", ends[n - 1], places[n])]
+        for name, members, constraints, over in (
+            ("open", particles, links, []),
+            ("written twice", particles, [*links, *twice], [t["name"] for t in twice]),
+            ("closed", particles[:-1], closed, []),
         ):
+            dof = d * len(members) - n
+            made = {"dimension": d, "particles": members, "constraints": constraints}
+            about = f"{n} links in dimension {d}, {name}", made, because, ("redundant",) if over else ("long-chain",), n
             if dof >= 0:
-                yield known_scene(
-                    f"{n} links in dimension {d}, {name}",
-                    made,
-                    "each link takes one; a chain that is not straight is regular; a link written again adds nothing",
-                    ("redundant",) if over else ("long-chain",),
-                    size=n,
-                    dof=dof,
-                    redundancy=over,
-                )
+                yield known_scene(*about, dof=dof, redundancy=over)
 
 
 def _link(name: str, a: Any, b: Any) -> dict[str, Any]:
@@ -46,26 +36,22 @@ def _link(name: str, a: Any, b: Any) -> dict[str, Any]:
 
 def bodies(quick: bool) -> Iterator[KnownScene]:
     """Bodies hinged one to the next, in the plane and in space; every third hinge welded too."""
+    because = "an open chain: the freedoms of the joints add up; a hinge between welded bodies says nothing new"
     for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16, 32)) for d in (2, 3)):
         names = ["ground", *(f"b{k}" for k in range(n))]
         hinges: list[dict[str, Any]] = []
         for k in range(n):
             hinge = {"name": f"h{k}", "type": "revolute", "between": names[k : k + 2], "at": [k, k % 2, 0][:d]}
             hinges.append(hinge | ({"axis": [k % 3, 1, k % 2]} if d == 3 else {}))
-        welded = range(0, n, 3)
-        welds = [{"name": f"w{k}", "type": "weld", "between": names[k : k + 2]} for k in welded]
+        welds = [{"name": f"w{k}", "type": "weld", "between": names[k : k + 2]} for k in range(0, n, 3)]
         for name, joints, dof, over in (
             ("hinged", hinges, n, []),
-            ("every third welded first", [*welds, *hinges], n - len(welded), [f"h{k}" for k in welded]),
+            ("every third welded first", [*welds, *hinges], n - len(welds), [f"h{k}" for k in range(0, n, 3)]),
         ):
+            made = {"dimension": d, "bodies": names[1:], "constraints": joints}
+            traits = ("redundant",) if over else ("long-chain", "joints")
             yield known_scene(
-                f"{n} bodies in dimension {d}, {name}",
-                {"dimension": d, "bodies": names[1:], "constraints": joints},
-                "an open chain: the freedoms of the joints add up; a hinge between welded bodies says nothing new",
-                ("redundant",) if over else ("long-chain", "joints"),
-                size=n,
-                dof=dof,
-                redundancy=over,
+                f"{n} bodies in dimension {d}, {name}", made, because, traits, n, dof=dof, redundancy=over
             )
 
 
@@ -99,36 +85,22 @@ def chained_forms(quick: bool) -> Iterator[KnownScene]:
 
 def trailers(quick: bool) -> Iterator[KnownScene]:
     """A car that steers with trailers: every configuration is reached [Laumond1993]; on a straight rail it is not."""
+    controllable = "controllable: the derived system of n + 2 forms goes down to none (Laumond 1993)"
+    straight = "its heading stays, so the axle runs straight and one direction is left: all integrate"
     for n in (0, 1) if quick else (0, 1, 2, 4, 8, 16, 24):
         made = car(n)
-        forms = numbered(n + 2)
-        yield known_scene(
-            f"a car with {n} trailers",
-            made,
-            "controllable: the derived system of n + 2 forms goes down to none (Laumond 1993)",
-            ("non-holonomic", "long-chain"),
-            size=n + 2,
-            swept={"member": "steers"},
-            dof=n + 4,
-            integrability=every(forms, False),
-        )
-        if n > 3:
-            continue
-        held = {**made, "constraints": ["phi = 0", *made["constraints"]]}
-        yield known_scene(
-            f"a car with {n} trailers that does not steer",
-            held,
-            "its heading stays, so the axle runs straight and one direction is left: all integrate",
-            ("together", "long-chain"),
-            size=n + 2,
-            swept={"member": "does not steer"},
-            dof=1,
-            integrability=every(["c1", *numbered(n + 2, 2)], True),
-        )
+        about = f"a car with {n} trailers", made, controllable, ("non-holonomic", "long-chain"), n + 2
+        labels = every(numbered(n + 2), False)
+        yield known_scene(*about, swept={"member": "steers"}, dof=n + 4, integrability=labels)
+        if n <= 3:
+            held = {**made, "constraints": ["phi = 0", *made["constraints"]]}
+            about = f"a car with {n} trailers that does not steer", held, straight, ("together", "long-chain"), n + 2
+            labels = every(numbered(n + 3), True)
+            yield known_scene(*about, swept={"member": "does not steer"}, dof=1, integrability=labels)
 
 
 def car(n: int) -> dict[str, Any]:
-    """n + 2 forms in n + 4 coordinates, the trailers hitched at the axles."""
+    """Return n + 2 forms in n + 4 coordinates, the trailers hitched at the axles."""
     angles = [f"th{i}" for i in range(n + 1)]
     forms = ["sin(th0 + phi) dx - cos(th0 + phi) dy - l cos(phi) dth0 = 0"]
     for i, angle in enumerate(angles):
@@ -150,15 +122,9 @@ def equations(quick: bool) -> Iterator[KnownScene]:
             ("tied by another slope", f"x{n - 1} = {factor + 1} x0", 0, [], ("plain", "long-chain")),
         )
         for name, last, dof, over, traits in rows:
-            yield known_scene(
-                f"{n} coordinates, {name}",
-                scene_of(names, *sums, last),
-                f"x_n-1 = {factor} x_0 + {factor - 1} by the chain",
-                traits,
-                size=n,
-                dof=dof,
-                redundancy=over,
-            )
+            because = f"x_n-1 = {factor} x_0 + {factor - 1} by the chain"
+            about = f"{n} coordinates, {name}", scene_of(names, *sums, last), because, traits, n
+            yield known_scene(*about, dof=dof, redundancy=over)
 
 
 FAMILIES = {

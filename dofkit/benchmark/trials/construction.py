@@ -1,14 +1,44 @@
-"""What families are made of: scenes whose answers are known by construction, and the trials that ask for these."""
+"""Trials, scenes whose answers are known by construction, and the tables that they are made from."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
+from importlib import resources
 from typing import Any, TypedDict, Unpack
 
-from dofkit.benchmark.trials.trial import Trial, Truth
+import yaml
+
 from dofkit.methods.table import Question
+
+#: ``dof``: a number (-1: the constraints contradict each other); ``integrability``: whether each constraint is
+#: holonomic in the system, by name; ``redundancy``: the names of what can be dropped, sorted; ``equivalence``: whether
+#: ``answer`` is the same constraint as the one that it names.
+Truth = int | bool | list[str] | dict[str, bool]
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One question about one scene. Its truth is never asked of dofkit.
+
+    ``scene`` is a mapping as `dofkit.load` takes it; ``truth`` see `Truth`; ``because`` says in one line why it holds.
+    ``traits`` name what makes it hard (keys of `dofkit.benchmark.failures`), the one that matters most first; ``size``
+    counts what grows with the family; ``swept`` holds what is varied (``digits``, ``gap``, ``scale``, ...).
+    ``answer``: for equivalence, ``{"constraint": name, "text": what was handed in}``.
+    """
+
+    family: str
+    name: str
+    question: Question
+    scene: Mapping[str, Any]
+    truth: Truth
+    because: str
+    traits: tuple[str, ...] = ()
+    size: int = 1
+    swept: Mapping[str, Any] = field(default_factory=dict)
+    answer: Mapping[str, str] | None = None
 
 
 @dataclass(frozen=True)
@@ -20,7 +50,7 @@ class KnownScene:
     where the report says that it speaks of one component only. ``chart``: the coordinates in order as functions of
     p0, p1, ..., of t and of coordinates before them, onto an open part of the configuration space that the truth
     speaks of: as many parameters as ``dof``. By it the truth can be confirmed.
-    ``group``: scenes that belong together; ``equivalence``: a constraint, a text, and whether they say the same. For
+    ``group``: scenes that belong together; ``equivalence``: a constraint, a text, and whether they are the same. For
     ``because``, ``traits``, ``size`` and ``swept`` see `Trial`.
     """
 
@@ -44,13 +74,11 @@ class KnownScene:
     @property
     def integrability(self) -> dict[str, bool] | None:
         """Whether every constraint is holonomic, where that is known of all."""
-        constraints = self.scene.get("constraints", ())
-        names = [c.get("name") if isinstance(c, Mapping) else None for c in constraints]
-        labels = {name: self.truth.get(f"{name}.holonomic") for name in (n or f"c{i + 1}" for i, n in enumerate(names))}
+        labels = {name: self.truth.get(f"{name}.holonomic") for name in constraint_names(self.scene)}
         return None if None in labels.values() else {name: bool(value) for name, value in labels.items()}
 
     def trials(self, family: str) -> Iterator[Trial]:
-        """A trial for every question whose answer is known."""
+        """Yield a trial for every question whose answer is known."""
         redundant = self.truth.get("redundant")
         truths: dict[Question, Truth | None] = {
             "dof": self.dof,
@@ -71,7 +99,7 @@ class KnownScene:
         return Trial(family, name, question, self.scene, truth, *about, answer)
 
     def _variation(self) -> dict[str, Any]:
-        """What is varied; where only the size is, the member of the family that grows: its name with n for the size."""
+        """Return what is varied; where only the size is, the family's growing member: its name with n for the size."""
         member, sizes = re.subn(rf"\b{self.size} by {self.size}\b|\b{self.size}\b", "n", self.name, count=1)
         return dict(self.swept) if self.swept else {"member": member} if sizes else {}
 
@@ -107,62 +135,83 @@ def known_scene(
     return KnownScene(scene, truth, {}, None, name, "", because, traits, size, swept, equivalence)
 
 
-#: Of constraints that contradict each other.
+#: The truth about constraints that contradict each other.
 IMPOSSIBLE: Mapping[str, Any] = {"consistent": False, "dof": None, "velocity_dof": None}
 
 
 def truths(dof: int, velocity_dof: int | None = None, **more: Any) -> dict[str, Any]:
-    """Of a consistent system: its freedoms, as many velocities as ``dof`` unless they are given, and more."""
+    """Return the truth about a consistent system; its velocity freedom is ``dof`` unless stated."""
     return {"consistent": True, "dof": dof, "velocity_dof": dof if velocity_dof is None else velocity_dof, **more}
 
 
 def scene_of(coordinates: str | Sequence[str], *constraints: Any, **more: Any) -> dict[str, Any]:
-    """A scene in coordinates, with spaces between them or as a list; what is given as None is left out."""
+    """Return a scene in coordinates, a list or a text with spaces between them; sections that are None are left out."""
     names = coordinates.split() if isinstance(coordinates, str) else [*coordinates]
-    given = {key: value for key, value in more.items() if value is not None}
-    return {"coordinates": names, "constraints": [*constraints], **given}
+    sections = {key: value for key, value in more.items() if value is not None}
+    return {"coordinates": names, "constraints": [*constraints], **sections}
 
 
-#: A line of a table: name, coordinates, rows, dof (-1: the rows contradict each other), which rows are holonomic, which
-#: are redundant, because, the trait. What is None is not asked.
-Line = tuple[str, str, Sequence[str], int, Sequence[bool] | None, Sequence[str] | None, str, str]
-
-
-def tabled(line: Line) -> KnownScene:
-    """A scene in coordinates alone, its size the number of its rows."""
-    name, coordinates, rows, dof, holonomic, redundant, because, trait = line
-    labels = None if holonomic is None else dict(zip(numbered(len(rows)), holonomic, strict=True))
-    about = name, scene_of(coordinates, *rows), because, (trait,), len(rows)
-    return known_scene(*about, dof=dof, integrability=labels, redundancy=redundant)
-
-
-def every(names: Sequence[str], value: bool) -> dict[str, bool]:
-    """The same of every constraint."""
-    return dict.fromkeys(names, value)
+def constraint_names(scene: Mapping[str, Any]) -> list[str]:
+    """Return the names of a scene's constraints; those without a name are c1, c2, ... by their place."""
+    constraints = scene.get("constraints", ())
+    names = [c.get("name") if isinstance(c, Mapping) else None for c in constraints]
+    return [name or f"c{i + 1}" for i, name in enumerate(names)]
 
 
 def numbered(number: int, first: int = 1) -> list[str]:
-    """The names of constraints without one: c1, c2, ..."""
+    """Return the names of so many constraints without a name: c1, c2, ..."""
     return [f"c{i}" for i in range(first, first + number)]
 
+
+def every(names: Sequence[str], value: bool) -> dict[str, bool]:
+    """Return the same label of every constraint."""
+    return dict.fromkeys(names, value)
+
+
+def labels(values: Sequence[bool] | None) -> dict[str, bool] | None:
+    """Return whether each of the constraints c1, c2, ... is holonomic."""
+    return None if values is None else dict(zip(numbered(len(values)), values, strict=True))
+
+
+# Tables
+
+Row = Mapping[str, Any]
+
+
+@cache
+def tables(file: str) -> Mapping[str, Sequence[Row]]:
+    """Return the tables of a YAML file of this folder, by name."""
+    text = (resources.files(__package__) / file).read_text(encoding="utf-8")
+    found: Mapping[str, Sequence[Row]] = yaml.safe_load(text)
+    return found
+
+
+def tabled(row: Row) -> KnownScene:
+    """Return the scene of a table's row, in coordinates alone; its size is the number of its equations."""
+    about = row["name"], scene_of(row["coordinates"], *row["rows"]), row["because"], (row["trait"],), len(row["rows"])
+    holonomic = labels(row.get("holonomic"))
+    return known_scene(*about, dof=row["dof"], integrability=holonomic, redundancy=row.get("redundant"))
+
+
+# A few for all
 
 #: How many trials of a question stand for a family.
 FEW = 2
 
 
 def few(trials: Iterable[Trial]) -> Iterator[Trial]:
-    """Trials that stand for a family: of the first question a small one, the next with another truth; then one each."""
+    """Return trials that stand for a family: of the first question two small ones with different truths; then one."""
     chosen: dict[str, list[Trial]] = {}
     for trial in sorted(trials, key=lambda trial: trial.size):
-        known = chosen.setdefault(trial.question, [])
+        same = chosen.setdefault(trial.question, [])
         most = FEW if next(iter(chosen)) == trial.question else 1
-        if len(known) < most and kind(trial) not in map(kind, known):
-            known.append(trial)
-    return (trial for known in chosen.values() for trial in known)
+        if len(same) < most and kind(trial) not in map(kind, same):
+            same.append(trial)
+    return (trial for same in chosen.values() for trial in same)
 
 
 def kind(trial: Trial) -> Any:
-    """What must not be the same of all trials of a family and question, lest a method be right by always saying it."""
+    """Return what must not be the same of all trials of a family and question, lest a constant answer be right."""
     truth = trial.truth
     if isinstance(truth, dict):
         return tuple(sorted(set(truth.values())))

@@ -1,31 +1,40 @@
-"""Forms that integrate, that do not, and that do so only together; mixed with functions for coefficients."""
+"""Differential constraints: forms that integrate, that do not, and that do so only together; time; many blocks."""
 
 from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Mapping, Sequence
 
-from dofkit.benchmark.trials.construction import KnownScene, Line, every, known_scene, numbered, scene_of, tabled
+from dofkit.benchmark.trials.construction import (
+    KnownScene,
+    Row,
+    every,
+    known_scene,
+    numbered,
+    scene_of,
+    tabled,
+    tables,
+)
 
 #: A form by coordinate: coefficients as text.
 Form = Mapping[str, str]
 
 
 def text(form: Form) -> str:
-    """As an equation."""
+    """Return a form as an equation."""
     return " + ".join(f"({value}) d{q}" for q, value in form.items()) + " = 0"
 
 
 def combined(rows: Sequence[Sequence[str]], forms: Sequence[Form]) -> list[Form]:
-    """The forms multiplied by a matrix of functions (texts; an empty one is 0)."""
-    found: list[Form] = []
+    """Return the forms multiplied by a matrix of functions (texts; an empty one is 0)."""
+    products: list[Form] = []
     for row in rows:
-        made: dict[str, list[str]] = {}
+        terms: dict[str, list[str]] = {}
         for factor, form in zip(row, forms, strict=True):
             for q, value in form.items() if factor else ():
-                made.setdefault(q, []).append(f"({factor})*({value})")
-        found.append({q: " + ".join(values) for q, values in made.items()})
-    return found
+                terms.setdefault(q, []).append(f"({factor})*({value})")
+        products.append({q: " + ".join(values) for q, values in terms.items()})
+    return products
 
 
 def mixed_forms(quick: bool) -> Iterator[KnownScene]:
@@ -33,8 +42,8 @@ def mixed_forms(quick: bool) -> Iterator[KnownScene]:
 
     The matrix is lower times upper triangular with ones on both diagonals: determinant 1.
     """
-    members = [(2, 0)] if quick else [(2, 0), (2, 1), (3, 0), (3, 1), (4, 0), (5, 0)]
-    for n, seed in members:
+    because = "what they span does not change with a regular matrix of functions"
+    for n, seed in [(2, 0)] if quick else [(2, 0), (2, 1), (3, 0), (3, 1), (4, 0), (5, 0)]:
         rng = random.Random(f"mixed {n} {seed}")
         names = [*(f"u{k}" for k in range(n)), *(f"v{k}" for k in range(n)), "w"]
         exact = [_exact(rng, k, n) for k in range(n)]
@@ -44,20 +53,14 @@ def mixed_forms(quick: bool) -> Iterator[KnownScene]:
             ("one a contact form", [{"u0": "1", "v0": "-w"}, *exact[1:]], False, n + 2),
         ):
             rows = [text(form) for form in combined(matrix, forms)]
-            whole = all(row[0] for row in matrix) or integrates
-            yield known_scene(
-                f"{n} forms in {2 * n + 1} coordinates, {name}, {seed}",
-                scene_of(names, *rows),
-                "what they span does not change with a regular matrix of functions",
-                ("together" if integrates else "non-holonomic", "large"),
-                size=n,
-                dof=dof,
-                integrability=every(numbered(n), integrates) if whole else None,
-            )
+            labels = every(numbered(n), integrates) if all(row[0] for row in matrix) or integrates else None
+            traits = ("together" if integrates else "non-holonomic", "large")
+            about = f"{n} forms in {2 * n + 1} coordinates, {name}, {seed}", scene_of(names, *rows), because, traits, n
+            yield known_scene(*about, dof=dof, integrability=labels)
 
 
 def _exact(rng: random.Random, k: int, n: int) -> Form:
-    """d(u_k + a function of the v) for a random one."""
+    """Return d(u_k + a function of the v) for a random one."""
     a, b, i, j = rng.randint(1, 5), rng.randint(1, 5), rng.randrange(n), rng.randrange(n)
     slopes = rng.choice(
         (
@@ -71,7 +74,7 @@ def _exact(rng: random.Random, k: int, n: int) -> Form:
 
 
 def _unimodular(rng: random.Random, n: int) -> list[list[str]]:
-    """(1 on the diagonal, f_i below) (1 on the diagonal, g_j above): entries sum_k L_ik U_kj."""
+    """Return (1 on the diagonal, f_i below) (1 on the diagonal, g_j above): entries sum_k L_ik U_kj."""
 
     def entry() -> str:
         return rng.choice((f"u{rng.randrange(n)}", f"v{rng.randrange(n)}^2", f"sin(u{rng.randrange(n)})", "w"))
@@ -87,65 +90,12 @@ def _unimodular(rng: random.Random, n: int) -> list[list[str]]:
     ]
 
 
-TOGETHER: list[Line] = [
-    ("one edge on a lamina", "x y th", ["sin(th) dx = cos(th) dy"], 3, [False], [], "a sleigh", "non-holonomic"),
-    ("two edges one behind the other", "x y th", ["sin(th) dx = cos(th) dy", "sin(th) dx = cos(th) dy + dth"], 1,
-     [True, True], [], "the difference is dth = 0", "together"),
-    ("two edges side by side", "x y th", ["sin(th) dx = cos(th) dy", "2 sin(th) dx = 2 cos(th) dy"], 3,
-     [False, False], ["c2"], "the same form twice", "redundant"),
-    ("two edges across", "x y th", ["sin(th) dx = cos(th) dy", "cos(th) dx + sin(th) dy = 0"], 1,
-     [True, True], [], "dx = dy = 0: it turns in its place", "together"),
-    ("three edges", "x y th", ["sin(th) dx = cos(th) dy", "cos(th) dx + sin(th) dy = dth",
-     "sin(th) dx = cos(th) dy + 2 dth"], 0, [True, True, True], [], "dth = 0, then dx = dy = 0", "together"),
-    ("edges on a turning lamina", "x y th", ["sin(th) dx = cos(th) dy", "sin(th) dx - cos(th) dy = dth - dt"], 2,
-     [False, False], [], "th - t integrates; the edge that turns with time does not", "rheonomic"),
-    ("a contact form and its twin", "x y z w", ["dz = y dx", "dw = y dx"], 3, [False, False], [],
-     "only z - w integrates", "non-holonomic"),
-    ("a contact form and its multiple", "x y z", ["dz = y dx", "dz = 2 y dx"], 1, [True, True], [],
-     "dz = 0 and dx = 0 (where y is not 0)", "together"),
-    ("a contact form, and y held", "x y z", ["dz = y dx", "dy = 0"], 1, [True, True], [], "y = C, z = C x", "together"),
-    ("a contact form, and x held", "x y z", ["dz = y dx", "dx = 0"], 1, [True, True], [], "x = C, z = C", "together"),
-    ("a contact form on a cylinder", "x y z", ["y^2 + x^2 = 1", "dz = y dx"], 1, [True, True], [],
-     "two directions less one", "together"),
-    ("a contact form beside a cylinder", "x y z w", ["w^2 + x^2 = 1", "dz = y dx"], 3, [True, False], [],
-     "y is free", "non-holonomic"),
-    ("a sphere in differentials", "x y z", ["x dx + y dy + z dz = 0"], 2, [True], [], "x^2 + y^2 + z^2", "integrable"),
-    ("a sphere, and its differential", "x y z", ["x^2 + y^2 + z^2 = 4", "x dx + y dy + z dz = 0"], 2, [True, True],
-     ["c2"], "the differential says no more", "redundant"),
-    ("a differential, then its sphere", "x y z", ["x dx + y dy + z dz = 0", "x^2 + y^2 + z^2 = 4"], 2, [True, True],
-     ["c1"], "the finite one alone fixes the constant", "redundant"),
-    ("Riccati", "x y z", ["dz = (x^2 + 3) dx + (2 y + y^2) dy"], 2, [True], [], "closed", "integrable"),
-    ("with a factor", "x y z", ["y dz + 2 y z dx + z dy = 0"], 2, [True], [], "d(e^(2x) y z) = e^(2x) (...)",
-     "integrable"),
-    ("nearly with a factor", "x y z", ["y dz + 2 y z dx + 2 z dy + y dy = 0"], 3, [False], [],
-     "its wedge with its differential is 2 y^2 dx dy dz", "non-holonomic"),
-    ("a screw", "x y z", ["x dy - y dx + dz = 0"], 3, [False], [], "d of it is 2 dx dy", "non-holonomic"),
-    ("a screw in polar angles", "r a z", ["r^2 da + dz = 0"], 3, [False], [], "d of it is 2 r dr da", "non-holonomic"),
-    ("a screw on a cylinder", "x y z", ["x^2 + y^2 = 1", "x dy - y dx + dz = 0"], 1, [True, True], [],
-     "the arc length plus z", "together"),
-    ("a disc, its rows turned", "x y th ph", ["cos(th) dx + sin(th) dy = dph", "sin(th) dx = cos(th) dy"], 4,
-     [False, False], [], "the rolling disc", "rolling"),
-    ("a disc whose heading follows its roll", "x y th ph", ["dx = cos(th) dph", "dy = sin(th) dph", "dth = 3 dph"], 1,
-     [True] * 3, [], "three forms in four coordinates", "together"),
-    ("a disc, its heading follows its place", "x y th ph", ["dx = cos(th) dph", "dy = sin(th) dph", "th = x"], 1,
-     [True] * 3, [], "one direction is left", "together"),
-    ("a disc and its resultant", "x y th ph", ["dx = cos(th) dph", "dy = sin(th) dph",
-     "cos(th) dx + sin(th) dy = dph"], 4, [False] * 3, ["c3"], "cos c1 + sin c2", "redundant"),
-    ("a disc and a wrong resultant", "x y th ph", ["dx = cos(th) dph", "dy = sin(th) dph",
-     "cos(th) dx + sin(th) dy = 2 dph"], 1, [True] * 3, [], "dph = 0, and so dx = dy = 0", "together"),
-    ("Engel", "x y z w", ["dz = y dx", "dy = w dx"], 4, [False, False], [], "Goursat's normal form", "non-holonomic"),
-    ("Engel with w held", "x y z w", ["dz = y dx", "dy = w dx", "w = 2"], 1, [True] * 3, [], "a line", "together"),
-    # [Cartan1910]
-    ("Cartan's five variables", "x y p q z", ["dy = p dx", "dp = q dx", "dz = q^2 dx"], 5, [False] * 3, [],
-     "growth 2, 3, 5 (Cartan 1910)", "non-holonomic"),
-    ("Cartan's with q in place of q^2", "x y p q z", ["dy = p dx", "dp = q dx", "dz = q dx"], 4, [False] * 3, [],
-     "z - p integrates, neither form does", "non-holonomic"),
-]  # fmt: skip
-
-
 def together(quick: bool) -> Iterator[KnownScene]:
-    """Forms with their system: the label of each is one of the whole."""
-    return map(tabled, TOGETHER[: 9 if quick else None])
+    """Forms with their system: the label of each is one of the whole.
+
+    Among them are five variables of growth 2, 3, 5 [Cartan1910].
+    """
+    return map(tabled, tables("forms.yaml")["together"][: 9 if quick else None])
 
 
 def near_integrable(quick: bool) -> Iterator[KnownScene]:
@@ -153,18 +103,104 @@ def near_integrable(quick: bool) -> Iterator[KnownScene]:
     for n, digits in ((n, d) for n in ((1, 2) if quick else (1, 2, 4)) for d in (3, 6, 9, 12, 18, 30)):
         names = [*(f"z{k}" for k in range(n)), "x", "y"]
         exact = [f"dz{k} + {k + 1}*(y dx + x dy)" for k in range(n)]
-        for name, step, holonomic in (("turned", f"1e-{digits}*x dy", False), ("curved", f"1e-{digits}*y dy", True)):
-            rows = [*(f"{form} = 0" for form in exact[:-1]), f"{exact[-1]} + {step} = 0"]
-            yield known_scene(
-                f"{n} forms, the last {name} by 1e-{digits}",
-                scene_of(names, *rows),
-                "d of the last is e dx dy, which no other form holds" if not holonomic else "all are closed",
-                ("near-integrable" if not holonomic else "integrable",),
-                size=n,
-                swept={"gap": 10.0**-digits},
-                dof=2 if holonomic else 3,
-                integrability={f"c{k + 1}": k < n - 1 or holonomic for k in range(n)},
+        for name, step, holonomic, because, trait in (
+            ("turned", "x dy", False, "d of the last is e dx dy, which no other form holds", "near-integrable"),
+            ("curved", "y dy", True, "all are closed", "integrable"),
+        ):
+            rows = [*(f"{form} = 0" for form in exact[:-1]), f"{exact[-1]} + 1e-{digits}*{step} = 0"]
+            labels = {f"c{k + 1}": k < n - 1 or holonomic for k in range(n)}
+            about = f"{n} forms, the last {name} by 1e-{digits}", scene_of(names, *rows), because, (trait,), n
+            dof = 2 if holonomic else 3
+            yield known_scene(*about, swept={"gap": 10.0**-digits}, dof=dof, integrability=labels)
+
+
+# Time
+
+
+def rheonomic(quick: bool) -> Iterator[KnownScene]:
+    """Relations and forms with time in them."""
+    return map(tabled, tables("forms.yaml")["time"][:: 4 if quick else 1])
+
+
+def hidden_by_time(quick: bool) -> Iterator[KnownScene]:
+    """Each coordinate the rate of the last: one finite relation at the start fixes all, and none leaves all free."""
+    for n in (2, 3) if quick else (2, 3, 4, 6):
+        names = [f"x{k}" for k in range(n)]
+        rates = [f"x{k}dot = x{k + 1}" for k in range(n - 1)]
+        last = f"x{n - 1}"
+        # name, rows before, rows after, dof, because, traits
+        rows: list[tuple[str, list[str], list[str], int, str, tuple[str, ...]]] = [
+            ("nothing held", [], [], n, "Goursat's normal form in (t, x)", ("non-holonomic",)),
+            ("the last held", [], [f"{last} = 2"], 0, "polynomials in t", ("together",)),
+            ("the first held", ["x0 = 0"], [], 0, "each rate is 0", ("time-hidden",)),
+            ("the first a sine", ["x0 = sin(t)"], [], 0, "each is a derivative of it", ("time-hidden",)),
+            ("both ends held as they are", ["x0 = 0"], [f"{last} = 0"], 0, "each rate is 0", ("time-hidden",)),
+            ("both ends held", ["x0 = 0"], [f"{last} = 1e-12"], -1, "the last is 0", ("time-hidden", "tiny-gap")),
+        ]
+        for name, before, after, dof, because, traits in rows:
+            constraints = [*before, *rates, *after]
+            labels = None if dof < 0 else every(numbered(len(constraints)), dof == 0)
+            about = f"{n} coordinates, {name}", scene_of(names, *constraints), because, traits, n
+            yield known_scene(*about, dof=dof, integrability=labels)
+
+
+# Many small parts that have nothing to do with each other, or share one coordinate
+
+
+def many_blocks(quick: bool) -> Iterator[KnownScene]:
+    """Copies of one part, each in its own coordinates: what is true of one holds of each."""
+    parts = tables("forms.yaml")["blocks"]
+    for part in parts:
+        for n in (1, 2) if quick else (1, 4, 8, 16, 64):
+            if n <= part["most"]:
+                traits = (*part["traits"], "many-blocks")
+                yield _blocks(f"{n} times {part['name']}", [part] * n, part["because"], traits)
+    for n in (1,) if quick else (1, 2, 4):
+        yield _blocks(f"{n} of each", [*parts] * n, "freedoms of separate parts add up", ("many-blocks",))
+
+
+def _blocks(name: str, parts: Sequence[Row], because: str, traits: tuple[str, ...]) -> KnownScene:
+    names = [f"{q}{k}" for k, part in enumerate(parts) for q in part["coordinates"].split()]
+    rows = [
+        {"name": f"part{k}_{i}", "type": "equation", "text": row.replace("{k}", str(k))}
+        for k, part in enumerate(parts)
+        for i, row in enumerate(part["rows"])
+    ]
+    labels = {f"part{k}_{i}": value for k, part in enumerate(parts) for i, value in enumerate(part["holonomic"])}
+    over = [f"part{k}_{i}" for k, part in enumerate(parts) for i in part["redundant"]]
+    about = name, scene_of(names, *rows, parameters={"R": "positive"}), because, traits, len(parts)
+    return known_scene(*about, dof=sum(part["dof"] for part in parts), integrability=labels, redundancy=over)
+
+
+def shared_heading(quick: bool) -> Iterator[KnownScene]:
+    """Discs that share their heading: each row has columns of its own, and theta sits in the coefficients of all."""
+    because = "turning takes each anywhere; held, all follow their angles; turned by the first's roll, it does"
+    for n in (1, 2) if quick else (1, 2, 4, 8):
+        names = ["th", *(f"{q}{k}" for k in range(n) for q in ("x", "y", "ph"))]
+        rows = [f"d{q}{k} = {f}(th) dph{k}" for k in range(n) for q, f in (("x", "cos"), ("y", "sin"))]
+        # what is held; the dof; how many of the constraints integrate
+        for held, dof, holonomic, trait in (
+            ([], 3 * n + 1, 0, "non-holonomic"),
+            (["th = 1"], n, 2 * n + 1, "together"),
+            (["dth = 0"], n, 2 * n + 1, "together"),
+            (["th = ph0"], 3 * n - 2, 3, "together"),
+        ):
+            labels = {f"c{i + 1}": i < holonomic for i in range(len(held) + 2 * n)}
+            about = (
+                f"{n} discs, {held[0] if held else 'free to turn'}",
+                scene_of(names, *held, *rows),
+                because,
+                (trait,),
             )
+            yield known_scene(*about, n, dof=dof, integrability=labels)
 
 
-FAMILIES = {"mixed forms": mixed_forms, "forms together": together, "near-integrable forms": near_integrable}
+FAMILIES = {
+    "mixed forms": mixed_forms,
+    "forms together": together,
+    "near-integrable forms": near_integrable,
+    "time": rheonomic,
+    "rates of rates": hidden_by_time,
+    "many blocks": many_blocks,
+    "discs with one heading": shared_heading,
+}

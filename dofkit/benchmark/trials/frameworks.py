@@ -1,4 +1,4 @@
-"""Bars and joints with exact positions, apart from dofkit: their matrix, their scene, their pictures."""
+"""Bars and joints with exact positions, and random frameworks, trees and loops of bodies, with their exact ranks."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ from fractions import Fraction
 from itertools import combinations
 from typing import Any
 
-import numpy as np
-from flint import fmpq, fmpq_mat, nmod_mat
+from flint import fmpq, fmpq_mat
 
-from dofkit.mobility.graph.answers import redundant_links
+from dofkit.mobility.graph.linkage import redundant_links
 
 Position = tuple[Fraction, ...]
 #: A name of a free joint, or the number of a joint on the ground.
@@ -68,12 +67,6 @@ class Framework:
     def coordinates(self) -> int:
         return self.dimension * len(self.joints)
 
-    # ways to count its freedom
-
-    def by_count(self) -> int:
-        """f = N d - k, as if every bar took one away."""
-        return self.coordinates - len(self.bars)
-
     def by_graph(self) -> int:
         """The freedom in general position: bars less those that are redundant there."""
         fixed = list(combinations(range(len(self.ground)), 2))
@@ -86,18 +79,6 @@ class Framework:
         if not rows:
             return self.coordinates
         return self.coordinates - int(fmpq_mat([[fmpq(v.numerator, v.denominator) for v in r] for r in rows]).rank())
-
-    def by_svd(self, tolerance: float = 1e-9) -> int:
-        """The same in floating point: singular values below a fraction of the largest count as 0."""
-        if not self.bars:
-            return self.coordinates
-        values = np.linalg.svd(np.array(self.rows(), dtype=float), compute_uv=False)
-        return self.coordinates - int(np.sum(values > tolerance * values[0]))
-
-    def by_prime(self, p: int) -> int:
-        """The rank modulo a prime, at the positions modulo it."""
-        rows = [[v.numerator * pow(v.denominator, -1, p) % p for v in row] for row in self.rows()]
-        return self.coordinates - (int(nmod_mat(rows, p).rank()) if rows else 0)
 
     # scenes
 
@@ -129,3 +110,155 @@ def framework(joints: dict[str, Sequence[Any]], ground: Sequence[Sequence[Any]],
     """A framework from numbers."""
     placed = {name: tuple(map(Fraction, p)) for name, p in joints.items()}
     return Framework(placed, tuple(tuple(map(Fraction, p)) for p in ground), bars(text))
+
+
+def hinged_loop(hinges: Sequence[tuple[Position, Position]], bodies: int) -> dict[str, Any]:
+    """Return a loop of hinges (place, axis) between the ground and so many bodies; a single one is on all of them."""
+    names = ["ground", *(f"link{i}" for i in range(bodies))]
+    joints = []
+    for i, (place, axis) in enumerate(hinges):
+        pair = [names[i % len(names)], names[(i + 1) % len(names)]] if bodies > 1 else names
+        about = {"at": written(place), "axis": written(axis)}
+        joints.append({"name": f"hinge{i}", "type": "revolute", "between": pair, **about})
+    return {"bodies": names[1:], "constraints": joints}
+
+
+# Random frameworks, trees and loops of bodies
+
+Vector = tuple[Fraction, Fraction, Fraction]
+#: What a joint allows: freedoms in space.
+FREEDOMS = {"revolute": 1, "prismatic": 1, "cylindrical": 2, "universal": 2, "spherical": 3, "planar": 3, "weld": 0}
+PLANE = ("revolute", "prismatic", "weld")
+ZERO = (Fraction(0),) * 3
+
+
+def graph(rng: random.Random, dimension: int, joints: int, twice: bool = False) -> Framework:
+    """Random bars between joints at random places in general position; ``twice``: now and then a pair has two bars."""
+    names = [f"J{i}" for i in range(joints)]
+    pairs = list(combinations(names, 2))
+    few = dimension * joints - dimension * (dimension + 1) // 2
+    number = min(len(pairs), max(1, few + rng.randrange(-3, 4)))
+    chosen = rng.sample(pairs, number)
+    if twice and rng.random() < 1 / 4:
+        chosen.insert(rng.randrange(number + 1), rng.choice(chosen))
+    bars = tuple(pair[:: rng.choice((1, -1))] for pair in chosen)
+    return Framework({name: place(rng, dimension) for name in names}, (), tuple((b[0], b[1]) for b in bars))
+
+
+def place(rng: random.Random, dimension: int, size: int = 10**6) -> Position:
+    """A random point: coordinates of three decimals."""
+    return tuple(Fraction(rng.randrange(-size, size + 1), 1000) for _ in range(dimension))
+
+
+def dependent(drawn: Framework) -> list[int]:
+    """The bars whose rows depend on those before them, by exact elimination at the positions."""
+    rows = drawn.rows()
+    columns = [[fmpq(row[k].numerator, row[k].denominator) for row in rows] for k in range(drawn.coordinates)]
+    reduced, rank = fmpq_mat(columns).rref()
+    pivots = {next(c for c in range(len(rows)) if reduced[r, c] != 0) for r in range(rank)}
+    return [i for i in range(len(rows)) if i not in pivots]
+
+
+@dataclass(frozen=True)
+class RandomBodies:
+    """A scene of bodies with its truth: velocities at the drawing, and the freedom where it follows from them."""
+
+    scene: dict[str, Any]
+    equations: int
+    coordinates: int
+    first: int
+    dof: int | None
+
+
+def tree(rng: random.Random, dimension: int, bodies: int) -> RandomBodies:
+    """Every body on one written before it: the joints' freedoms add up."""
+    kinds = list(FREEDOMS) if dimension == 3 else list(PLANE)
+    chosen = [rng.choice(kinds) for _ in range(bodies)]
+    joints = []
+    for i, kind in enumerate(chosen):
+        onto = "ground" if i == 0 else rng.choice(["ground", *(f"b{j}" for j in range(i))])
+        joints.append(_joint(rng, kind, dimension, f"j{i}", onto, f"b{i}")[0])
+    freedom = sum(FREEDOMS[kind] for kind in chosen)
+    each = dimension * (dimension + 1) // 2
+    names = [f"b{i}" for i in range(bodies)]
+    rng.shuffle(joints)
+    scene = {"dimension": dimension, "bodies": names, "constraints": joints}
+    return RandomBodies(scene, bodies * each - freedom, bodies * each, freedom, freedom)
+
+
+def loop(rng: random.Random, dimension: int, bodies: int) -> RandomBodies:
+    """Bodies in one closed loop with the ground: velocities are the joints' rates whose screws cancel.
+
+    Where the screws are independent nothing moves, and where they span all screws the loop's equations are regular.
+    """
+    kinds = [k for k in (FREEDOMS if dimension == 3 else PLANE) if k != "weld"]
+    names = ["ground", *(f"b{i}" for i in range(bodies)), "ground"]
+    joints, screws = [], []
+    for i in range(bodies + 1):
+        joint, own = _joint(rng, rng.choice(kinds), dimension, f"j{i}", names[i], names[i + 1])
+        joints.append(joint)
+        screws += own
+    each = dimension * (dimension + 1) // 2
+    rank = exact_rank(screws)
+    first = len(screws) - rank
+    dof = first if first == 0 or rank == each else None
+    equations = (bodies + 1) * each - len(screws)
+    scene = {"dimension": dimension, "bodies": names[1:-1], "constraints": joints}
+    return RandomBodies(scene, equations, bodies * each, first, dof)
+
+
+def _joint(
+    rng: random.Random, kind: str, dimension: int, name: str, first: str, second: str
+) -> tuple[dict[str, Any], list[list[Fraction]]]:
+    """A joint at a random place, and the screws (turn; velocity of the origin) that it allows."""
+    at, u = (_vector(rng, dimension) for _ in range(2))
+    made: dict[str, Any] = {"name": name, "type": kind, "between": [first, second]}
+    if kind not in ("weld", "prismatic"):
+        made["at"] = [str(x) for x in at[:dimension]]
+    if dimension == 2:
+        if kind == "prismatic":
+            made["axis"] = [str(x) for x in u[:2]]
+        turn: Vector = (Fraction(0), Fraction(0), Fraction(1))
+        return made, {"revolute": [_turn(turn, at)], "prismatic": [_slide(u)], "weld": []}[kind]
+    v = _across(u)
+    w = cross(u, v)
+    if kind == "universal":
+        made["axes"] = [[str(x) for x in u], [str(x) for x in v]]
+    elif kind not in ("spherical", "weld"):
+        made["axis"] = [str(x) for x in u]
+    return made, {
+        "revolute": [_turn(u, at)],
+        "prismatic": [_slide(u)],
+        "cylindrical": [_turn(u, at), _slide(u)],
+        "universal": [_turn(u, at), _turn(v, at)],
+        "spherical": [_turn(u, at), _turn(v, at), _turn(w, at)],
+        "planar": [_turn(u, at), _slide(v), _slide(w)],
+        "weld": [],
+    }[kind]
+
+
+def _vector(rng: random.Random, dimension: int) -> Vector:
+    x, y, z = (Fraction(rng.choice([n for n in range(-9, 10) if n])) for _ in range(3))
+    return (x, y, z if dimension == 3 else Fraction(0))
+
+
+def _across(u: Vector) -> Vector:
+    return (-u[1], u[0], Fraction(0))
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """a x b."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def _turn(axis: Vector, at: Vector) -> list[Fraction]:
+    return [*axis, *cross(at, axis)]
+
+
+def _slide(axis: Vector) -> list[Fraction]:
+    return [*ZERO, *axis]
+
+
+def exact_rank(rows: Sequence[Sequence[Fraction]]) -> int:
+    """Return the rank over the rationals."""
+    return int(fmpq_mat([[fmpq(x.numerator, x.denominator) for x in row] for row in rows]).rank()) if rows else 0

@@ -1,79 +1,66 @@
-"""Links of any length between particles: the truth is that of the graph, by how it is put together."""
+"""Links between particles: the truth is that of the graph, by how it is put together, or the exact rank."""
 
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from itertools import combinations
+from typing import TypeVar
+
+from networkx.utils import UnionFind
 
 from dofkit.benchmark.trials.construction import KnownScene, known_scene
+from dofkit.benchmark.trials.frameworks import dependent, graph
 
 Link = tuple[int, int]
+T = TypeVar("T", bound=Hashable)
 
 
-def linked(joints: int, dimension: int, links: Sequence[Link]) -> dict[str, object]:
-    """Particles and links of any length; the links are called l0, l1, ... in order."""
-    return {
+def _known(
+    name: str, shape: tuple[int, int, Sequence[Link]], because: str, size: int, dof: int, over: Sequence[Link] | None
+) -> KnownScene:
+    """Return links l0, l1, ... of any length: ``shape`` is (joints, dimension, links), ``over`` the redundant ones."""
+    joints, dimension, links = shape
+    scene = {
         "dimension": dimension,
         "particles": [f"P{i}" for i in range(joints)],
         "constraints": [
             {"name": f"l{k}", "type": "link", "between": [f"P{a}", f"P{b}"]} for k, (a, b) in enumerate(links)
         ],
     }
-
-
-def _of(links: Sequence[Link], redundant: Sequence[Link]) -> list[str]:
-    chosen = set(redundant)
-    return [f"l{k}" for k, link in enumerate(links) if link in chosen]
+    redundant = None if over is None else [f"l{k}" for k, link in enumerate(links) if link in set(over)]
+    traits = ("redundant",) if over is None or over else ("plain",)
+    return known_scene(name, scene, because, traits, size, dof=dof, redundancy=redundant)
 
 
 def cliques(quick: bool) -> Iterator[KnownScene]:
     """All pairs, joint after joint: its first d links put a joint in its place, each further one is redundant."""
+    because = "d links fix a joint to a rigid framework; further links are redundant"
     sizes = {1: (4, 8, 16, 32), 2: (4, 8, 16, 32, 64), 3: (4, 5, 8, 16, 32)}
     for d, n in ((d, n) for d, ladder in sizes.items() for n in (ladder[:1] if quick else ladder)):
         links = [(i, j) for j in range(n) for i in range(j)]
         needed = [(i, j) for i, j in links if i < d]
         for name, chosen in (("all pairs", links), ("only the links that are needed", needed)):
-            yield known_scene(
-                f"{n} joints in dimension {d}, {name}",
-                linked(n, d, chosen),
-                "d links fix a joint to a rigid framework; further links are redundant",
-                ("redundant",) if len(chosen) > len(needed) else ("plain",),
-                size=n,
-                dof=d * (d + 1) // 2,
-                redundancy=_of(chosen, [(i, j) for i, j in chosen if i >= d]),
-            )
+            over = [(i, j) for i, j in chosen if i >= d]
+            yield _known(f"{n} joints in dimension {d}, {name}", (n, d, chosen), because, n, d * (d + 1) // 2, over)
+
+
+#: (dimension, m, n, dof, redundant: None where it was not derived) of m joints linked with n others.
+BIPARTITE = (
+    (2, 3, 3, 3, 0), (2, 2, 6, 2 * 8 - 12, 0), (2, 3, 4, 3, 1), (2, 4, 4, 3, None), (2, 3, 8, 3, None),
+    (2, 6, 6, 3, None), (3, 4, 6, 6, 0), (3, 5, 5, 6, 1), (3, 4, 4, 24 - 16, 0), (3, 3, 8, 33 - 24, 0),
+    (3, 5, 6, 6, None), (3, 6, 6, 6, None), (3, 8, 8, 6, None),
+)  # fmt: skip
 
 
 def complete_bipartite(quick: bool) -> Iterator[KnownScene]:
     """Every joint of one kind with every one of the other [BolkerRoth1980]."""
-    # (dimension, m, n, dof, redundant: None where it was not derived)
-    known = [
-        (2, 3, 3, 3, 0),
-        (2, 2, 6, 2 * 8 - 12, 0),
-        (2, 3, 4, 3, 1),
-        (2, 4, 4, 3, None),
-        (2, 3, 8, 3, None),
-        (2, 6, 6, 3, None),
-        (3, 4, 6, 6, 0),
-        (3, 5, 5, 6, 1),
-        (3, 4, 4, 24 - 16, 0),
-        (3, 3, 8, 33 - 24, 0),
-        (3, 5, 6, 6, None),
-        (3, 6, 6, 6, None),
-        (3, 8, 8, 6, None),
-    ]
-    for d, m, n, dof, over in known[:: 5 if quick else 1]:
+    because = "rigid in the plane from 3 and 3 on, in space from 4 and 6 or 5 and 5 on (Bolker and Roth 1980)"
+    for d, m, n, dof, over in BIPARTITE[:: 5 if quick else 1]:
         links = [(i, m + j) for j in range(n) for i in range(m)]
-        yield known_scene(
-            f"{m} and {n} joints in dimension {d}",
-            linked(m + n, d, links),
-            "rigid in the plane from 3 and 3 on, in space from 4 and 6 or 5 and 5 on (Bolker and Roth 1980)",
-            ("redundant",) if over is None or over else ("plain",),
-            size=m + n,
-            dof=dof,
-            redundancy=None if over is None else _of(links, links[len(links) - over :]),
-        )
+        redundant = None if over is None else links[len(links) - over :]
+        yield _known(f"{m} and {n} joints in dimension {d}", (m + n, d, links), because, m + n, dof, redundant)
 
 
 def bananas(quick: bool) -> Iterator[KnownScene]:
@@ -86,24 +73,23 @@ def bananas(quick: bool) -> Iterator[KnownScene]:
         same = [link for k in range(n) for link in _spindle(0, 1, 2 + 3 * k)]
         ring = [link for k in range(n) for link in _spindle(k, (k + 1) % n, n + 3 * k)]
         row = [link for k in range(n) for link in _spindle(k, k + 1, n + 1 + 3 * k)]
-        # how they stand, joints, links, dof, redundant, because, trait
-        members: list[tuple[str, int, list[Link], int, list[str], str, str]] = [
-            ("on the same two joints", 2 + 3 * n, same, 6 + n - 1, [f"l{9 * k + 8}" for k in range(1, n)],
-             "each holds the distance of its ends: all but the first do so once more; one hinge, each turns about it",
-             "banana"),
+        # how they stand, joints, links, dof, redundant, because
+        members: list[tuple[str, int, list[Link], int, list[Link], str]] = [
+            ("on the same two joints", 2 + 3 * n, same, 6 + n - 1, same[17::9],
+             "each holds the distance of its ends: all but the first do so once more; one hinge, each turns about it"),
             ("in a ring", 4 * n, ring, 3 * n, [],
-             "a polygon of n bars in space (2 n) whose bars turn about themselves (n): no link too many", "plain"),
+             "a polygon of n bars in space (2 n) whose bars turn about themselves (n): no link too many"),
             ("in a row", 4 * n + 1, row, 3 * n + 3, [],
-             "n rigid bodies, each on the last by a ball joint: 6 + 3 (n - 1)", "plain"),
+             "n rigid bodies, each on the last by a ball joint: 6 + 3 (n - 1)"),
         ]  # fmt: skip
-        for how, joints, links, dof, over, because, trait in members:
+        for how, joints, links, dof, over, because in members:
             if how != "in a ring" or n > 2:
-                name = f"{n} bananas {how}"
-                yield known_scene(name, linked(joints, 3, links), because, (trait,), n, dof=dof, redundancy=over)
+                known = _known(f"{n} bananas {how}", (joints, 3, links), because, n, dof, over)
+                yield replace(known, traits=("banana",)) if over else known
 
 
 def _spindle(a: int, b: int, first: int) -> list[Link]:
-    """Two ends, and a triangle that is linked to both."""
+    """Return the links of two ends and a triangle that is linked to both."""
     triangle = (first, first + 1, first + 2)
     return [*combinations(triangle, 2), *((end, c) for end in (a, b) for c in triangle)]
 
@@ -113,12 +99,13 @@ def henneberg(quick: bool) -> Iterator[KnownScene]:
 
     With links more, each of them is redundant; with the last one left out, there is one freedom more.
     """
+    because = "each step keeps the links independent, and with d joints more than links the framework rigid"
     ladder = {2: (4, 8, 16, 32, 64, 128, 256, 512), 3: (5, 8, 16, 32, 64, 128)}
     members = [(d, n, 0) for d, sizes in ladder.items() for n in (sizes[:1] if quick else sizes)]
     for d, n, seed in (*members, *(() if quick else ((2, 8, 1), (3, 8, 1)))):
-        links = steps(n, d, random.Random(f"{n} {d} {seed}"))
-        known = {frozenset(link) for link in links}
-        others = [link for link in combinations(range(n), 2) if frozenset(link) not in known]
+        links = henneberg_links(n, d, random.Random(f"{n} {d} {seed}"))
+        pairs = {frozenset(link) for link in links}
+        others = [link for link in combinations(range(n), 2) if frozenset(link) not in pairs]
         extra = random.Random(f"more {n} {d} {seed}").sample(others, min(len(others), 1 + n // 8))
         rigid = d * (d + 1) // 2
         for name, chosen, dof, over in (
@@ -126,19 +113,11 @@ def henneberg(quick: bool) -> Iterator[KnownScene]:
             ("and links more", [*links, *extra], rigid, extra),
             ("one left out", links[:-1], rigid + 1, []),
         ):
-            yield known_scene(
-                f"{n} joints in dimension {d}, {seed}, {name}",
-                linked(n, d, chosen),
-                "each step keeps the links independent, and with d joints more than links the framework rigid",
-                ("redundant",) if over else ("plain",),
-                size=n,
-                dof=dof,
-                redundancy=_of(chosen, over),
-            )
+            yield _known(f"{n} joints in dimension {d}, {seed}, {name}", (n, d, chosen), because, n, dof, over)
 
 
-def steps(joints: int, dimension: int, rng: random.Random) -> list[Link]:
-    """Henneberg's steps from a simplex: a joint on d others, or into a link and on d - 1 others."""
+def henneberg_links(joints: int, dimension: int, rng: random.Random) -> list[Link]:
+    """Return links by Henneberg's steps from a simplex: a joint on d others, or into a link and on d - 1 others."""
     links = list(combinations(range(dimension), 2))
     for new in range(dimension, joints):
         if new > dimension + 1 and rng.random() < 0.5:
@@ -152,64 +131,110 @@ def steps(joints: int, dimension: int, rng: random.Random) -> list[Link]:
 
 def trees_on_a_line(quick: bool) -> Iterator[KnownScene]:
     """Links along a line: one that closes a circle is redundant, and every part moves by itself."""
+    because = "one freedom for every connected part; the last link of a circle is redundant"
     for n in (4, 8) if quick else (4, 8, 16, 32, 64, 128, 256, 512):
         rng = random.Random(n)
         links = sorted({(min(a, b), max(a, b)) for a, b in (rng.sample(range(n), 2) for _ in range(n))})
         rng.shuffle(links)
-        parts, redundant = union(n, links)
-        for name, chosen, over in (
-            ("with circles", links, redundant),
-            ("without", [link for link in links if link not in redundant], []),
-        ):
-            yield known_scene(
-                f"{n} joints on a line, {name}",
-                linked(n, 1, chosen),
-                "one freedom for every connected part; the last link of a circle is redundant",
-                ("redundant",) if over else ("plain",),
-                size=n,
-                dof=parts,
-                redundancy=_of(chosen, over),
-            )
+        components, closing = union(range(n), links)
+        tree = [link for link in links if link not in closing]
+        for name, chosen, over in (("with circles", links, closing), ("without", tree, [])):
+            yield _known(f"{n} joints on a line, {name}", (n, 1, chosen), because, n, components, over)
 
 
-def union(n: int, links: Sequence[Link]) -> tuple[int, list[Link]]:
-    """(connected parts, the links that close a circle with those before)."""
-    root = list(range(n))
-
-    def find(v: int) -> int:
-        while root[v] != v:
-            v = root[v]
-        return v
-
+def union(vertices: Iterable[T], edges: Iterable[tuple[T, T]]) -> tuple[int, list[tuple[T, T]]]:
+    """Return how many connected components a graph has, and the edges that close a circle with those before."""
+    classes: UnionFind = UnionFind(vertices)
     closing = []
-    for a, b in links:
-        first, second = find(a), find(b)
-        if first == second:
+    for a, b in edges:
+        if classes[a] == classes[b]:
             closing.append((a, b))
-        root[second] = first
-    return sum(find(v) == v for v in range(n)), closing
+        classes.union(a, b)
+    return sum(1 for _ in classes.to_sets()), closing
 
 
 def clusters(quick: bool) -> Iterator[KnownScene]:
     """Rigid clusters with one link too many each, hinged one to the next; or with a link less."""
     for n in (2, 4) if quick else (2, 4, 8, 16, 32, 64, 128):
-        links: list[Link] = []
-        for k in range(n):
-            links += combinations(range(3 * k, 3 * k + 4), 2)
+        links = [link for k in range(n) for link in combinations(range(3 * k, 3 * k + 4), 2)]
+        needed = [link for k, link in enumerate(links) if k % 6 != 5]
         members: tuple[tuple[str, str, list[Link], list[Link]], ...] = (
             ("both diagonals", "all pairs of four joints are one link too many", links, links[5::6]),
-            ("one diagonal", "two triangles each", [link for k, link in enumerate(links) if k % 6 != 5], []),
+            ("one diagonal", "two triangles each", needed, []),
         )
         for name, because, chosen, over in members:
-            yield known_scene(
-                f"{n} quadrilaterals with {name}",
-                linked(3 * n + 1, 2, chosen),
-                f"{because}; each cluster turns against the last",
-                ("redundant",) if over else ("plain",),
-                size=n,
-                dof=3 + n - 1,
-                redundancy=_of(chosen, over),
-            )
+            turns = f"{because}; each cluster turns against the last"
+            yield _known(f"{n} quadrilaterals with {name}", (3 * n + 1, 2, chosen), turns, n, 3 + n - 1, over)
+
+
+# With positions
+
+
+def bars(quick: bool) -> Iterator[KnownScene]:
+    """Random bars between joints at random places, some pairs twice: the exact rank."""
+    because = "the rank of the rigidity matrix over the rationals, at places in general position"
+    for d, n in ((d, n) for n in ((4, 5) if quick else (4, 6, 8, 12, 16)) for d in (1, 2, 3)):
+        for seed in range(1 if quick else 2):
+            drawn = graph(random.Random(f"bars {d} {n} {seed}"), d, n, twice=True)
+            over = [f"bar{i}" for i in dependent(drawn)]
+            about = f"{n} joints in dimension {d}, {seed}", drawn.scene(), because
+            yield known_scene(*about, ("redundant",) if over else ("plain",), n, dof=drawn.by_rank(), redundancy=over)
+
+
+def braced_grids(quick: bool) -> Iterator[KnownScene]:
+    """m by m squares drawn, some with a diagonal: rows and columns as a graph [BolkerCrapo1977].
+
+    A row and a column are joined where their square is braced; a brace that closes a circle is redundant, and every
+    part of the graph turns by itself.
+    """
+    because = "Bolker and Crapo 1977: 3 + (parts of the graph of rows and columns) - 1"
+    for m in (2, 3) if quick else (2, 3, 4, 6, 8, 12):
+        squares = [(i, j) for i in range(m) for j in range(m)]
+        cycle = [(i, i) for i in range(m)] + [(i, (i + 1) % m) for i in range(m)]
+        pairs = [(f"p{i}_{j}", f"p{i + 1}_{j}") for i in range(m) for j in range(m + 1)]
+        pairs += [(f"p{i}_{j}", f"p{i}_{j + 1}") for i in range(m + 1) for j in range(m)]
+        for name, braced in (
+            ("no", []),
+            ("all", squares),
+            ("a tree of", [(i, 0) for i in range(m)] + [(0, j) for j in range(1, m)]),
+            ("a circle of", cycle),
+            ("a diagonal of", cycle[:m]),
+            ("a corner of", [(i, j) for i, j in squares if i < m // 2 and j < m // 2]),
+        ):
+            components, closing = union(range(2 * m), [(i, m + j) for i, j in braced])
+            over = [f"brace{i}_{j - m}" for i, j in closing]
+            braces = [(f"brace{i}_{j}", f"p{i}_{j}", f"p{i + 1}_{j + 1}") for i, j in braced]
+            links = [{"type": "link", "between": list(pair)} for pair in pairs]
+            links += [{"name": label, "type": "link", "between": [a, b]} for label, a, b in braces]
+            particles = [{"name": f"p{i}_{j}", "at": [i, j]} for i in range(m + 1) for j in range(m + 1)]
+            made = {"dimension": 2, "particles": particles, "constraints": links}
+            about = f"{m} by {m} squares, {name} braces", made, because, ("special-position" if over else "plain",), m
+            yield known_scene(*about, dof=3 + components - 1, redundancy=over)
+
+
+def triangulated(quick: bool) -> Iterator[KnownScene]:
+    """Squares with a diagonal each, of any lengths: rigid, and every square off the border has a link too many."""
+    because = "each joint stands on two of a rigid framework; a third link to it is redundant"
+    for m in (2, 3) if quick else (2, 3, 4, 8, 16):
+        joints = [(i, j) for i in range(m + 1) for j in range(m + 1)]
+        links: list[tuple[str, list[str]]] = []
+        for i, j in [*((i, j) for j in range(m + 1) for i in (0, 1)), *(joint for joint in joints if joint[0] > 1)]:
+            before = [(i - 1, j), (i, j - 1), (i - 1, j - 1)]
+            links += [
+                (f"l{i}_{j}_{k}", [f"p{i}_{j}", f"p{a}_{b}"]) for k, (a, b) in enumerate(before) if a >= 0 and b >= 0
+            ]
+        over = [f"l{i}_{j}_2" for i, j in joints if i >= 2 and j >= 2]
+        needed = [link for link in links if link[0] not in over]
+        for drawn in (False, True):
+            particles = [{"name": f"p{i}_{j}", "at": [i, j]} if drawn else f"p{i}_{j}" for i, j in joints]
+            for name, chosen, dof in (
+                ("a diagonal in each", links, 3), ("no more than needed", needed, 3), ("one link less", needed[:-1], 4),
+            ):  # fmt: skip
+                constraints = [{"name": label, "type": "link", "between": pair} for label, pair in chosen]
+                made = {"dimension": 2, "particles": particles, "constraints": constraints}
+                redundant = over if chosen is links else []
+                about = f"{m} by {m} squares, {name}, {'drawn' if drawn else 'of any lengths'}", made, because
+                yield known_scene(*about, ("redundant",) if redundant else ("plain",), m, dof=dof, redundancy=redundant)
 
 
 FAMILIES = {
@@ -219,4 +244,7 @@ FAMILIES = {
     "Henneberg": henneberg,
     "links on a line": trees_on_a_line,
     "clusters": clusters,
+    "random bars": bars,
+    "braced grids": braced_grids,
+    "triangulated grids": triangulated,
 }

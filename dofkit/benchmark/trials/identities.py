@@ -1,55 +1,216 @@
-"""Expressions that are zero and do not look it, or nearly are: what they decide, in each place where they may stand."""
+"""Expressions that are zero by an identity and do not look it, and near misses: what they decide in a scene.
+
+A trap stands in each of several contexts, where its being zero decides the freedom, a label or a redundancy. Beside
+them stand forms and equations a tiny exact step away from integrable, dependent or consistent ones.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
 
-from dofkit.benchmark.trials.construction import KnownScene, known_scene, scene_of
-from dofkit.benchmark.trials.contexts import CONTEXTS
+from dofkit.benchmark.trials.construction import KnownScene, known_scene, labels, scene_of, tables
 from dofkit.benchmark.trials.rewritten import other_coordinates
-from dofkit.benchmark.trials.steps import tiny_steps
-from dofkit.benchmark.trials.traps import NOT_ZERO, TRAPS, Trap
+
+TABLES = tables("identities.yaml")
+
+
+@dataclass(frozen=True)
+class Trap:
+    """An expression that vanishes identically where it is defined, in the coordinates and parameters ``names``.
+
+    Each of ``misses`` differs from it by a constant that is not 0, or by a sign, and is zero at single points at most.
+    ``never``: those near misses vanish nowhere, so that setting them to 0 is a contradiction.
+    """
+
+    name: str
+    zero: str
+    sign: str | None = None
+    names: str = ""
+    never: bool = True
+
+    @property
+    def tiny(self) -> tuple[str, ...]:
+        """The identity missed by constants that floating point does not see."""
+        return tuple(f"{self.zero} + {e}" for e in ("1e-9", "1e-25"))
+
+    @property
+    def misses(self) -> tuple[str, ...]:
+        """Every near miss: by a tiny constant, and by a sign."""
+        return (*self.tiny, *((self.sign,) if self.sign else ()))
+
+    @property
+    def everywhere(self) -> bool:
+        """Whether it has a value wherever the coordinates are; else an equation with it in also restricts these."""
+        return not self.coordinates or not any(f"{name}(" in self.zero for name in ("log", "asin", "acos"))
+
+    @property
+    def coordinates(self) -> list[str]:
+        """The coordinates in it."""
+        return [name for name in self.names if name in "wv"]
+
+    @property
+    def parameters(self) -> list[str]:
+        """The positive parameters in it."""
+        return [name for name in self.names if name in "ab"]
+
+
+TRAPS = [Trap(**row) for row in (*TABLES["numbers"], *TABLES["functions"])]
+#: Expressions that are not zero, and are taken for it.
+NOT_ZERO = [Trap(row["name"], row["zero"], None, row["names"], "^" not in row["zero"]) for row in TABLES["not zero"]]
+
+# Contexts: T is the trap's text, n the number of coordinates
+
+#: A scene with T, and what is true of it where T is zero or is not; None where T cannot stand there.
+Context = Callable[[Trap, str, bool], KnownScene | None]
+#: (rows with {T}, the truth where T is zero, the truth where it is not). Numbers are added to n.
+TEXTS: tuple[tuple[Sequence[str], Mapping[str, Any], Mapping[str, Any]], ...] = (
+    # closed where T = 0, else d(omega) ^ omega = T dy dx dz is not 0
+    (["dz + ({T})*y*dx = 0"],
+     {"dof": -1, "velocity_dof": -1, "consistent": True, "c1.holonomic": True, "c1.holonomic_alone": True},
+     {"dof": 0, "velocity_dof": -1, "consistent": True, "c1.holonomic": False, "c1.holonomic_alone": False}),
+    # d(x y) + 10^-12 T x dz: its wedge with its differential is 10^-12 T x dx dy dz, up to the sign
+    (["y dx + x dy + 1e-12*({T})*x*dz = 0"],
+     {"dof": -1, "velocity_dof": -1, "c1.holonomic": True}, {"dof": 0, "velocity_dof": -1, "c1.holonomic": False}),
+    # dx = 0 where T = 0, else a contact form
+    (["dx + 1e9*({T})*(dz - y dx) = 0"],
+     {"dof": -1, "velocity_dof": -1, "c1.holonomic": True}, {"dof": 0, "velocity_dof": -1, "c1.holonomic": False}),
+    # a contact form alone where T = 0, else dx = dz = 0
+    (["dx - y dz = 0", "({T})*dz = 0"],
+     {"dof": 0, "velocity_dof": -1, "redundant": ["c2"], "c1.holonomic": False},
+     {"dof": -2, "velocity_dof": -2, "redundant": [], "c1.holonomic": True}),
+    # the second is implied by the first where T = 0; else x = 0 too, or a zero of T
+    (["z = 0", "z + ({T})*x = 0"],
+     {"dof": -1, "consistent": True, "redundant": ["c2"]}, {"dof": -2, "consistent": True, "redundant": []}),
+    # they contradict each other where T has no zero
+    (["z = 0", "z + ({T}) = 0"],
+     {"consistent": True, "dof": -1, "redundant": ["c2"]}, {"consistent": False, "dof": None}),
+    # it states nothing where T = 0
+    (["({T})*(x - 1) = 0"], {"dof": 0, "consistent": True}, {"dof": -1, "consistent": True}),
+    (["({T})*(dz - y dx) = 0"], {"dof": 0, "velocity_dof": 0}, {"dof": 0, "velocity_dof": -1}),
+)  # fmt: skip
+
+
+def _in_text(rows: Sequence[str], zero_truth: Mapping[str, Any], other_truth: Mapping[str, Any]) -> Context:
+    contradictory = other_truth.get("consistent") is False
+    finite = not any("dz" in row for row in rows)
+
+    def context(trap: Trap, t: str, zero: bool) -> KnownScene | None:
+        if contradictory and not zero and not trap.never:
+            return None
+        n = 3 + len(trap.coordinates)
+        truth = {
+            key: n + value if isinstance(value, int) and not isinstance(value, bool) else value
+            for key, value in (zero_truth if zero else other_truth).items()
+        }
+        if finite and not trap.everywhere:  # the equation also states that T has a value
+            truth.pop("redundant", None)
+        return _known(trap, t, [row.replace("{T}", t) for row in rows], truth)
+
+    return context
+
+
+def _known(trap: Trap, t: str, texts: Sequence[str], truth: Mapping[str, Any]) -> KnownScene:
+    parameters = dict.fromkeys(trap.parameters, "positive") or None
+    made = scene_of(["x", "y", "z", *trap.coordinates], *texts, parameters=parameters)
+    return KnownScene(made, truth, name=f"{t} in {'; '.join(texts)}", group=trap.name)
+
+
+def with_time(trap: Trap, t: str, zero: bool) -> KnownScene | None:
+    """Return dx + T dt = 0, which is scleronomic where T = 0."""
+    if trap.coordinates:
+        return None
+    truth = {"dof": 2, "velocity_dof": 2, "scleronomic": zero, "c1.scleronomic": zero, "c1.catastatic": zero}
+    return _known(trap, t, [f"dx + ({t})*dt = 0"], truth)
+
+
+def triangle(trap: Trap, t: str, zero: bool) -> KnownScene | None:
+    """Return three links whose joints lie in a line where T = 0: rigid, with an infinitesimal motion."""
+    if trap.names:
+        return None
+    places = {"A": [0, 0], "B": [1, 0], "C": [2, t]}
+    made = {
+        "dimension": 2,
+        "particles": [{"name": name, "at": at} for name, at in places.items()],
+        "constraints": [{"type": "link", "between": pair} for pair in (["A", "B"], ["B", "C"], ["A", "C"])],
+    }
+    truth = {"dof": 3, "velocity_dof": 3, "instantaneous_dof": 4 if zero else 3, "singular": zero}
+    return KnownScene(made, truth, name=f"a triangle of height {t}", group=trap.name)
+
+
+CONTEXTS: tuple[Context, ...] = (*(_in_text(*row) for row in TEXTS), with_time, triangle)
+
+
+# Tiny steps
+
+#: The sizes of the step, as a person writes them.
+STEPS = ("1e-6", "1e-12", "1e-30", "1/7000000000000000000")
+
+
+def tiny_steps() -> Iterator[KnownScene]:
+    """Yield every base form and system with every step."""
+    for step in STEPS:
+        for row in TABLES["forms"]:
+            n, integrable = len(row["coordinates"].split()), row["integrable"]
+            truth = {"dof": n - 1 if integrable else n, "velocity_dof": n - 1, "holonomic": integrable}
+            truth |= {"c1.holonomic": integrable, "c1.holonomic_alone": integrable}
+            yield _stepped(row, step, [f"{row['text']} = 0"], truth)
+        for row in TABLES["systems"]:
+            truth = {"dof": row["dof"], "velocity_dof": row["velocity_dof"], "consistent": True}
+            truth |= {f"{name}.holonomic": value for name, value in (labels(row["holonomic"]) or {}).items()}
+            yield _stepped(row, step, row["rows"], truth)
+        for row in TABLES["gaps"]:
+            yield _stepped(row, step, row["rows"], {"consistent": False, "dof": None, "conflicting": ["c1", "c2"]})
+        for row in TABLES["drifts"]:
+            truth = {"scleronomic": row["scleronomic"], "c1.scleronomic": row["scleronomic"]}
+            yield _stepped(row, step, [row["text"]], truth)
+
+
+def _stepped(row: Mapping[str, Any], step: str, rows: Sequence[str], truth: dict[str, Any]) -> KnownScene:
+    texts = [text.replace("{e}", f"({step})") for text in rows]
+    made = scene_of(row.get("coordinates", "x y z"), *texts)
+    return KnownScene(made, truth, name=f"{row['name']}, by {step}", group=row["name"])
+
+
+# Families
 
 #: Of the contexts and the ways of writing, how far on the next trap or base begins.
 STRIDE = 5
 #: The steps that are taken.
 TAKEN = ("1e-12", "1e-30")
-#: Words by which a group of tiny steps between finite relations is told apart.
+#: Words by which a group of tiny steps between configuration-level equations is recognized.
 FINITE = ("planes", "circle", "lines", "height", "angle")
 
 
 def identities(quick: bool) -> Iterator[KnownScene]:
     """Zero by an identity, or missed by a constant that floating point does not see, or by a sign."""
-    seen = set()
+    names = set()
     for trap, text, zero, trait, number in _traps(9 if quick else 1):
         known = _in_context(trap, text, zero, number)
-        if known is not None and known.name not in seen:
-            seen.add(known.name)
+        if known is not None and known.name not in names:
+            names.add(known.name)
             because = "zero by an identity" if zero else "an identity missed by a constant, or by a sign"
             yield replace(known, because=because, traits=(trait,))
 
 
 def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, str, int]]:
-    """Each trap, an expression, whether it is zero, the trait, and in which context it stands."""
+    """Yield each trap, an expression, whether it is zero, the trait, and in which context it stands."""
     for number, trap in enumerate(TRAPS[::stride]):
         yield trap, trap.zero, True, "hidden-identity", number
         if number % 3:
             yield trap, trap.tiny[number % 2], False, "near-identity", number
         if number % 3 == 1 and trap.sign:
             yield trap, trap.sign, False, "plain", number + STRIDE
-    for number, (name, text, names) in enumerate(NOT_ZERO[::stride]):
+    for number, trap in enumerate(NOT_ZERO[::stride]):
         for turn in range(3):
-            yield Trap(name, text, None, names, "^" not in text), text, False, "near-identity", number + STRIDE * turn
+            yield trap, trap.zero, False, "near-identity", number + STRIDE * turn
 
 
 def _in_context(trap: Trap, text: str, zero: bool, number: int) -> KnownScene | None:
-    """The trap in the first context from this on in which it can stand."""
-    for turn in range(len(CONTEXTS)):
-        found = CONTEXTS[(number + turn) % len(CONTEXTS)](trap, text, zero)
-        if found is not None:
-            return found
-    return None
+    """Return the trap in the first context from this number on in which it can stand."""
+    scenes = (CONTEXTS[(number + turn) % len(CONTEXTS)](trap, text, zero) for turn in range(len(CONTEXTS)))
+    return next((known for known in scenes if known is not None), None)
 
 
 def steps(quick: bool) -> Iterator[KnownScene]:
@@ -64,53 +225,32 @@ def steps(quick: bool) -> Iterator[KnownScene]:
 
 def rewritten(quick: bool) -> Iterator[KnownScene]:
     """The same scene in other coordinates: what is true of it does not change."""
-    for number, known in enumerate(other_coordinates()):
-        if number % (40 if quick else STRIDE + 2):
-            continue
+    for known in [*other_coordinates()][:: 40 if quick else STRIDE + 2]:
         how = known.name.removeprefix(f"{known.group}, ")
         trait = "scale" if "scaled" in how else "offset" if "moved" in how else "rewritten"
-        labels = [value for key, value in known.truth.items() if key.endswith(".holonomic")]
-        other = "non-holonomic" if False in labels else "integrable"
+        holonomic = [value for key, value in known.truth.items() if key.endswith(".holonomic")]
+        other = "non-holonomic" if False in holonomic else "integrable"
         yield replace(known, because="coordinates do not change what is true", traits=(trait, other))
 
 
 def bases(quick: bool) -> Iterator[KnownScene]:
     """Powers to different bases in the coefficients of forms."""
-    for number, (name, zero) in enumerate(BASES[:: 4 if quick else 1]):
-        trap = Trap(name, zero, None, "w")
+    for number, row in enumerate(TABLES["bases"][:: 4 if quick else 1]):
+        zero = row["zero"]
+        trap = Trap(row["name"], zero, None, "w")
         for turn, (text, is_zero) in enumerate(((zero, True), (f"{zero} + 1e-12", False), (f"{zero} + 1", False))):
             known = _in_context(trap, text, is_zero, 2 * number + turn)
             if known is not None:
                 because = "one function, written to two bases" if is_zero else "off by a constant"
                 yield replace(known, because=because, traits=("mixed-bases" if is_zero else "near-identity",))
     for power in (2,) if quick else (2, 3, 5, 8, 12):
-        names = ["x", "y", "z"]
-        same = scene_of(names, f"({2**power})^x dz + 2^({power} x) dy = 0")
-        other = scene_of(names, f"({2**power})^x dz + 2^({power} x) y dx = 0")
-        for name, made, dof, because in (
-            (f"a factor 2^({power} x)", same, 2, "dz + dy"),
-            (f"a contact form by 2^({power} x)", other, 3, "dz + y dx"),
+        for name, second, dof, because in (
+            (f"a factor 2^({power} x)", "dy", 2, "dz + dy"),
+            (f"a contact form by 2^({power} x)", "y dx", 3, "dz + y dx"),
         ):
-            over = f"over the factor: {because}"
-            yield known_scene(name, made, over, ("mixed-bases",), dof=dof, integrability={"c1": dof == 2})
+            made = scene_of("x y z", f"({2**power})^x dz + 2^({power} x) {second} = 0")
+            about = name, made, f"over the factor: {because}", ("mixed-bases",)
+            yield known_scene(*about, dof=dof, integrability={"c1": dof == 2})
 
-
-#: Zero for every real w.
-BASES = [
-    ("4 and 2", "4^w - 2^(2*w)"),
-    ("8 and 2", "8^w - 2^w*4^w"),
-    ("2 and e", "2^w - exp(w*log(2))"),
-    ("6, 2 and 3", "6^w - 2^w*3^w"),
-    ("12, 2 and 3", "12^w - 2^(2*w)*3^w"),
-    ("half and 2", "(1/2)^w*2^w - 1"),
-    ("root 2 and 2", "sqrt(2)^(2*w) - 2^w"),
-    ("10, 2 and 5", "10^w*5^(-w) - 2^w"),
-    ("2 with 1 more", "2^(w+1) - 2*2^w"),
-    ("e and 1 more", "exp(w+1) - E*exp(w)"),
-    ("quotient of 3 and 2", "(3/2)^w - 3^w/2^w"),
-    ("cosh and e", "2*cosh(w) - exp(w) - exp(-w)"),
-    ("tanh and e", "tanh(w) - 1 + 2/(exp(2*w) + 1)"),
-    ("9 and 3, halves", "9^(w/2) - 3^w"),
-]
 
 FAMILIES = {"identities": identities, "tiny steps": steps, "other coordinates": rewritten, "mixed bases": bases}

@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from dofkit.base.errors import TextError
-from dofkit.base.spelling import closest
+from dofkit.base.wording import closest
 from dofkit.homework.answers.notation import script_of
 from dofkit.homework.answers.prose import DOUBTS, NO, YES, plain, words
 from dofkit.homework.answers.script import Script

@@ -12,7 +12,7 @@ from importlib import metadata, resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
 
-from dofkit.base.version import __version__
+from dofkit.base import __version__
 from dofkit.scene.catalog import catalog_folder
 
 #: What wheels for Linux on a usual processor are called.

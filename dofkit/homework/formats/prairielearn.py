@@ -3,8 +3,7 @@
 ``gradable: false`` costs a student no attempt and gives no points: that is said where an answer cannot be read, as
 PrairieLearn's own elements do, and where an answer needs a review, since a share can neither leave it open nor may it
 count it as nothing or as everything. ``format_errors`` then says which answers these are, and nothing is told of the
-others: what costs no attempt would else tell, again and again, which of them are right. The points that a person gave
-are taken back by a table of scores, in `dofkit.homework.formats.prairielearn_scores`.
+others: what costs no attempt would else tell, again and again, which of them are right.
 """
 
 from __future__ import annotations
@@ -12,10 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.formats.base import Format, Target
-from dofkit.homework.formats.documents import text, write_documents
-from dofkit.homework.formats.prairielearn_scores import write_scores
+from dofkit.homework.formats.base import Format, Target, text, write_documents
 from dofkit.homework.formats.wording import line, plain, remark, shortened, standing, title
 from dofkit.homework.result import Item, Result
 from dofkit.homework.sentences.translations import Language, in_language
@@ -83,9 +81,10 @@ def _cut(found: dict[str, Any], most: int) -> dict[str, Any]:
     return cut
 
 
-def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None:
-    """One ``results.json`` a student."""
+def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+    """Write one ``results.json`` per student."""
+    del roster
     write_documents(results, target, lambda result: document(result, prepared.assignment.language))
 
 
-PRAIRIELEARN = Format("prairielearn", write, endings=("json", "csv"), write_back=write_scores)
+PRAIRIELEARN = Format("prairielearn", write)

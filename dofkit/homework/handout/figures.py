@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from dofkit.base.errors import DofkitError
-from dofkit.base.spelling import no_such
+from dofkit.base.wording import no_such
 from dofkit.homework.problem import DRAWN, UNDRAWN, Problem
 from dofkit.report import Report
 from dofkit.scene.scene import Scene

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -10,14 +11,19 @@ from typing import NamedTuple, TypeVar
 
 from dofkit.base.errors import SceneError, TextError
 from dofkit.classification.dependence.equivalence import Compared, Sameness, compare
-from dofkit.expressions.text import UnknownNameError
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
+from dofkit.expressions.text import UnknownNameError, to_text
+from dofkit.expressions.tree import Expr
 from dofkit.homework.answers.relations import AnswerReading
 from dofkit.homework.answers.rounding import exact_ways
 from dofkit.homework.judgement import HALF, NOTHING, Given, JudgedReading, Judgement, needs_review, partly, right, wrong
+from dofkit.homework.key.compared_motion import in_time
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import renamed, without_own
-from dofkit.homework.key.second_derivatives import held_accelerations
+from dofkit.homework.key.right_motion import is_zero
 from dofkit.homework.sentences.translations import say
+from dofkit.motion.lagrange.elimination import by_time
 from dofkit.scene.added_equations import Read, with_equations
 from dofkit.scene.lowering import lower
 from dofkit.system import System
@@ -46,6 +52,8 @@ _RIGHT = frozenset({Sameness.SAME, Sameness.INTEGRATED})
 ANSWER = "the answer"
 #: The code of an answer whose numbers are rounded.
 ROUNDED = "ROUNDED"
+#: A length that nobody named, as a scene's own equations call its square.
+_UNNAMED = re.compile(r"\b_[A-Z]\d+\b")
 Found = TypeVar("Found")
 
 
@@ -180,3 +188,71 @@ def undeclared(way: AnswerReading, key: Key) -> UnknownNameError:
     known: Sequence[str] = [*sorted(key.names_with_also.coordinates), *key.names.parameters]
     told = f"`{name}` is not declared"
     return UnknownNameError(told, way.places.get(name, 1), f"the declared names are {', '.join(known[:12])}")
+
+
+def held_accelerations(way: AnswerReading, key: Key, names: tuple[str, ...]) -> bool | None:
+    """Is every equation a constant multiple of such a derivative of one of the constraints, and none left out?"""
+    system = lower(key.scene)
+    wanted = [r.expr for i in system.numbers_of(*names) for r in system.constraints[i].relations if r.sense == "="]
+    if not wanted or any(c.relation != "=" for c in way.relations):
+        return False
+    given = [c.left - c.right for c in way.relations]
+    twice = [by_time(_in_velocities(g)) for g in wanted]
+    told = [[_multiple(e, g) for g in twice] for e in given]
+    if any(True not in row and None in row for row in told):
+        return None
+    columns = [[row[j] for row in told] for j in range(len(twice))]
+    if any(True not in column and None in column for column in columns):
+        return None
+    return all(True in row for row in told) and all(True in column for column in columns)
+
+
+def _in_velocities(e: Expr) -> Expr:
+    """A relation between velocities: a finite one differentiated by time, a form divided by dt."""
+    if all(s.args[0] in ("coordinate", "parameter", "time") for s in e.symbols):
+        return by_time(e)
+    return in_time(e)
+
+
+def _multiple(e: Expr, g: Expr) -> bool | None:
+    """Is ``e`` a constant times ``g``, a constant that is not 0?"""
+    empty: frozenset[Expr] = frozenset()
+    for s in sorted((s for s in g.symbols if s.args[0] == "acceleration"), key=repr):
+        a, b = diff(e, s), diff(g, s)
+        if b.is_zero:
+            continue
+        told = is_zero(e * b - g * a, empty)
+        factor = [is_zero(diff(a, x) * b - diff(b, x) * a, empty) for x in (a.symbols | b.symbols) if _moves(x)]
+        if told is False or False in factor or a.is_zero:
+            return False
+        return None if told is None or None in factor else True
+    return False
+
+
+def _moves(symbol: Expr) -> bool:
+    return symbol.op == "sym" and symbol.args[0] != "parameter" and symbol != ex.TIME
+
+
+def equations_of(key: Key, names: tuple[str, ...]) -> str:
+    """The equations of these constraints, with semicolons between them; of one as it is written where it is a text.
+
+    Where they hold names that an answer cannot have, such as the turns of a body in space, their words stand instead.
+    """
+    return "; ".join(_equations(key, name) for name in names)
+
+
+def _equations(key: Key, name: str) -> str:
+    entry = key.constraints[name]
+    (constraint,) = (c for c in lower(key.scene).constraints if c.name == name)
+    if constraint.facts.written or not all(_sayable(key, relation.expr) for relation in constraint.relations):
+        return entry.text
+    texts = [f"{to_text(relation.expr)} {relation.sense} 0" for relation in constraint.relations]
+    return "; ".join(_UNNAMED.sub("const", text) for text in texts)
+
+
+def _sayable(key: Key, expr: Expr) -> bool:
+    """Are all names in it declared, lengths without a name apart?"""
+    known = {*key.names.coordinates, *key.names.parameters}
+    return all(
+        s.args[0] == "time" or str(s.args[-1]) in known or _UNNAMED.fullmatch(str(s.args[-1])) for s in expr.symbols
+    )

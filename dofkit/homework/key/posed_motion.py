@@ -15,7 +15,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import Comparison, spelled, to_text
 from dofkit.expressions.tree import ZERO, Expr
-from dofkit.homework.answers.energies import with_energies
+from dofkit.homework.answers.pieces import with_energies
 from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of
 from dofkit.homework.answers.script import Script
 from dofkit.homework.judgement import Given

@@ -13,10 +13,9 @@ from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readin
 from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import is_none
 from dofkit.homework.judgement import Given, Judgement, Sentence, agreed, needs_review, right, wrong
-from dofkit.homework.key.compared_equations import EquationComparison
+from dofkit.homework.key.compared_equations import EquationComparison, equations_of
 from dofkit.homework.key.compared_integrals import integral_judgement
 from dofkit.homework.key.key import Key
-from dofkit.homework.key.stated_equations import equations_of
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.sentences.translations import say
 from dofkit.scene.fields import Listed, suggestion

@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import gcd, lcm
 
 from dofkit.expressions import tree as ex
-from dofkit.expressions.text import to_text
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, size
 from dofkit.integrability.integrals.potentials import as_power

@@ -10,7 +10,7 @@ import time
 from fractions import Fraction
 
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, left
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import NoValueError
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.sympy_bridge import UntranslatableError, antiderivative_by_sympy

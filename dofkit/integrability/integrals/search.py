@@ -14,10 +14,10 @@ from typing import Any
 
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.zero.identity import certainly_nonzero
+from dofkit.exact.zero import certainly_nonzero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
-from dofkit.expressions.text import to_text
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, GivenUpError, Poly, Quotient, size, solve
 from dofkit.integrability.integrals.normal_shape import Pair, arranged, cost, shapes, upright

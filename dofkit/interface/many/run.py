@@ -10,10 +10,9 @@ from functools import lru_cache, partial
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
-from dofkit.base.journal import Journal
-from dofkit.base.version import __version__
+from dofkit.base import __version__
+from dofkit.base.runs import Cluster, Journal, Pool, in_order
 from dofkit.base.workers import MEMORY
-from dofkit.base.workers.pool import Cluster, Pool, in_order
 from dofkit.interface import one_file
 from dofkit.interface.many.scene_files import SceneGiven, scenes_given
 from dofkit.interface.supervised import Given, Printed, report_by

@@ -4,26 +4,30 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 import stat
+import uuid
 from collections.abc import Iterable, Iterator
-from pathlib import Path
 from typing import NamedTuple
 
-from dofkit.base.documents.document import MOST_BYTES
+from dofkit.base.documents import MOST_BYTES
 from dofkit.interface.supervised import data_of, places_of
 from dofkit.models.formats import is_model
-from dofkit.models.parts import state_of_parts
+
+#: An attribute of a model that names another file.
+_INCLUDES = re.compile(rb"\bfile\s*=")
 
 
 class SceneGiven(NamedTuple):
     """A file as it was named, and its bytes; None where there is none, as for a name of the catalog.
 
-    ``parts``: the state of the files that it includes. ``certificate``: where its certificate is written.
+    ``mark``: where it includes other files, a text that no other run has, so that no earlier result is taken for it.
+    ``certificate``: where its certificate is written.
     """
 
     file: str
     data: bytes | None
-    parts: str = ""
+    mark: str = ""
     certificate: str | None = None
 
     @property
@@ -34,7 +38,7 @@ class SceneGiven(NamedTuple):
     @property
     def key(self) -> str:
         """What tells it from another, and from itself when it was otherwise."""
-        named = f"{self.file}\0{self.parts}\0".encode("utf-8", "surrogateescape")
+        named = f"{self.file}\0{self.mark}\0".encode("utf-8", "surrogateescape")
         return hashlib.blake2b(named + (b"-" if self.data is None else b"+" + self.data), digest_size=16).hexdigest()
 
 
@@ -43,8 +47,8 @@ def scenes_given(files: Iterable[str], certificate: str | None) -> Iterator[Scen
     known = list(files)
     for file, place in zip(known, places_of(known, certificate), strict=True):
         data = _bytes(file)
-        parts = state_of_parts(data, Path(file)) if data is not None and is_model(data) else ""
-        yield SceneGiven(file, data, parts, place)
+        includes = data is not None and is_model(data) and _INCLUDES.search(data)
+        yield SceneGiven(file, data, uuid.uuid4().hex if includes else "", place)
 
 
 def _bytes(file: str) -> bytes | None:

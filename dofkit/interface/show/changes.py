@@ -33,7 +33,7 @@ def _open(before: Report, after: Report) -> Iterator[Remark]:
         if any((found := report.verdicts.get(name)) and found.verdict == "undecided" for report in (before, after))
     ]
     if unsure:
-        yield Remark("undecided", f"it is open whether these change: {', '.join(unsure)}")
+        yield Remark("undecided", f"it is undecided whether these change: {', '.join(unsure)}")
 
 
 def _changes(before: Report, after: Report) -> Iterator[Remark]:

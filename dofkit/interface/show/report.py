@@ -17,8 +17,8 @@ _COLUMNS = (
     *(Column("name"), Column("text", 3), Column("form"), Column("labels", 2)),
     Column("independent equations", numbers=True),
 )
-#: The form of a constraint on configurations, in the field's word.
-_FORMS = {"finite": "geometric"}
+#: Forms of constraints in the words of textbooks.
+_FORMS = {"finite": "geometric", "pfaffian": "Pfaffian"}
 #: A decimal with more than three significant digits.
 _LONG_DECIMAL = re.compile(r"-?(?=(?:[.0]*[1-9])(?:\.?\d){3})\d*\.\d+(?:e-?\d+)?")
 _OPPOSITES = {"holonomic": "non-holonomic", "scleronomic": "rheonomic", "bilateral": "unilateral"}
@@ -107,7 +107,7 @@ def _facts(report: Report) -> Iterator[Fact]:
     if report.growth_vector:
         timed = report.velocity_dof is not None and report.growth_vector[0] > report.velocity_dof
         dimensions = f"({', '.join(map(str, report.growth_vector))})"
-        yield Fact("growth vector", f"{dimensions}  of (q, t)" if timed else dimensions)
+        yield Fact("growth vector", dimensions, "in (q, t): time is counted" if timed else "")
     part = report.integrable_part
     if part is not None and part.rank and part.basis:
         yield Fact("integrable part", f"{', '.join(part.basis)}  (in addition to the geometric equations)")
@@ -219,7 +219,11 @@ def _reasons(entries: Sequence[ConstraintEntry]) -> list[Remark]:
     for entry in entries:
         by_reason.setdefault((entry.reason, entry.verdict), []).append(entry.name)
     return [
-        Remark(names_of(names), reason if verdict == "proved" else f"{reason} [{verdict}]")
+        Remark(
+            names_of(names),
+            (f"Each {reason[3:]}" if len(names) > 1 and reason.startswith("It ") else reason)
+            + ("" if verdict == "proved" else f" [{verdict}]"),
+        )
         for (reason, verdict), names in by_reason.items()
     ]
 

@@ -8,7 +8,7 @@ from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.sympy_bridge import Bridge
-from dofkit.expressions.text import to_text
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.motion.lagrange.derivation import Derived
 from dofkit.motion.lagrange.elimination import Remaining

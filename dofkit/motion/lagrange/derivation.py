@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import NoValueError
 from dofkit.exact.matrices.sparse import SparseRow, last_columns, rank_of_rows, sparse
 from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.canonical import is_identically_zero
@@ -20,7 +20,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.sympy_bridge import Bridge
-from dofkit.expressions.text import to_text
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError
 from dofkit.motion.lagrange.tidying import Tidier, ordered

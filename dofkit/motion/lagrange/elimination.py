@@ -12,13 +12,15 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from dofkit.base.deadline import check
-from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.base.errors import NoValueError
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.ring.canonical import Canon, divided, is_identically_zero
 from dofkit.exact.ring.ring import Ring
+from dofkit.expressions import differentials
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.text import derivatives, to_text
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import HALF, ONE, TWO, ZERO, Expr
 from dofkit.motion.lagrange.tidying import ordered
 from dofkit.relations.normal.normal_form import linear_form
@@ -27,7 +29,7 @@ from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 
 def by_time(e: Expr) -> Expr:
     """Return de/dt = sum (de/dq) qdot + (de/dqdot) qddot + de/dt. Raises ValueError for accelerations."""
-    rate = derivatives.by_time(e)
+    rate = differentials.by_time(e)
     if rate is None:
         raise ValueError("the derivative of an acceleration or a differential by time has no meaning here")
     return rate

@@ -15,8 +15,9 @@ from dofkit.base.errors import Fault, SceneError
 from dofkit.classification.passes import Examined, studied
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
-from dofkit.expressions.text import Names, to_text
-from dofkit.expressions.text.limits import MAX_CHARACTERS
+from dofkit.expressions.text.bounds import MAX_CHARACTERS
+from dofkit.expressions.text.names import Names
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.motion.lagrange.conserved import conserved, cyclic
 from dofkit.motion.lagrange.derivation import SINGULAR, Derived, derive

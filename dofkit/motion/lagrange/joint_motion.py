@@ -13,7 +13,9 @@ from typing import NamedTuple
 
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.text import Names, parse_relations, to_text, valid_name
+from dofkit.expressions.text import parse_relations
+from dofkit.expressions.text.names import Names, valid_name
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import HALF, ZERO, Expr
 from dofkit.expressions.vectors import (
     Vec,

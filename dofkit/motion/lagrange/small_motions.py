@@ -12,12 +12,13 @@ from itertools import combinations, islice, product
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, left
-from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.base.errors import NoValueError
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.sympy_bridge import Bridge, UntranslatableError
-from dofkit.expressions.text import to_text
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import HALF, MINUS_ONE, PI, ZERO, Expr
 from dofkit.motion.lagrange.derivation import Derived
 from dofkit.motion.lagrange.elimination import Care, EliminatedRelation, Elimination, Eliminator, by_potential

@@ -14,12 +14,12 @@ from math import comb, gcd, lcm, prod
 from typing import Any
 
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, left
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, Poly, is_identically_zero, lowest_terms
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge, UntranslatableError
-from dofkit.expressions.text import to_text
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 
 #: Expressions with more SymPy operations, or that would have more terms than this, are not expanded.

@@ -33,9 +33,9 @@ class Cam(ConstraintBase):
     """g(x, y) = 0 for the point P in the body's own coordinates, (x, y) = R(theta)^T (P - p): 1 relation.
 
     The profile g = 0 turns and moves with the body; its axes are those of the body's frame (origin p, angle theta). A
-    higher pair of the plane, of freedom 2: the point slides along the profile and turns on it. Where the drawing gives
-    the contact, it moves to first order as a slot along the tangent there. There is none in space, where a follower
-    touches a surface.
+    higher pair of the plane, of freedom 2: the point slides along the profile and turns on it. If the reference
+    configuration gives the contact, it moves infinitesimally like a slot along the tangent there. There is none in
+    space, where a follower touches a surface.
     """
 
     type: Literal["cam"] = Field(description="a point on the profile of a body, in the plane")

@@ -54,9 +54,10 @@ Joints = Annotated[
 class Coupling(ConstraintBase):
     """f(q1, q2, ...) = 0 for angles and displacements of joints: 1 relation; an inequality bounds them.
 
-    Each counts from the drawing: the angle of the second body against the first, right-handed about the axis, or its
-    displacement along it. In space tan(q/2) = v.n / (s |n|) of the relative rotation (s, v). What is linear in angles
-    with small whole factors is written as Im prod (s |n| + i v.n)^k = 0, which holds q modulo whole turns.
+    Each is counted from the reference configuration: the angle of the second body relative to the first, right-handed
+    about the axis, or its displacement along it. In space tan(q/2) = v.n / (s |n|) of the relative rotation (s, v). An
+    equation that is linear in angles with small integer factors is written as Im prod (s |n| + i v.n)^k = 0, which
+    determines q modulo whole turns.
     """
 
     type: Literal["coupling"] = Field(description="a relation between angles or displacements of joints")

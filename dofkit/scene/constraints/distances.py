@@ -37,7 +37,7 @@ def distance_rows(at: Kinematics) -> Iterator[VelocityRow]:
 class Link(ConstraintBase):
     """|A - B|^2 - length^2 = 0, also in one dimension.
 
-    Without ``length`` it is the distance in the drawing, or a generic squared length.
+    Without ``length`` it is the distance in the reference configuration, or a generic squared length.
     """
 
     type: Literal["link"] = Field(description="two points at a given distance")
@@ -272,7 +272,8 @@ class Rigid(ConstraintBase):
 class String(ConstraintBase):
     """A taut string along points in order: |P1 - P2| + |P2 - P3| + ... - length = 0, one relation.
 
-    The points between the ends are small pulleys. Without ``length`` it is the length in the drawing, or generic.
+    The points between the ends are small pulleys. Without ``length`` it is the
+    length in the reference configuration, or generic.
     """
 
     type: Literal["string"] = Field(description="an inextensible string over small pulleys")

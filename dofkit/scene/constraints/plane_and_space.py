@@ -40,9 +40,9 @@ def _revolute_rows(at: Kinematics) -> Iterator[VelocityRow]:
 
 
 class Revolute(Driven):
-    """X1 = X2 (d relations); in space the axis keeps its direction too (2 more): 2 in the plane, 5 in space.
+    """X1 = X2 (d relations); in space the axis also keeps its direction (2 more): 2 in the plane, 5 in space.
 
-    A drive adds: the angle of the second body against the first, about the axis, is f(t).
+    A drive adds: the angle of the second body relative to the first, about the axis, is f(t).
     """
 
     type: Literal["revolute"] = Field(description="a hinge")
@@ -90,7 +90,7 @@ class Prismatic(Driven):
     """No relative rotation, no displacement across the axis: 2 relations in the plane, 5 in space.
 
     (R u).(p2 - p1) - u.(p02 - p01) = 0 for the directions u across the axis. A drive adds:
-    the displacement of the second body along the axis, from the first, is f(t).
+    the displacement of the second body along the axis, relative to the first, is f(t).
     """
 
     type: Literal["prismatic"] = Field(description="a slider")
@@ -140,7 +140,7 @@ def _weld_rows(at: Kinematics) -> Iterator[VelocityRow]:
 
 
 class Weld(Joint):
-    """The second body moves as the first: 3 relations in the plane, 6 in space."""
+    """The second body moves with the first: 3 relations in the plane, 6 in space."""
 
     type: Literal["weld"] = Field(description="two bodies joined into one")
     examples: ClassVar[Mapping[int, str]] = {0: "{type: weld, between: [crank, rod]}"}

@@ -53,7 +53,7 @@ def _cylindrical_rows(at: Kinematics) -> Iterator[VelocityRow]:
 class Cylindrical(Driven):
     """The bodies share an axis, along which and about which they move freely: 4 relations.
 
-    A drive prescribes the displacement of the second body along the axis, from the first.
+    A drive prescribes the displacement of the second body along the axis, relative to the first.
     """
 
     type: Literal["cylindrical"] = Field(description="a sleeve on a shaft")
@@ -91,7 +91,7 @@ def _screw_rows(at: Kinematics) -> Iterator[VelocityRow]:
 class Screw(Driven):
     """The bodies share an axis, and displacement - pitch angle / (2 pi) = 0: 5 relations.
 
-    Right-handed: by the positive ``pitch`` along the axis for a turn about it. A drive prescribes the angle.
+    Right-handed: one turn about the axis advances by ``pitch`` along it. A drive prescribes the angle.
     """
 
     type: Literal["screw"] = Field(description="a nut on a thread")
@@ -134,7 +134,7 @@ def _universal_rows(at: Kinematics) -> Iterator[VelocityRow]:
 
 
 class Universal(LocatedJoint):
-    """X1 = X2, and the first axis, carried by the first body, stays across the second: 4 relations."""
+    """X1 = X2, and the first axis, carried by the first body, stays perpendicular to the second: 4 relations."""
 
     type: Literal["universal"] = Field(description="a Cardan joint")
     examples: ClassVar[Mapping[int, str]] = {

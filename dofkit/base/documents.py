@@ -1,0 +1,199 @@
+"""YAML and JSON documents: plain exact values with the line and column of everything in them, and values as YAML.
+
+A decimal never becomes a float. The location of a value is worked out when it is first asked for.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from bisect import bisect_right
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from decimal import Decimal
+from functools import cached_property
+from typing import Any
+
+from dofkit.base.errors import Fault
+from dofkit.base.yaml_events import DEEPEST, SURROGATE, Path, Places, compose, plain
+
+__all__ = ["DEEPEST", "MOST_BYTES", "Document", "Path", "on_one_line", "read_document", "yaml_text"]
+
+#: A longer input is refused.
+MOST_BYTES = 64_000_000
+_FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+_BREAK = re.compile(r"\r\n|\r|\n")
+_JSON_START = re.compile(r"[ \t\r\n]*[{\[]")
+#: What stands for one character of a double-quoted text.
+_CHARACTER = re.compile(r"\\u[0-9a-fA-F]{4}|\\x[0-9a-fA-F]{2}|\\U[0-9a-fA-F]{8}|\\.|[^\\\n]")
+#: A text that YAML 1.2 reads as itself without quotes, in brackets too.
+_PLAIN = re.compile(r"[A-Za-z_][\w./-]*(?: [\w./-]+)*", re.ASCII)
+_WORDS = frozenset({"null", "true", "false", "nan", "inf"})
+
+
+@dataclass(frozen=True)
+class Document:
+    """What was read: its ``value``, its ``text`` and the ``faults`` of its form, in spite of which it has a value."""
+
+    name: str
+    text: str
+    value: Any
+    faults: tuple[Fault, ...]
+    locate: Callable[[], Places] = field(repr=False, default=dict)
+
+    @cached_property
+    def places(self) -> Places:
+        """The location of everything in the document."""
+        return self.locate()
+
+    @cached_property
+    def _line_starts(self) -> list[int]:
+        return [0, *(match.end() for match in _BREAK.finditer(self.text))]
+
+    def line(self, number: int) -> str:
+        """Return the text of a line, counted from 1."""
+        starts = [*self._line_starts, len(self.text)]
+        return self.text[starts[number - 1] : starts[number]].rstrip("\r\n") if 1 <= number < len(starts) else ""
+
+    def place(self, path: Path, *, key: bool = False, column: int | None = None) -> tuple[int, int]:
+        """Return line and column of the value at ``path``, of its key, or of a column within its text.
+
+        The location of what is absent is that of the value in which it is missing.
+        """
+        present = next((path[:n] for n in range(len(path), -1, -1) if path[:n] in self.places), ())
+        start, key_at = self.places.get(present, (0, -1))
+        if key and present == path and key_at >= 0:
+            return self.position(key_at)
+        if column is not None:
+            start += _offset_of_column(self.text[start : start + 4 * column + 400], column)
+        return self.position(start)
+
+    def position(self, offset: int) -> tuple[int, int]:
+        """Return line and column of an offset into the text."""
+        line = bisect_right(self._line_starts, offset)
+        return line, offset - self._line_starts[line - 1] + 1
+
+
+def read_document(data: bytes | str, name: str) -> Document:
+    """Return one document. It never raises for its content: a value of None and ``faults`` say what is wrong."""
+    text, fault = _decoded(data)
+    if fault is None and len(text) > MOST_BYTES:
+        fault = 0, Fault(f"the file is longer than {MOST_BYTES // 10**6} MB", hint="split the scene")
+    if fault is None and (forbidden := _FORBIDDEN.search(text)):
+        message = f"the character U+{ord(forbidden[0]):04X} is not allowed in a text file"
+        fault = forbidden.start(), Fault(message, hint="delete it, and check that this is a text file")
+    if fault is None and not text.strip():
+        fault = 0, Fault("the file is empty", hint="write a mapping, such as 'coordinates: [x, y]'")
+    if fault is not None:
+        return _document(name, text, None, [fault], dict)
+    if _JSON_START.match(text) and not SURROGATE.search(text):
+        try:
+            return _document(name, text, _json_value(text), [], lambda: compose(text).places)
+        except (ValueError, RecursionError):
+            pass  # The YAML parser finds out what is wrong.
+    composed = compose(text)
+    return _document(name, text, composed.value, composed.faults, lambda: composed.places)
+
+
+def _document(
+    name: str, text: str, value: Any, faults: list[tuple[int, Fault]], locate: Callable[[], Places]
+) -> Document:
+    document = Document(name, text, value, (), locate)
+    placed = []
+    for offset, fault in sorted(faults, key=lambda pair: pair[0]):
+        line, column = document.position(offset)
+        placed.append(replace(fault, line=line, column=column))
+    return replace(document, faults=tuple(placed)) if placed else document
+
+
+def _decoded(data: bytes | str) -> tuple[str, tuple[int, Fault] | None]:
+    if isinstance(data, str):
+        return data.removeprefix("\ufeff"), None
+    try:
+        return data.decode("utf-8-sig"), None
+    except UnicodeDecodeError as error:
+        before = error.object[: error.start].decode("utf-8", "replace")
+        other = " (it looks like UTF-16)" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ""
+        text = before + error.object[error.start : error.start + 10_000].decode("utf-8", "replace")
+        return text, (len(before), Fault(f"the file is not in UTF-8{other}", hint="save it as UTF-8"))
+
+
+def _json_value(text: str) -> Any:
+    """Return the value of a JSON text. Raises ValueError where the YAML parser has to find what is wrong."""
+    hooks: Any = {"parse_int": plain, "parse_float": plain, "parse_constant": _refused}
+    value = json.loads(text, object_pairs_hook=_mapping, **hooks)
+    level, depth = [value], 0
+    while level := [part for part in level if isinstance(part, dict | list)]:
+        depth += 1
+        level = [below for part in level for below in (part.values() if isinstance(part, dict) else part)]
+    if depth > DEEPEST:
+        _refused("nested too deep")
+    return value
+
+
+def _mapping(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    value = dict(pairs)
+    if len(value) < len(pairs) or "<<" in value:
+        _refused("a key twice, or one that merges")
+    return value
+
+
+def _refused(why: str) -> None:
+    raise ValueError(why)
+
+
+def _offset_of_column(source: str, column: int) -> int:
+    """Return the offset of a column of a text from where it begins in the file; 0 where it has several lines."""
+    if source[:1] in ("|", ">"):
+        return 0
+    if source[:1] not in ('"', "'"):
+        return column - 1 if "\n" not in source[:column] else 0
+    at = 1
+    for _ in range(column - 1):
+        if source[:1] == "'":
+            width = 2 if source.startswith("''", at) else 1
+        else:
+            match = _CHARACTER.match(source, at)
+            width = len(match[0]) if match else 1
+        if source[at : at + 1] in ("\n", ""):
+            return 0
+        at += width
+    return at
+
+
+def yaml_text(value: Mapping[str, Any], sections: tuple[str, ...] = (), remarks: tuple[str, ...] = ()) -> str:
+    """Return a mapping as YAML for a person to edit, with remarks as comments before it.
+
+    ``sections``: keys of lists and mappings that are written with an entry on each line.
+
+    >>> print(yaml_text({"name": "arm", "bodies": [{"name": "a", "mass": 1}]}, ("bodies",)), end="")
+    name: arm
+    bodies:
+    - {name: a, mass: 1}
+    """
+    lines = [f"# {' '.join(remark.split())}" for remark in remarks]
+    return "".join(f"{line}\n" for line in (*lines, *_lines(value, sections)))
+
+
+def _lines(value: Mapping[str, Any], sections: tuple[str, ...]) -> Iterator[str]:
+    for key, part in value.items():
+        if key not in sections:
+            yield f"{key}: {on_one_line(part)}"
+            continue
+        yield f"{key}:"
+        if isinstance(part, Mapping):
+            yield from (f"  {on_one_line(name)}: {on_one_line(entry)}" for name, entry in part.items())
+        else:
+            yield from (f"- {on_one_line(entry)}" for entry in part)
+
+
+def on_one_line(value: Any) -> str:
+    """Return a value as YAML on one line."""
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{on_one_line(key)}: {on_one_line(part)}" for key, part in value.items()) + "}"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(on_one_line, value)) + "]"
+    if isinstance(value, str):
+        is_plain = _PLAIN.fullmatch(value) and value.lower() not in _WORDS
+        return value if is_plain else json.dumps(value, ensure_ascii=False)
+    return str(value) if isinstance(value, Decimal) else json.dumps(value)

@@ -1,0 +1,394 @@
+"""Work in processes that can be killed and replaced: a job never hangs, crashes or starves its caller.
+
+A worker is a fresh Python that runs nothing of the caller's ``__main__``, so that scripts need no guard, or a fork
+where one small file has to be answered at once. It bounds its own memory and processor time (`process_limits`); its
+parent keeps the wall clock. A job comes pickled from the parent, which the worker trusts as it trusts the code that
+started it. What goes back is a line of JSON: the parent takes nothing else from a process that has worked on other
+people's input.
+
+Two libraries were tried. In `loky` one crash fails every job that is running, and no job can be killed. `pebble` kills
+and bounds jobs well, but the death of an idle worker ends its pool, a job that is cut short leaves no partial value,
+scripts without a guard run twice, and its import takes a sixth of the time in which a small file is answered.
+
+>>> from dofkit.base.runs import Pool
+>>> with Pool(1) as pool:
+...     pool.run(Job("operator:neg", 7, seconds=10.0)).value
+-7
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+import traceback
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from queue import Empty, SimpleQueue
+from typing import Any, BinaryIO, Literal, TypeAlias
+
+from dofkit.base.process_limits import allow, has_grown, set_limit
+
+if sys.platform != "win32":
+    import resource
+
+#: Bytes of address space that a worker may take.
+MEMORY = 4 << 30
+#: Seconds that a worker may take to start.
+STARTING = 60.0
+#: Seconds from the end of a process's pipe to its own.
+_ENDING = 2.0
+#: The folder that holds the package.
+_ROOT = str(Path(__file__).resolve().parents[2])
+_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+#: What the system sends a process whose clock, or processor time, has run out.
+_LIMITS = {number for name in ("SIGALRM", "SIGPROF", "SIGXCPU") if (number := getattr(signal, name, None)) is not None}
+
+#: What json can write: the only thing that comes back from a worker.
+Json = Any
+#: A `subprocess.Popen` with both pipes, or a `_Fork`.
+_Process: TypeAlias = Any
+
+#: ``done``; ``failed``: it raised; ``overrun``: killed at its limit; ``memory``: it wanted more than it may take;
+#: ``died``: its process ended; ``absent``: none could be started.
+Ended = Literal["done", "failed", "overrun", "memory", "died", "absent"]
+
+
+# The worker's side
+
+
+def serve(down: int, up: int, memory: int, modules: Sequence[str]) -> None:
+    """Import ``modules``, then do the jobs that come ``down`` until the parent closes that pipe.
+
+    The address space is bounded in bytes, there is no core file, and linear algebra has one thread: workers with a
+    thread for each core would only wait for each other, and every thread takes address space.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(signal, "SIGALRM"):
+        signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    os.environ.update(dict.fromkeys(_THREADS, "1"))
+    if sys.platform != "win32":
+        set_limit(resource.RLIMIT_CORE, 0)
+        set_limit(resource.RLIMIT_AS, memory)
+    for module in modules:
+        import_module(module)
+    jobs: SimpleQueue[bytes] = SimpleQueue()
+    threading.Thread(target=_listen, args=(down, jobs), daemon=True).start()
+    _send(up, "ready", None)
+    while True:
+        _do(jobs.get(), up, memory)
+
+
+def _listen(down: int, jobs: SimpleQueue[bytes]) -> None:
+    """Pass the jobs on; end this process with its parent, even in the middle of a job."""
+    with open(down, "rb") as source:
+        try:
+            while True:
+                jobs.put(pickle.load(source))
+        except Exception:
+            os._exit(0)
+
+
+def _do(request: bytes, up: int, memory: int) -> None:
+    """Do one job: send a ``value`` for everything that it returns or yields, then how it ended."""
+    try:
+        name, payload, (first, seconds) = pickle.loads(request)
+        allow(first)
+        returned = function_named(name)(payload)
+        for value in returned if isinstance(returned, Iterator) else (returned,):
+            _send(up, "value", value)
+            allow(seconds)
+        ended: tuple[str, Any] = "done", has_grown(memory)
+    except MemoryError:
+        ended = "memory", None
+    except Exception as error:
+        trace = "".join(traceback.format_exception(error))
+        ended = "failed", {"type": type(error).__name__, "message": str(error), "trace": trace}
+    allow(math.inf)
+    _send(up, *ended)
+
+
+def function_named(name: str) -> Any:
+    """Return the function that is called ``module:function``."""
+    module, _, path = name.partition(":")
+    value: Any = import_module(module)
+    for attribute in path.split("."):
+        value = getattr(value, attribute)
+    return value
+
+
+def _send(up: int, kind: str, value: Any) -> None:
+    message = memoryview(json.dumps([kind, value]).encode() + b"\n")
+    while message:
+        message = message[os.write(up, message) :]
+
+
+# The parent's side
+
+
+@dataclass(frozen=True)
+class Job:
+    """A function to call with one argument in a worker, and how long that may take.
+
+    ``function``: one that the worker can import, or its name ``module:function``. It returns what json can write; or
+    it is a generator of such values, of which the last one stands where the job is cut short. ``payload`` is anything
+    that can be pickled. ``seconds``: how long it may work without yielding anything, in wall-clock time, before it is
+    killed; ``first``: the same until its first value, where that differs.
+    """
+
+    function: str | Callable[[Any], Any]
+    payload: Any
+    seconds: float
+    first: float | None = None
+
+    @property
+    def name(self) -> str:
+        """``module:function``. Raises ValueError for a function that no other process can import."""
+        if isinstance(self.function, str):
+            return self.function
+        module, name = self.function.__module__, self.function.__qualname__
+        if module == "__main__" or "<" in name:
+            raise ValueError(f"a worker cannot import {name!r} of {module!r}: put it into a module of its own")
+        return f"{module}:{name}"
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Seconds until the first value, and from each to the next."""
+        return self.seconds if self.first is None else self.first, self.seconds
+
+
+@dataclass(frozen=True)
+class JobOutcome:
+    """The last value of a job (None: there was none), how it ended, and why where that is not ``done``.
+
+    Of a ``failed`` job ``error`` is the name of the exception's type, and ``trace`` its traceback.
+    """
+
+    value: Json
+    ended: Ended
+    reason: str = ""
+    error: str = ""
+    trace: str = ""
+
+    @property
+    def finished(self) -> bool:
+        """Whether the value is the job's last one."""
+        return self.ended == "done"
+
+
+class Worker:
+    """A process that does one job after another; it starts with the first one and ends with this object.
+
+    ``memory``: the bytes of address space that it may take; ``modules``: what it imports before the first job, which
+    counts as its start; ``fork``: a copy of this process where that is safe, instead of a fresh Python.
+    """
+
+    def __init__(self, memory: int = MEMORY, modules: Sequence[str] = (), *, fork: bool = False) -> None:
+        self.memory = memory
+        self.modules = tuple(modules)
+        self._fork = fork
+        self._forget()
+
+    def _forget(self) -> None:
+        """Begin without a process: one that the process started of which this is a fork is left to that one."""
+        self._owner = os.getpid()
+        self._lock = threading.Lock()
+        self._process: _Process | None = None
+        self._lines: SimpleQueue[bytes] = SimpleQueue()
+        self._reader: threading.Thread | None = None
+        self._ready = False
+
+    def fork(self) -> None:
+        """Start now, as a copy of this process; what replaces it later is a fresh Python all the same."""
+        self._process = _Fork(self.memory, self.modules)
+
+    def run(self, job: Job) -> JobOutcome:
+        """Return the outcome of one job; threads wait for each other. It never raises for what the job does."""
+        if self._owner != os.getpid():
+            self._forget()
+        request = pickle.dumps((job.name, job.payload, job.limits))
+        with self._lock:
+            if self._process is not None and self._process.poll() is not None:
+                self._drop()
+            outcome, keep = None, False
+            try:
+                outcome, keep = self._attempt(job, request)
+                return outcome
+            finally:
+                if not keep:
+                    self._drop()
+
+    def kill(self) -> None:
+        """End the process, whatever it does; the next job starts a new one."""
+        process = self._process
+        if process is not None and self._owner == os.getpid():
+            process.kill()
+            if self._lock.acquire(blocking=False):
+                self._drop()
+                self._lock.release()
+
+    def _drop(self) -> None:
+        process, self._process, self._ready = self._process, None, False
+        if process is not None:
+            process.kill()
+            process.wait()
+            reader, self._reader = self._reader, None
+            with suppress(OSError):
+                process.stdin.close()
+            if reader is not None:
+                reader.join(_ENDING)
+            if reader is None or not reader.is_alive():
+                process.stdout.close()
+
+    def _attempt(self, job: Job, request: bytes) -> tuple[JobOutcome, bool]:
+        """Return the outcome of a job, and whether the worker can do another one."""
+        value: Json = None
+        seconds, following = STARTING, job.limits[1]
+        try:
+            process = self._process = self._process or self._started()
+        except OSError as error:
+            return JobOutcome(None, "absent", f"no worker process could be started ({error})"), False
+        if self._reader is None:
+            self._lines = SimpleQueue()
+            self._reader = threading.Thread(target=_collect, args=(process.stdout, self._lines), daemon=True)
+            self._reader.start()
+        try:
+            if not self._ready and self._message(STARTING) is None:
+                raise OSError
+            self._ready = True
+            seconds = job.limits[0]
+            pickle.dump(request, process.stdin)
+            process.stdin.flush()
+            while (message := self._message(seconds)) is not None:
+                kind, content = message
+                if kind != "value":
+                    return self._outcome(value, kind, content)
+                value, seconds = content, following
+            reason = _reason_of_end(process)
+        except TimeoutError:
+            reason = f"was killed after {seconds:.3g} s"
+            if self._ready:
+                return JobOutcome(value, "overrun", f"the worker process {reason}"), False
+        except OSError:
+            reason = _reason_of_end(process)
+        if not self._ready:
+            return JobOutcome(None, "absent", f"the worker process {reason} while it started"), False
+        late = process.returncode is not None and -process.returncode in _LIMITS
+        return JobOutcome(value, "overrun" if late else "died", f"the worker process {reason}"), False
+
+    def _message(self, seconds: float) -> tuple[str, Json] | None:
+        """Return the next message, None where the process has ended. Raises TimeoutError after so many seconds."""
+        try:
+            line = self._lines.get(timeout=min(seconds, threading.TIMEOUT_MAX))
+        except Empty:
+            raise TimeoutError from None
+        return tuple(json.loads(line)) if line.endswith(b"\n") else None
+
+    def _outcome(self, value: Json, kind: str, content: Json) -> tuple[JobOutcome, bool]:
+        """Return the outcome of a job that ended by itself, and whether the worker can do another one."""
+        if kind == "done":
+            return JobOutcome(value, "done"), not content
+        if kind == "memory":
+            wanted = f"more than {self.memory / (1 << 30):.3g} GiB of memory would have been needed"
+            return JobOutcome(value, "memory", wanted), False
+        error, message = str(content["type"]), " ".join(str(content["message"]).split())
+        return JobOutcome(value, "failed", f"{error}: {message}" if message else error, error, content["trace"]), True
+
+    def _started(self) -> _Process:
+        """Return a new process. A fresh Python shares two pipes with this process."""
+        if self._fork and can_fork():
+            return _Fork(self.memory, self.modules)
+        paths = [os.path.abspath(place) for place in sys.path if place]  # never the working folder
+        return subprocess.Popen(
+            [sys.executable, "-P", "-m", "dofkit.base.workers", str(self.memory), *self.modules],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(paths if _ROOT in paths else [_ROOT, *paths])},
+            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+        )
+
+
+def can_fork() -> bool:
+    """Return whether this process may be forked: no other thread may hold locks, and libraries must not forbid it."""
+    return hasattr(os, "fork") and sys.platform != "darwin" and threading.active_count() == 1
+
+
+class _Fork:
+    """A copy of this process, in milliseconds, with all that it has imported; used like `subprocess.Popen`."""
+
+    def __init__(self, memory: int, modules: Sequence[str]) -> None:
+        down, requests = os.pipe()
+        replies, up = os.pipe()
+        self.returncode: int | None = None
+        self._pid = os.fork()
+        if self._pid == 0:
+            try:
+                os.close(requests)
+                os.close(replies)
+                serve(down, up, memory, modules)
+            finally:
+                os._exit(1)
+        os.close(down)
+        os.close(up)
+        self.stdin, self.stdout = os.fdopen(requests, "wb"), os.fdopen(replies, "rb")
+
+    def poll(self) -> int | None:
+        return self.wait(getattr(os, "WNOHANG", 0))
+
+    def kill(self) -> None:
+        if self.poll() is None:
+            os.kill(self._pid, signal.SIGKILL)
+
+    def wait(self, options: int = 0) -> int | None:
+        if self.returncode is None:
+            try:
+                pid, status = os.waitpid(self._pid, options)
+            except ChildProcessError:
+                pid, status = self._pid, 0
+            if pid:
+                self.returncode = os.waitstatus_to_exitcode(status)
+        return self.returncode
+
+
+def _collect(source: BinaryIO, lines: SimpleQueue[bytes]) -> None:
+    """Pass on the lines of a process and, at its end, an empty one: waiting for a queue can be given up."""
+    with suppress(OSError, ValueError):
+        for line in source:
+            lines.put(line)
+    lines.put(b"")
+
+
+def _reason_of_end(process: _Process) -> str:
+    """Return how a process ended that closed its pipe, as the end of a sentence."""
+    until = time.monotonic() + _ENDING
+    while (status := process.poll()) is None and time.monotonic() < until:
+        time.sleep(0.005)
+    if status is None:
+        return "stopped answering"
+    if status >= 0:
+        return f"ended with exit status {status}"
+    names = {number.value: number.name for number in signal.Signals}
+    return f"was ended by {names.get(-status, f'signal {-status}')}"
+
+
+def main() -> None:
+    """Serve over standard input and output: ``python -m dofkit.base.workers MEMORY MODULE...``."""
+    down, up = os.dup(0), os.dup(1)
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    for standard in (0, 1):
+        os.dup2(nowhere, standard)
+    serve(down, up, int(sys.argv[1]), sys.argv[2:])
+
+
+if __name__ == "__main__":
+    main()

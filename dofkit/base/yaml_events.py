@@ -1,0 +1,341 @@
+"""Plain exact values, and the location of each, from the events of PyYAML's parser; scalars are those of YAML 1.2."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from decimal import Decimal
+from typing import Any, NamedTuple, NoReturn, TypeAlias
+
+import yaml
+from yaml.events import (
+    AliasEvent,
+    CollectionEndEvent,
+    CollectionStartEvent,
+    DocumentStartEvent,
+    MappingStartEvent,
+    ScalarEvent,
+)
+from yaml.reader import ReaderError
+
+from dofkit.base.errors import Fault
+
+Path: TypeAlias = tuple[str | int, ...]
+#: Where a value begins, and its key (-1: it has none): offsets into the text.
+Places: TypeAlias = dict[Path, tuple[int, int]]
+Scalar: TypeAlias = bool | int | Decimal | str | None
+
+#: Deeper nesting is refused.
+DEEPEST = 50
+#: PyYAML's own parser, a hundred times slower than libyaml, reads no longer text.
+MOST_SLOW = 1_000_000
+#: Aliases may add this many values in all.
+MOST_ALIASED = 200_000
+#: A number is refused beyond this power of ten, up or down, and beyond this many characters.
+LARGEST_EXPONENT = 1000
+LONGEST_NUMBER = 400
+SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")
+_CORE = "tag:yaml.org,2002:"
+_TAGS = frozenset(_CORE + name for name in ("str", "int", "float", "bool", "null", "map", "seq")) | {"!"}
+_WORDS: dict[str, Scalar] = {
+    "": None, "~": None, "null": None, "Null": None, "NULL": None,
+    "true": True, "True": True, "TRUE": True, "false": False, "False": False, "FALSE": False,
+}  # fmt: skip
+_NUMBER = re.compile(r"[-+]?(?:(?P<int>[0-9]+)|(?:\.[0-9]+|[0-9]+\.?[0-9]*)(?:[eE](?P<exp>[-+]?[0-9]+))?)", re.ASCII)
+_OTHER_BASE = re.compile(r"0o(?P<octal>[0-7]+)|0x(?P<hex>[0-9a-fA-F]+)", re.ASCII)
+_NOT_FINITE = re.compile(r"[-+]?(?:\.inf|\.Inf|\.INF|Infinity)|\.nan|\.NaN|\.NAN|NaN")
+_NUMERIC_START = frozenset("0123456789+-.IN")
+
+
+class UnreadableError(Exception):
+    """Reading cannot go on."""
+
+
+class BadScalarError(ValueError):
+    """A number that cannot be taken; ``hint`` says what to write instead."""
+
+    def __init__(self, message: str, hint: str) -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+
+
+def plain(text: str) -> Scalar:
+    """Return the value of an unquoted scalar by the core schema of YAML 1.2; a decimal is never a float.
+
+    >>> plain("1e-6"), plain("017"), plain("0o17"), plain("on"), plain("~"), plain("1_000")
+    (Decimal('0.000001'), 17, 15, 'on', None, '1_000')
+    """
+    if text in _WORDS:
+        return _WORDS[text]
+    if text[0] not in _NUMERIC_START:
+        return text
+    if _NOT_FINITE.fullmatch(text):
+        raise BadScalarError(f"a finite number is needed, not {text}", "if it is meant as a name, put it in quotes")
+    match, other = _NUMBER.fullmatch(text), _OTHER_BASE.fullmatch(text)
+    if match is None and other is None:
+        return text
+    short = text if len(text) <= 24 else text[:20] + "..."
+    if len(text) > LONGEST_NUMBER:
+        message = f"the number {short} has {len(text)} characters"
+        raise BadScalarError(message, f"write a number in at most {LONGEST_NUMBER} characters")
+    if match is None:
+        return int(text, 0)
+    if match["int"]:
+        return int(text)
+    if abs(int(match["exp"] or "0")) <= LARGEST_EXPONENT:
+        value = Decimal(text)
+        if not value or abs(value.adjusted()) <= LARGEST_EXPONENT:
+            return value
+    raise BadScalarError(f"the number {short} is too large or too small", f"stay within 1e±{LARGEST_EXPONENT}")
+
+
+def _whole_characters(text: str) -> str | None:
+    """Return a text with the pairs of surrogates joined by which JSON escapes rare characters; None for half a one."""
+    if not any("\ud800" <= char <= "\udfff" for char in text):
+        return text
+    try:
+        return text.encode("utf-16", "surrogatepass").decode("utf-16")
+    except UnicodeDecodeError:
+        return None
+
+
+@dataclass
+class _Collection:
+    """A collection that is being filled; nothing of what is ``skipped`` (a key's second value) is located."""
+
+    value: Any
+    path: Path
+    anchor: str | None
+    size: int = 1
+    key: str | None = None
+    key_at: int = -1
+    skipping: bool = False
+    muted: bool = False
+    merged: list[tuple[int, Any]] = field(default_factory=list)
+
+
+class ComposedText:
+    """The value of a YAML text, the location of everything in it, and its faults with their offsets."""
+
+    def __init__(self, text: str, loader: Any) -> None:
+        self.value: Any = None
+        self.places: Places = {}
+        self.faults: list[tuple[int, Fault]] = []
+        self._documents = 0
+        self._stack: list[_Collection] = []
+        self._anchors: dict[str, tuple[Any, int]] = {}
+        self._aliased = 0
+        self.is_yaml = True
+        try:
+            for event in yaml.parse(text, Loader=loader):
+                self._take(event)
+        except UnreadableError:
+            pass
+        except yaml.YAMLError as error:
+            self.faults.append(syntax_fault(error))
+            self.is_yaml = False
+
+    def _fault(self, event: Any, message: str, hint: str) -> None:
+        self.faults.append((event.start_mark.index, Fault(message, hint=hint)))
+
+    def _give_up(self, event: Any, message: str, hint: str) -> NoReturn:
+        self._fault(event, message, hint)
+        raise UnreadableError
+
+    def _take(self, event: Any) -> None:
+        if isinstance(event, ScalarEvent):
+            self._scalar(event)
+        elif isinstance(event, CollectionStartEvent):
+            self._begin(event)
+        elif isinstance(event, CollectionEndEvent):
+            self._end()
+        elif isinstance(event, AliasEvent):
+            self._alias(event)
+        elif isinstance(event, DocumentStartEvent):
+            self._documents += 1
+            if self._documents > 1:
+                self._give_up(event, "a second document begins here", "a file contains one document: delete the '---'")
+
+    def _begin(self, event: CollectionStartEvent) -> None:
+        self._check_tag(event)
+        path = self._path(event)
+        if path is None:
+            self._give_up(event, "a key must be a text", "write 'key: value'")
+        if len(self._stack) >= DEEPEST:
+            self._give_up(event, "brackets or lists are nested too deep", f"at most {DEEPEST} levels are read")
+        value: Any = {} if isinstance(event, MappingStartEvent) else []
+        muted = bool(self._stack) and (self._stack[-1].skipping or self._stack[-1].muted)
+        self._stack.append(_Collection(value, path, event.anchor, muted=muted))
+
+    def _end(self) -> None:
+        done = self._stack.pop()
+        for at, other in done.merged:
+            for part in other if isinstance(other, list) else [other]:
+                if not isinstance(part, dict):
+                    self.faults.append((at, Fault("only a mapping can be merged with <<", hint="write << : *name")))
+                    break
+                for key, value in part.items():
+                    done.value.setdefault(key, value)
+        if done.anchor:
+            self._anchors[done.anchor] = (done.value, done.size)
+        self._add(done.value, done.size)
+
+    def _alias(self, event: AliasEvent) -> None:
+        name = str(event.anchor)
+        if name not in self._anchors:
+            inside = any(part.anchor == name for part in self._stack)
+            message = f"'*{name}' occurs inside the value that it names" if inside else f"nothing is named '&{name}'"
+            self._give_up(event, message, "put a text that begins with '*' in double quotes")
+        value, size = self._anchors[name]
+        self._aliased += size
+        if self._aliased > MOST_ALIASED:
+            self._give_up(event, f"the aliases expand to more than {MOST_ALIASED} values", "write the values out")
+        if self._path(event) is None:
+            self._take_key(event, value if isinstance(value, str) else None)
+        else:
+            self._add(value, size)
+
+    def _scalar(self, event: ScalarEvent) -> None:
+        self._check_tag(event)
+        text = _whole_characters(event.value)
+        if text is None:
+            self._fault(event, "an escape denotes half a character", "write the character itself")
+            text = ""
+        if self._path(event) is None:
+            self._take_key(event, text)
+            return
+        value: Scalar = text
+        if event.implicit[0] and (event.tag or "") != _CORE + "str":
+            try:
+                value = plain(text)
+            except BadScalarError as error:
+                self._fault(event, error.message, error.hint)
+                value = 1
+        if event.anchor:
+            self._anchors[event.anchor] = (value, 1)
+        self._add(value, 1)
+
+    def _path(self, event: Any) -> Path | None:
+        """Return the path of the value that begins with an event, and note its place; None where a key must stand."""
+        if not self._stack:
+            self.places[()] = (event.start_mark.index, -1)
+            return ()
+        top = self._stack[-1]
+        if isinstance(top.value, list):
+            path: Path = (*top.path, len(top.value))
+        elif top.key is None:
+            return None
+        else:
+            path = (*top.path, top.key)
+        if not (top.skipping or top.muted):
+            self.places[path] = (event.start_mark.index, top.key_at)
+        return path
+
+    def _take_key(self, event: Any, key: str | None) -> None:
+        if key is None:
+            self._give_up(event, "a key must be a text", "write 'key: value'")
+        top = self._stack[-1]
+        top.key, top.key_at = key, event.start_mark.index
+        top.skipping = key in top.value
+        if top.skipping:
+            self._fault(event, f"the key '{key[:60]}' is written twice", "keep one of the two")
+
+    def _add(self, value: Any, size: int) -> None:
+        if not self._stack:
+            self.value = value
+            return
+        top = self._stack[-1]
+        top.size += size
+        if isinstance(top.value, list):
+            top.value.append(value)
+            return
+        if top.key == "<<":
+            top.merged.append((top.key_at, value))
+        elif not top.skipping and top.key is not None:
+            top.value[top.key] = value
+        top.key, top.skipping = None, False
+
+    def _check_tag(self, event: Any) -> None:
+        if event.tag is not None and event.tag not in _TAGS:
+            hint = "delete the tag; put a text that begins with '!' in double quotes"
+            self._fault(event, f"the tag '{event.tag.removeprefix(_CORE)[:60]}' is not read", hint)
+
+
+def compose(text: str) -> ComposedText:
+    """Return the composed text, read by libyaml where PyYAML has it.
+
+    PyYAML's own parser explains an error better and joins the halves of a character that JSON escapes as two, so a text
+    with either is read by it unless it is longer than `MOST_SLOW`.
+    """
+    short = len(text) <= MOST_SLOW
+    if not (short and SURROGATE.search(text)):
+        composed = ComposedText(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+        if composed.is_yaml or not short:
+            return composed
+    return ComposedText(text, yaml.SafeLoader)
+
+
+class _SyntaxError(NamedTuple):
+    """A pattern of PyYAML's words for a syntax error, and the message and the hint for the author of the file."""
+
+    pattern: str
+    message: str
+    hint: str
+    at_context: bool = False
+
+
+_QUOTE = "put the text in double quotes"
+_SYNTAX = (
+    _SyntaxError(r"found character '\\t'", "there is a tab where YAML allows none",
+                 "use spaces to indent and to separate"),
+    _SyntaxError(r"expected (?:chomping or )?indentation indicator", "in YAML '|' and '>' begin a block of lines",
+                 "put a text that begins with one in quotes: `- \"|x - y| = 3\"`", True),
+    _SyntaxError(r"found character '(?P<char>.)'", "a plain text cannot begin with {char}", _QUOTE),
+    _SyntaxError(r"mapping values are not allowed", "there is a ':' where no key can be",
+                 "check the indentation; put a text that contains ': ' in double quotes"),
+    _SyntaxError(r"sequence entries are not allowed", "there is a list entry '- ' where none can be",
+                 "put the list on the lines below its key"),
+    _SyntaxError(r"found unexpected end of stream", "a quoted text is never closed", "close the quotes", True),
+    _SyntaxError(r"expected ',' or '(?P<char>.)', but got '(?P<got>.*)'",
+                 "line {line}'s bracket needs a ',' or '{char}' before {got}",
+                 "close the bracket, or put in quotes a text that contains one of , : [ ] {{ }}"),
+    _SyntaxError(r"expected the node content, but found '(?P<got>.*)'", "a value is needed before {got}",
+                 "write the value, or delete the extra comma"),
+    _SyntaxError(r"expected <block end>, but found '(?:\?|<block mapping start>|<scalar>)'",
+                 "this line does not align with the lines before it", "align it with the entries that it belongs to"),
+    _SyntaxError(r"expected <block end>, but found '-'", "this list entry does not align with the lines before it",
+                 "align the '-' with those of its list"),
+    _SyntaxError(r"expected <block end>, but found '(?P<got>[\]},])'", "one {got} too many", "delete it"),
+    _SyntaxError(r"expected <block end>", "there is text after a complete value", _QUOTE),
+    _SyntaxError(r"could not find expected ':'", "a ':' is missing after a key", "write 'key: value'"),
+    _SyntaxError(r"found unknown escape character '(?P<char>.*)'",
+                 "'\\{char}' means nothing in a double-quoted text", "write two backslashes, or use single quotes"),
+    _SyntaxError(r"expected escape sequence", "an escape in a double-quoted text is not complete",
+                 "write two backslashes, or use single quotes"),
+    _SyntaxError(r"while scanning (?:an alias|an anchor)", "in YAML a text cannot begin with '*' or '&'", _QUOTE),
+    _SyntaxError(r"YAML document \(version", "this version of YAML is not read", "delete the %YAML line"),
+    _SyntaxError(r"undefined tag handle|scanning a tag|parsing a tag", "custom tags are not read",
+                 "delete the tag; put a text that begins with '!' in double quotes"),
+    _SyntaxError(r"expected '<document start>'", "there is text after the end of the scene",
+                 "a file contains one scene"),
+    _SyntaxError(r"", "this cannot be read as YAML", "check quotes, brackets and indentation"),
+)  # fmt: skip
+_NAMES = {"<stream end>": "the end of the file", "?": "the next key", ":": "':'", "<scalar>": "a text"}
+
+
+def syntax_fault(error: yaml.YAMLError) -> tuple[int, Fault]:
+    """Return the offset and the fault of a syntax error."""
+    if isinstance(error, ReaderError):
+        return error.position, Fault("a character that YAML does not allow", hint="delete it")
+    if not isinstance(error, yaml.MarkedYAMLError):
+        return 0, Fault(_SYNTAX[-1].message, hint=_SYNTAX[-1].hint)
+    words = f"{error.problem} {error.context or ''}"
+    row, match = next((row, match) for row in _SYNTAX if (match := re.search(row.pattern, words)))
+    named = {
+        name: _NAMES.get(part or "", f"'{part}'" if name == "got" else part) for name, part in match.groupdict().items()
+    }
+    named["line"] = str(error.context_mark.line + 1) if error.context_mark else "?"
+    message = row.message.format(**named) + ("" if row.pattern else f": {error.problem}")
+    mark = (error.context_mark if row.at_context else None) or error.problem_mark or error.context_mark
+    return mark.index if mark else 0, Fault(message, hint=row.hint.format())

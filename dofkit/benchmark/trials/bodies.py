@@ -1,0 +1,141 @@
+"""Bodies with joints: overconstrained ones that move or are locked, trees and loops at random, rolling."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from typing import Any
+
+from dofkit.benchmark.trials.construction import KnownScene, every, known_scene, numbered, tables
+from dofkit.benchmark.trials.frameworks import hinged_loop, loop, tree
+
+Place = Sequence[Any]
+
+
+def _loop(hinges: Sequence[tuple[Place, Place]], bodies: int) -> dict[str, Any]:
+    exact = [tuple(tuple(map(Fraction, vector)) for vector in hinge) for hinge in hinges]
+    return hinged_loop([(at, axis) for at, axis in exact], bodies)
+
+
+def doors(quick: bool) -> Iterator[KnownScene]:
+    """A door on n hinges: on one line it turns, and all but the first say nothing new; off the line it is held."""
+    for n in (2, 3) if quick else (2, 3, 4, 8, 16):
+        # name, the places and axes of the hinges, dof, how many of the first are needed, trait
+        rows: list[tuple[str, list[tuple[Place, Place]], int, int, str]] = [
+            ("on one line", [([0, 0, k], [0, 0, 1]) for k in range(n)], 1, 1, "overconstrained"),
+            ("on a slanting line", [([k, 2 * k, -k], [1, 2, -1]) for k in range(n)], 1, 1, "overconstrained"),
+            ("beside each other", [([k, 0, k], [0, 0, 1]) for k in range(n)], 0, 2, "joints"),
+            ("each a little aside", [([f"{k}e-9", 0, k], [0, 0, 1]) for k in range(n)], 0, 2, "near-singular"),
+            ("each a little tilted", [([0, 0, k], [f"{k}e-9", 0, 1]) for k in range(n)], 0, 2, "near-singular"),
+        ]
+        for name, hinges, dof, needed, trait in rows:
+            redundant = [f"hinge{k}" for k in range(needed, n)]
+            traits = (trait, "redundant") if redundant else (trait,)
+            because = "hinges on one line are one hinge; two that are not hold the door"
+            about = f"{n} hinges {name}", _loop(hinges, 1), because, traits, n
+            yield known_scene(*about, dof=dof, redundancy=redundant)
+
+
+def cranks(quick: bool) -> Iterator[KnownScene]:
+    """A platform on n parallel bars of one length moves; with one foot aside, or one bar longer, it does not."""
+    because = "parallel bars of one length: a circle for every point; three that are not through one point hold it"
+    for n in (3, 4) if quick else (3, 4, 8, 16):
+        platform = [[k, 2 + k % 2] for k in range(n)]
+        feet: list[list[Any]] = [[x, y - 2] for x, y in platform]
+        names = [f"bar{k}" for k in range(n)]
+        # name, the number of a foot and its place elsewhere, dof, what is redundant, trait
+        rows: list[tuple[str, int, list[Any], int, list[str], str]] = [
+            ("of one length", 0, feet[0], 1, names[2:], "special-position"),
+            ("the last foot aside", n - 1, [n + 1, 0], 0, names[2 : n - 1], "plain"),
+            ("the third foot aside", 2, [5, feet[2][1]], 0, names[3:], "plain"),
+            ("the third foot aside by 1e-9", 2, ["2+1e-9", feet[2][1]], 0, names[3:], "near-singular"),
+        ]
+        for name, moved, place, dof, redundant, trait in rows:
+            bars = [
+                {
+                    "name": bar,
+                    "type": "link",
+                    "between": [place if k == moved else feet[k], {"on": "platform", "at": top}],
+                }
+                for k, (bar, top) in enumerate(zip(names, platform, strict=True))
+            ]
+            made = {"dimension": 2, "bodies": ["platform"], "constraints": bars}
+            yield known_scene(f"{n} bars, {name}", made, because, (trait,), n, dof=dof, redundancy=redundant)
+
+
+def loops(quick: bool) -> Iterator[KnownScene]:
+    """A closed loop of n hinges in space: parallel ones move as in the plane, a tilted one is locked."""
+    because = "parallel screws have rank 3; a tilted one is outside of them, and so does not turn"
+    for n in (4, 5) if quick else (4, 5, 6, 8):
+        hinges: list[tuple[Place, Place]] = [([k, k * (n - 1 - k), 0], [0, 0, 1]) for k in range(n)]
+        rows: list[tuple[str, Place, int, str]] = [
+            ("parallel", [0, 0, 1], n - 3, "overconstrained"),
+            ("the last tilted", [1, 0, 1], n - 4, "overconstrained"),
+            ("the last tilted by 1e-9", ["1e-9", 0, 1], n - 4, "near-singular"),
+        ]
+        for name, axis, dof, trait in rows:
+            made = _loop([*hinges[:-1], (hinges[-1][0], axis)], n - 1)
+            yield known_scene(f"{n} hinges, {name}", made, because, (trait,), n, dof=dof)
+
+
+def named_loops(quick: bool) -> Iterator[KnownScene]:
+    """Loops with a name [Bennett1903]."""
+    for row in tables("poses.yaml")["loops"][:: 2 if quick else 1]:
+        n = len(row["hinges"])
+        made = _loop(row["hinges"], n - 1)
+        yield known_scene(row["name"], made, row["because"], (row["trait"],), n, dof=row["dof"])
+
+
+def trees(quick: bool) -> Iterator[KnownScene]:
+    """Joints of every type, each body on one before it; and one of the joints written again."""
+    because = "the freedoms of the joints of a tree add up; a joint written again adds nothing"
+    for d, n in ((d, n) for n in ((1, 2) if quick else (1, 2, 4, 8, 16)) for d in (2, 3)):
+        for seed in range(1 if quick or n > 4 else 2):
+            rng = random.Random(f"tree {d} {n} {seed}")
+            made = tree(rng, d, n)
+            joints = made.scene["constraints"]
+            again = {**rng.choice(joints), "name": "again"}
+            for name, constraints, redundant in (("", joints, []), (", one joint twice", [*joints, again], ["again"])):
+                about = f"{n} bodies in dimension {d}, {seed}{name}", {**made.scene, "constraints": constraints}
+                traits = ("redundant",) if redundant else ("joints",)
+                yield known_scene(*about, because, traits, n, dof=made.dof, redundancy=redundant)
+
+
+def random_loops(quick: bool) -> Iterator[KnownScene]:
+    """Closed loops of joints of every type, where their screws span all or are independent."""
+    because = "rates whose screws cancel, by the exact rank: regular where they span all, none where independent"
+    for d, n in ((d, n) for n in ((1, 2) if quick else (1, 2, 3, 4, 5, 6)) for d in (2, 3)):
+        for seed in range(2 if quick else 4):
+            made = loop(random.Random(f"loop {d} {n} {seed}"), d, n)
+            if made.dof is not None:
+                name = f"{n} bodies in dimension {d}, {seed}"
+                yield known_scene(name, made.scene, because, ("joints",), n, dof=made.dof)
+
+
+def rolling(quick: bool) -> Iterator[KnownScene]:
+    """Balls that roll on a plane, where nothing integrates, and discs that roll on a line, where all does."""
+    because = "a ball reaches every place and every turn; a disc on a line is where its angle says"
+    for n in (1, 2) if quick else (1, 2, 4, 8):
+        bodies = [f"b{k}" for k in range(n)]
+        rolls = [{"type": "roll", "body": body, "radius": f"{k + 1}"} for k, body in enumerate(bodies)]
+        held = [{"type": "equation", "text": f"y_b{k} = {k}"} for k in range(n)]
+        traits = ("rolling", "many-blocks") if n > 1 else ("rolling",)
+        for name, d, constraints, dof, labels in (
+            ("balls on a plane", 3, rolls, 5 * n, every(numbered(n), False)),
+            ("discs on a line", 2, rolls, n, every(numbered(n), True)),
+            ("balls along lines", 3, [*rolls, *held], 4 * n, None),
+        ):
+            made = {"dimension": d, "bodies": bodies, "constraints": constraints}
+            yield known_scene(f"{n} {name}", made, because, traits, n, dof=dof, integrability=labels)
+
+
+FAMILIES = {
+    "doors": doors,
+    "cranks": cranks,
+    "loops of hinges": loops,
+    "loops with a name": named_loops,
+    "trees of bodies": trees,
+    "loops of bodies": random_loops,
+    "rolling": rolling,
+}

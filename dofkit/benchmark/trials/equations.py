@@ -1,0 +1,262 @@
+"""Configuration-level equations: dependent functions, combinations of rows, gaps, scales, powers, branches."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from itertools import combinations
+
+from dofkit.benchmark.trials.construction import KnownScene, every, known_scene, labels, numbered, scene_of, tables
+
+TABLES = tables("equations.yaml")
+
+
+def hidden_relations(quick: bool) -> Iterator[KnownScene]:
+    """Relations whose functions depend on each other; with a row that does not, and one that contradicts them."""
+    for number, row in enumerate(TABLES["hidden"][:: 6 if quick else 1]):
+        n, k, trait = len(row["coordinates"].split()), len(row["rows"]), row["trait"]
+        members: list[tuple[str, str | None, int, list[str], str]] = [
+            ("one that follows", row["implied"], n - k, [f"c{k + 1}"], trait),
+            ("one more", row["new"], n - k - 1, [], "plain"),
+            ("one that contradicts", row.get("never"), -1, [], "tiny-gap"),
+        ]
+        for how, last, dof, over, main in members:
+            if last is None or (dof < 0 and number % 2):
+                continue
+            traits = (main, trait) if main != trait else (trait,)
+            made = scene_of(row["coordinates"], *row["rows"], last)
+            about = f"{row['name']}, {how}", made, f"{row['implied']} by the rows before", traits, k + 1
+            yield known_scene(*about, dof=dof, redundancy=over)
+
+
+def power_sums(quick: bool) -> Iterator[KnownScene]:
+    """The power sums of n numbers are polynomials in the elementary symmetric ones [NewtonGirard]."""
+    because = "p_n = e_1 p_n-1 - e_2 p_n-2 + ... up to n e_n (Newton); missed, it forces e_n = 0"
+    for n in (2,) if quick else (2, 3, 4, 5):
+        x = [f"x{k}" for k in range(n)]
+        elementary = [" + ".join("*".join(c) for c in combinations(x, k)) for k in range(1, n + 1)]
+        rows = [f"e{k + 1} = {text}" for k, text in enumerate(elementary)]
+        rows += [f"p{k} = " + " + ".join(f"{q}^{k}" for q in x) for k in range(1, n + 1)]
+        names = [*x, *(f"e{k + 1}" for k in range(n)), *(f"p{k + 1}" for k in range(n))]
+        terms = [f"{'+' if i % 2 else '-'} e{i}*p{n - i}" for i in range(1, n)]
+        newton = f"p{n} = " + f"{' '.join(terms)} {'+' if n % 2 else '-'} {n}*e{n}".lstrip("+ ")
+        for how, row, dof, over in (
+            ("Newton's identity", newton, n, [f"c{2 * n + 1}"]),
+            ("Newton's identity missed", f"{newton} + e{n}", n - 1, []),
+        ):
+            about = f"{how} of {n}", scene_of(names, *rows, row), because, ("hidden-relation",), n
+            yield known_scene(*about, dof=dof, redundancy=over)
+
+
+def rotations(quick: bool) -> Iterator[KnownScene]:
+    """R^T R = 1, then R R^T = 1 too: the second says nothing new, as a left inverse is a right one."""
+    for n in (2,) if quick else (2, 3):
+        names = [f"r{i}{j}" for i in range(n) for j in range(n)]
+        pairs = [(i, j) for i in range(n) for j in range(i, n)]
+        columns = [f"{' + '.join(f'r{k}{i}*r{k}{j}' for k in range(n))} = {int(i == j)}" for i, j in pairs]
+        rows = [f"{' + '.join(f'r{i}{k}*r{j}{k}' for k in range(n))} = {int(i == j)}" for i, j in pairs]
+        trace = " + ".join(f"r{i}{i}" for i in range(n)) + f" = {n} + 1e-9"
+        over = numbered(len(rows), len(columns) + 1)
+        for how, more, dof, redundant, trait in (
+            ("by columns", [], n * (n - 1) // 2, [], "plain"),
+            ("by columns and by rows", rows, n * (n - 1) // 2, over, "hidden-relation"),
+            ("that leave the first axis", ["r00 = 1"], (n - 1) * (n - 2) // 2, [], "real"),
+            ("of trace beyond n", [trace], -1, [], "real"),
+        ):
+            made = scene_of(names, *columns, *more)
+            about = f"{n} by {n} {how}", made, "a left inverse is a right one; entries are at most 1", (trait,), n
+            yield known_scene(*about, dof=dof, redundancy=redundant)
+
+
+def linear_rows(quick: bool) -> Iterator[KnownScene]:
+    """Rows of a linear system; the last a combination of the others, at a gap; scaled; with coefficients far apart."""
+    because = "the first rows are in echelon form; the last is a combination of them, but for the gap"
+    sizes = (3, 6) if quick else (3, 6, 12)
+    for n, digits in ((n, d) for n in sizes for d in ((6, 30) if quick else (6, 12, 30, 60))):
+        if n > 6 and digits > 30:
+            continue
+        rng = random.Random(f"rows {n}")
+        names = [f"x{k}" for k in range(n)]
+        k = n // 2 + 1
+        rows = [[Fraction(rng.randint(-9, 9)) if j >= i else Fraction(0) for j in range(n)] for i in range(k)]
+        for i in range(k):
+            rows[i][i] = Fraction(rng.randint(1, 9))
+        right = [Fraction(rng.randint(-9, 9)) for _ in range(k)]
+        factors = [Fraction(rng.randint(1, 9), rng.randint(1, 9)) for _ in range(k)]
+        last = [sum((f * row[j] for f, row in zip(factors, rows, strict=True)), Fraction(0)) for j in range(n)]
+        value = sum((f * b for f, b in zip(factors, right, strict=True)), Fraction(0))
+        texts = [f"{_row(row)} = {b}" for row, b in zip(rows, right, strict=True)]
+        step = f"1e-{digits}"
+        for how, text, dof, over, traits in (
+            ("off by", f"{_row(last)} = {value} + {step}", -1, None, ("tiny-gap", "contradiction")),
+            ("tilted by", f"{_row(last)} + {step}*x{n - 1} = {value}", n - k - 1, [], ("tiny-gap",)),
+            ("scaled by", f"{step}*({_row(last)} - ({value})) = 0", n - k, [f"c{k + 1}"], ("scale", "redundant")),
+        ):
+            about = f"{n} coordinates, {how} 1e-{digits}", scene_of(names, *texts, text), because, traits, n
+            yield known_scene(*about, swept={"gap": 10.0**-digits}, dof=dof, redundancy=over)
+
+
+def _row(row: Sequence[Fraction]) -> str:
+    return " + ".join(f"({v})*x{j}" for j, v in enumerate(row) if v)
+
+
+def touching(quick: bool) -> Iterator[KnownScene]:
+    """Surfaces that miss each other by a gap, touch, or meet: none, a point, or more."""
+    because = "real solutions are there on one side of the gap only"
+    for row in TABLES["touching"][:: 5 if quick else 1]:
+        for digits in (9,) if quick else (0, 12, 30, 60):
+            signs = (("apart", f"1e-{digits}", 0), ("meeting", f"-1e-{digits}", 2))
+            for how, e, k in (*signs, ("touching", "0", 1)) if digits in (9, 12) else signs:
+                dof, over = row["dof"][k], row["redundant"][k] if digits in (0, 12) else None
+                name = f"{row['name']}, {how}" + (f" by 1e-{digits}" if k != 1 else "")
+                made = scene_of(row["coordinates"], *(text.replace("{e}", e) for text in row["rows"]))
+                traits = ("tiny-gap", *(["contradiction"] if dof < 0 else ["real"] if k == 1 else []))
+                about = name, made, because, traits, len(row["rows"])
+                yield known_scene(*about, swept={"gap": float(e)}, dof=dof, redundancy=over)
+
+
+#: The powers of ten by which configuration-level equations are moved away.
+FAR = (3, 6, 9)
+
+
+def scales(quick: bool) -> Iterator[KnownScene]:
+    """Circles and planes of any size, anywhere, in any unit: what follows from what does not change."""
+    for power in (-9, 9) if quick else (-30, -9, -6, 3, 6, 9, 30):
+        r, a = f"1e{power}", f"1e{abs(power)}"
+        for row in TABLES["scales"]:
+            if row["trait"] == "offset" and "holonomic" not in row and power not in FAR:
+                continue
+            made = scene_of(row["coordinates"], *(text.format(r=r, a=a) for text in row["rows"]))
+            label = {"c1": row["holonomic"]} if "holonomic" in row else None
+            about = f"{row['name']}, {r}", made, row["because"], (row["trait"],)
+            over = row.get("redundant")
+            yield known_scene(
+                *about, swept={"scale": 10.0**power}, dof=row["dof"], integrability=label, redundancy=over
+            )
+
+
+def walls(quick: bool) -> Iterator[KnownScene]:
+    """Relations without velocities are holonomic, inequalities never: nothing has to be computed."""
+    for n in (2,) if quick else (2, 4, 8, 16):
+        rows = [f"x{k}^2 + x{(k + 1) % n}^2 = {k + 2}" for k in range(0, n, 2)]
+        inequalities = [f"x{k} >= {-k - 9}" for k in range(1, n, 2)]
+        made = scene_of([f"x{k}" for k in range(n)], *rows, *inequalities)
+        holonomic = every(numbered(len(rows)), True) | every(numbered(len(inequalities), len(rows) + 1), False)
+        because = "inequalities reduce nothing and are not holonomic"
+        dof = n - len(rows) if n > 2 else 1
+        yield known_scene(f"{n} coordinates", made, because, ("inequality",), n, dof=dof, integrability=holonomic)
+
+
+def branches(quick: bool) -> Iterator[KnownScene]:
+    """Products: the set is the union of the branches, the freedom that of the largest."""
+    for row in TABLES["branches"][: 4 if quick else None]:
+        made = scene_of(row["coordinates"], *row["rows"])
+        about = row["name"], made, row["because"], (row["trait"],), len(made["coordinates"])
+        yield known_scene(*about, dof=row["dof"], integrability=labels(row.get("holonomic")))
+
+
+# Equations that are not reduced: what counts is the real set of zeros
+
+POWERS = (1, 2, 3, 8, 16, 32, 64)
+#: The largest power of a sum that a scene may hold, as powers of powers are bounded.
+LARGEST = 32
+
+
+def high_powers(quick: bool) -> Iterator[KnownScene]:
+    """Powers of an equation have its zeros, and no gradient there; x^k beside y^k are curves, points or nothing."""
+    because = "a power is 0 where its base is; real even powers are not negative"
+    for k in (2, 3) if quick else POWERS:
+        even = k % 2 == 0
+        curve = "x^2 + y^2 - 1"
+        # (name, coordinates, rows, dof, redundant: None where it is not asked, the trait)
+        rows: list[tuple[str, list[str], list[str], int, list[str] | None, str]] = [
+            ("a circle to the power", ["x", "y"], [f"({curve})^{k} = 0"], 1, [], "squared"),
+            ("a plane and its power", ["x", "y", "z"], ["x + y = z", f"(x + y - z)^{k} = 0"], 2, ["c2"], "squared"),
+            ("a power of x - y and x = 2 y", ["x", "y"], [f"(x - y)^{k} = 0", "x = 2 y"], 0, [], "squared"),
+            ("x^k + y^k = 1", ["x", "y"], [f"x^{k} + y^{k} = 1"], 1, [], "high-power"),
+            ("x^k + y^k = 0", ["x", "y"], [f"x^{k} + y^{k} = 0"], 0 if even else 1, [], "high-power"),
+            ("x^k = -1", ["x", "y"], [f"x^{k} = -1"], -1 if even else 1, None if even else [], "high-power"),
+            ("x^k = y^k", ["x", "y"], [f"x^{k} = y^{k}"], 1, [], "high-power"),
+            ("x = y and x^k = y^k", ["x", "y"], ["x = y", f"x^{k} = y^{k}"], 1, ["c2"], "high-power"),
+        ]
+        for name, coordinates, texts, dof, over, trait in rows:
+            if k > LARGEST and "(" in "".join(texts):
+                continue
+            traits = (trait, "real") if "x^k +" in name or dof < 0 else (trait,)
+            about = f"{name}, k = {k}", scene_of(coordinates, *texts), because, traits, k
+            yield known_scene(*about, swept={"power": k}, dof=dof, redundancy=over)
+
+
+def power_forms(quick: bool) -> Iterator[KnownScene]:
+    """Forms with powers in them, and powers of forms."""
+    for k in (2, 3) if quick else POWERS:
+        # (name, text, integrates?, because)
+        rows = [
+            ("d(x^k y) + z", f"{k}*x^{k - 1}*y dx + x^{k} dy + dz = 0", True, "the differential of x^k y + z"),
+            ("d(x^k y) and z dx", f"({k}*x^{k - 1}*y + z) dx + x^{k} dy = 0", False, "d of it is dz dx: x^k dy dz dx"),
+            ("dz - y^k dx", f"dz - y^{k} dx = 0", False, "a contact form in y^k"),
+            ("dz - x^k dx", f"dz - x^{k} dx = 0", True, "z - x^(k+1)/(k+1)"),
+            ("a factor to the power", f"(1 + x^2 + y^2)^{k}*(dz + 2 y dy) = 0", True, "z + y^2"),
+            ("a contact form, with it", f"(1 + x^2 + y^2)^{k}*(dz + y dx) = 0", False, "a contact form"),
+            ("the power of an exact form", f"(zdot + 2 y ydot)^{k} = 0", True, "z + y^2"),
+            ("the power of a contact form", f"(zdot + y xdot)^{k} = 0", False, "a contact form"),
+        ]
+        for name, text, integrates, because in rows:
+            if k > LARGEST and text.startswith("("):
+                continue
+            traits = ("squared", "nonlinear") if "the power of" in name else ("high-power",)
+            about = f"{name}, k = {k}", scene_of("x y z", text), because, traits, k
+            label, dof = {"c1": integrates}, 2 if integrates else 3
+            yield known_scene(*about, swept={"power": k}, dof=dof, integrability=label)
+
+
+def sums_of_squares(quick: bool) -> Iterator[KnownScene]:
+    """One equation that says n things: a sum of n squares; with a sign, or a constant, it does not."""
+    for n in (2, 3) if quick else (2, 3, 4, 6, 8, 12):
+        total, mixed = _sum(n, "(x{k} - {k})^2"), _sum(n, "(x{k} + 2 x{next})^2")
+        rows: list[tuple[str, str, int, str, tuple[str, ...]]] = [
+            ("a point", f"{total} = 0", 0, "every square is 0", ("sum-of-squares",)),
+            ("a sphere", f"{total} = 1", n - 1, "a sphere", ("plain",)),
+            ("nothing", f"{total} + 1 = 0", -1, "squares are not negative", ("contradiction", "real")),
+            ("a cone", f"{total} = (x0 + 1)^2", n - 1, "a quadric with a regular point", ("plain",)),
+            ("sums of two", f"{mixed} = 0", 0, "the matrix 1 + 2 shift is regular: x = 0", ("sum-of-squares",)),
+            ("fourth powers", f"{_sum(n, 'x{k}^4')} = 0", 0, "all 0", ("sum-of-squares",)),
+        ]
+        names = [f"x{k}" for k in range(n)]
+        for name, text, dof, because, traits in rows:
+            yield known_scene(f"{name} of {n}", scene_of(names, text), because, traits, size=n, dof=dof)
+        yield from _squared_forms(n, names)
+
+
+def _squared_forms(n: int, names: list[str]) -> Iterator[KnownScene]:
+    first = f"(x0dot - x1 ydot)^2 + {_sum(n, '(x{k}dot - y ydot)^2', 1)} = 0"
+    second = f"{_sum(n, '(x{k}dot - z ydot)^2')} = 0"
+    for name, coordinates, text, because, dof in (
+        (f"{n} forms in one", ["y"], first,
+         "each square is 0: dx_k = y dy, and dx_0 = x_1 dy with it; one direction is left: they integrate", 1),
+        (f"{n - 1} forms in one, and one that does not integrate", ["y", "z"], second,
+         "each square is 0: dx_k = z dy; differences integrate, the form does not", 3),
+    ):  # fmt: skip
+        about = name, scene_of([*names, *coordinates], text), because, ("sum-of-squares", "nonlinear"), n
+        yield known_scene(*about, dof=dof, integrability={"c1": dof == 1})
+
+
+def _sum(n: int, text: str, first: int = 0) -> str:
+    """Return the sum of a text over k = first, ..., n - 1; {next} is the index after k, and 0 after the last."""
+    return " + ".join(text.format(k=k, next=(k + 1) % n) for k in range(first, n))
+
+
+FAMILIES = {
+    "hidden relations": hidden_relations,
+    "power sums": power_sums,
+    "rotation matrices": rotations,
+    "linear rows": linear_rows,
+    "touching surfaces": touching,
+    "scales": scales,
+    "walls": walls,
+    "branches": branches,
+    "high powers": high_powers,
+    "powers in forms": power_forms,
+    "sums of squares": sums_of_squares,
+}

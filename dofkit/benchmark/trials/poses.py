@@ -1,0 +1,261 @@
+"""Mechanisms near their singular poses: scaled, moved, rounded, renamed, measured.
+
+The truths are derived by hand at the singular pose and beside it (see ``poses.yaml``), for every size of the step; of
+rounded positions it is the exact rank.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import islice
+from typing import Any
+
+from dofkit.benchmark.trials.construction import KnownScene, Row, known_scene, tables
+from dofkit.benchmark.trials.frameworks import Framework, Position, framework, hinged_loop
+
+Move = Callable[[Position], Position]
+#: (dof, instantaneous_dof); None where it was not derived.
+Freedom = tuple[int | None, int]
+
+
+def _stepped(position: Sequence[Any], direction: Sequence[Any], step: Fraction) -> Position:
+    return tuple(Fraction(x) + step * Fraction(d) for x, d in zip(position, direction, strict=True))
+
+
+@dataclass(frozen=True)
+class FrameworkPose:
+    """A framework that is singular at step 0, as a row of ``poses.yaml``."""
+
+    row: Row
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return str(self.row["name"])
+
+    def freedom(self, step: Fraction) -> Freedom:
+        """Return the freedom and the instantaneous freedom at a step."""
+        dof, instantaneous = self.row["beside" if step else "there"]
+        return dof, instantaneous
+
+    def at(self, step: Fraction) -> Framework:
+        """Return the framework at a step from its singular pose."""
+        row = self.row
+        joints, ground = dict(row["joints"]), list(row.get("ground", ()))
+        for end in row["moved"]:
+            positions: Any = joints if isinstance(end, str) else ground
+            positions[end] = _stepped(positions[end], row["by"], step)
+        return framework(joints, ground, row["bars"])
+
+    def known(self, name: str, drawn: Framework, freedom: Freedom, swept: Mapping[str, Any], **more: Any) -> KnownScene:
+        """Return the scene of a framework, one of this pose's or moved, with its truth."""
+        return _known(name, drawn.scene(**more), drawn.coordinates, len(drawn.bars), freedom, swept)
+
+    def placed(self, name: str, step: Fraction, move: Move, swept: Mapping[str, Any], **more: Any) -> KnownScene:
+        """Return the scene at a step, with all positions moved."""
+        return self.known(name, self.at(step).moved(move), self.freedom(step), swept, **more)
+
+
+class HingedPose(FrameworkPose):
+    """A loop of hinged bodies that is overconstrained at step 0; a single body is held by all hinges."""
+
+    def placed(self, name: str, step: Fraction, move: Move, swept: Mapping[str, Any], **more: Any) -> KnownScene:
+        """Return the scene at a step, with all positions moved."""
+        row = self.row
+        number, part = row["moved"]
+        hinges = []
+        for i, (place, axis) in enumerate(row["hinges"]):
+            by = {key: row["by"] if (i, key) == (number, part) else [0, 0, 0] for key in ("place", "axis")}
+            hinges.append((move(_stepped(place, by["place"], step)), _stepped(axis, by["axis"], step)))
+        made = {**hinged_loop(hinges, row["bodies"]), **more}
+        return _known(name, made, 6 * row["bodies"], 5 * len(hinges), self.freedom(step), swept)
+
+
+NEAR = [FrameworkPose(row) for row in tables("poses.yaml")["frameworks"]]
+JOINTED = [HingedPose(row) for row in tables("poses.yaml")["hinges"]]
+STEPS = tuple(Fraction(1, 10**k) for k in range(1, 13))
+ZERO = Fraction(0)
+#: Digits to which coordinates are rounded.
+DIGITS = (12, 9, 6, 4, 3)
+MILLION = 10**6
+#: (move, scale, offset) by name.
+MOVES: Mapping[str, tuple[Move, float, float]] = {
+    "as drawn": (lambda p: p, 1, 0),
+    "a million times larger": (lambda p: tuple(x * MILLION for x in p), MILLION, 0),
+    "a million times smaller": (lambda p: tuple(x / MILLION for x in p), 1 / MILLION, 0),
+    "moved a hundred away": (lambda p: tuple(x + 100 * (k + 1) for k, x in enumerate(p)), 1, 100),
+    "moved a million away": (lambda p: tuple(x + MILLION * (k + 1) for k, x in enumerate(p)), 1, MILLION),
+    "small and far away": (lambda p: tuple(x / MILLION + MILLION for x in p), 1 / MILLION, MILLION),
+}
+SEEDS = range(2)
+#: The tolerance of exact drawings.
+TOLERANCE = "1e-4"
+
+
+def _moved(pose: FrameworkPose, step: Fraction, how: str, named: str = "", **more: Any) -> KnownScene:
+    """Return a pose at a step, moved."""
+    move, scale, offset = MOVES[how]
+    swept = {"step": float(step), "scale": scale, "offset": offset} | {key: float(v) for key, v in more.items()}
+    return pose.placed(f"{pose.name}, {float(step):g} beside, {how}{named}", step, move, swept, **more)
+
+
+def steps() -> Iterator[KnownScene]:
+    """Yield each at its singular pose, and 10^-1 ... 10^-12 beside it."""
+    for step in (ZERO, *STEPS):
+        for pose in NEAR:
+            name = f"{pose.name}, {float(step):g} beside"
+            yield pose.placed(name, step, MOVES["as drawn"][0], {"step": float(step)})
+        yield from (_moved(pose, step, "as drawn") for pose in JOINTED)
+
+
+def sizes() -> Iterator[KnownScene]:
+    """Yield each a million times larger, smaller, and far away: at the singular pose and beside it."""
+    for how in MOVES:
+        for step in (ZERO, STEPS[0]):
+            yield from (_moved(pose, step, how) for pose in (*NEAR, *JOINTED))
+
+
+def shuffles() -> Iterator[KnownScene]:
+    """Yield each renamed and in another order."""
+    for seed in SEEDS:
+        for pose in NEAR:
+            for step in (ZERO, STEPS[2]):
+                drawn = pose.at(step).shuffled(random.Random(f"{pose.name} {seed}"))
+                name = f"{pose.name}, {float(step):g} beside, shuffled by {seed}"
+                yield pose.known(name, drawn, pose.freedom(step), {"step": float(step)})
+
+
+def turned(position: Position) -> Position:
+    """Turn by the angle of 5, 12, 13 about the origin, make 10/7 as large, move aside: no decimals are exact."""
+    x, y, *others = position
+    a, b = Fraction(5, 13), Fraction(12, 13)
+    return tuple(v * 10 / 7 + Fraction(1, 3) for v in (a * x - b * y, b * x + a * y, *others))
+
+
+def rounded(digits: int) -> Move:
+    """Return the rounding to so many digits after the point."""
+    return lambda p: tuple(Fraction(round(x * 10**digits), 10**digits) for x in p)
+
+
+def roundings() -> Iterator[KnownScene]:
+    """Yield singular poses with rounded coordinates: by themselves the truth is of what is written, exactly.
+
+    Where the bars are independent then, so is every configuration near: the motion is as large as the rank says.
+    """
+    for digits in DIGITS:
+        for pose in NEAR:
+            drawn = pose.at(ZERO).moved(turned).moved(rounded(digits))
+            first = drawn.by_rank()
+            regular = drawn.coordinates - first == len(drawn.bars)
+            name = f"{pose.name}, {digits} digits"
+            yield pose.known(name, drawn, (first if regular else None, first), {"digits": digits})
+
+
+def measured() -> Iterator[KnownScene]:
+    """Yield the same with a tolerance of the last digit: the truth is of what was rounded."""
+    for digits in DIGITS:
+        for pose in NEAR:
+            drawn = pose.at(ZERO).moved(turned).moved(rounded(digits))
+            swept = {"digits": digits, "tolerance": 10.0**-digits}
+            name = f"{pose.name}, {digits} digits with tolerance"
+            yield pose.known(name, drawn, pose.freedom(ZERO), swept, tolerance=f"1e-{digits}")
+
+
+def measured_elsewhere() -> Iterator[KnownScene]:
+    """Yield exact drawings with a tolerance, of any size and anywhere."""
+    for how in MOVES:
+        for step in (ZERO, Fraction(1, 2)):
+            yield from (_moved(p, step, how, f", within {TOLERANCE}", tolerance=TOLERANCE) for p in NEAR)
+            yield from (_moved(p, step, how, tolerance=TOLERANCE) for p in JOINTED)
+
+
+def _known(
+    name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom, swept: Mapping[str, Any]
+) -> KnownScene:
+    """Where the rows are independent at the reference configuration, no constraint can be dropped."""
+    dof, first = freedom
+    truth: dict[str, Any] = {"consistent": True, "instantaneous_dof": first}
+    if dof is not None:
+        truth |= {"dof": dof, "velocity_dof": dof, "singular": first != dof}
+        truth["redundant_equations"] = max(0, equations - (coordinates - dof))
+    if first == coordinates - equations:
+        truth["redundant"] = []
+    return KnownScene(scene, truth, name=name, group=name.partition(",")[0], swept=swept)
+
+
+#: Every sweep by name.
+SWEEPS: Mapping[str, Callable[[], Iterator[KnownScene]]] = {
+    "beside a singular pose": steps,
+    "scaled and moved": sizes,
+    "renamed and reordered": shuffles,
+    "rounded": roundings,
+    "rounded, with tolerance": measured,
+    "scaled and moved, with tolerance": measured_elsewhere,
+}
+
+# Families: the degree of freedom alone, which is known at every step
+
+#: What a singular pose is like, by mechanism; those of frameworks that are left out have an infinitesimal motion.
+CROSSING, SPECIAL = ("four-bar at its change point", "flat parallelogram"), ("third crank longer", "third crank aside")
+#: The steps that are taken.
+TAKEN = (0, 1e-1, 1e-3, 1e-6, 1e-12)
+DERIVED = "derived by hand at the singular pose and beside it, for every step"
+RANKED = "the exact rank of what is written: independent bars stay so, and nothing is singular there"
+
+
+def _freedom(case: KnownScene, traits: Sequence[str], because: str = DERIVED) -> KnownScene:
+    return known_scene(case.name, case.scene, because, traits, swept=case.swept, dof=case.dof)
+
+
+def _trait(case: KnownScene) -> str:
+    """Return what is special about the pose."""
+    if case.swept["step"]:
+        return "near-singular"
+    kinds = {**dict.fromkeys(CROSSING, "crossing"), **dict.fromkeys(SPECIAL, "special-position")}
+    kinds |= dict.fromkeys((pose.name for pose in JOINTED), "overconstrained")
+    return kinds.get(case.group, "shaky")
+
+
+def _moved_trait(case: KnownScene) -> str:
+    """Return what is special about where the mechanism lies, and how large it is."""
+    return "offset" if case.swept["offset"] else "scale" if case.swept["scale"] != 1 else "special-position"
+
+
+def near_singular(quick: bool) -> Iterator[KnownScene]:
+    """At singular poses, and 10^-1 ... 10^-12 beside them."""
+    cases = islice(steps(), 0, None, 17) if quick else (c for c in steps() if c.swept["step"] in TAKEN)
+    return (_freedom(case, (_trait(case),)) for case in cases)
+
+
+def scaled(quick: bool) -> Iterator[KnownScene]:
+    """A million times larger and smaller, and far away."""
+    cases = islice(sizes(), 0, None, 31 if quick else 3)
+    return (_freedom(case, (_moved_trait(case), _trait(case))) for case in cases)
+
+
+def rounded_poses(quick: bool) -> Iterator[KnownScene]:
+    """Rounded drawings: exact as they are written."""
+    return (_freedom(case, ("rounded",), RANKED) for case in islice(roundings(), 0, None, 11 if quick else 1))
+
+
+def measured_poses(quick: bool) -> Iterator[KnownScene]:
+    """Rounded drawings with a tolerance: true is what was rounded."""
+    return (_freedom(case, ("measured",)) for case in islice(measured(), 0, None, 11 if quick else 1))
+
+
+def measured_anywhere(quick: bool) -> Iterator[KnownScene]:
+    """Exact drawings with a tolerance, of any size and anywhere."""
+    cases = islice(measured_elsewhere(), 0, None, 29 if quick else 3)
+    return (_freedom(case, ("measured", _moved_trait(case))) for case in cases)
+
+
+FAMILIES = {
+    "near singular": near_singular,
+    "size and place": scaled,
+    "rounded": rounded_poses,
+    "rounded, with tolerance": measured_poses,
+    "size and place, with tolerance": measured_anywhere,
+}
