@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Generator, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
@@ -31,7 +31,9 @@ from dofkit.homework.judgement import (
     Judgement,
     needs_review,
     partly,
+    shown_text_of,
     unreadable,
+    verdict,
 )
 from dofkit.homework.key.key import Key
 from dofkit.homework.problem import Problem
@@ -42,7 +44,7 @@ from dofkit.homework.review.filled_table import read_table
 from dofkit.homework.review.queue import Decision, answer_id
 from dofkit.homework.sentences.translations import Said, in_language, say
 from dofkit.homework.variants import NobodysVariantError, own
-from dofkit.report import ToldModel
+from dofkit.report import ReportModel
 
 #: Seconds of processor time for one answer; what is not decided then needs a review.
 ANSWER_SECONDS = 5.0
@@ -188,26 +190,45 @@ class Grader:
             return needs_review("", say("an internal error occurred ({error}).", error=type(error).__name__))
 
     def _read(self, question: QuestionBase, answer: Given, key: Key, earlier: Mapping[str, Fraction]) -> Judgement:
-        """What an answer is worth, or why it is open where it cannot be read in one way."""
+        """Return what an answer is worth, or why it is open if it cannot be read in one way."""
         try:
-            return question.judge(answer, key, earlier)
+            readings = question.readings(answer, key.declared)
         except DoubtError as error:
-            found = needs_review("", error.message)
-            with suppress(DofkitError):
-                found = replace(found, ways=_parts(question, answer, key))
-            return found
+            return replace(needs_review("", error.message), ways=self._parts(question, answer, key), certain=False)
         except TextError as error:
             return self._unread(error, question, answer, key)
+        shown, certain = shown_text_of(readings), all(one.certain for one in readings)
+        try:
+            found = verdict(readings, lambda reading: question.judged(reading, key, earlier))
+        except DoubtError as error:
+            found = needs_review(shown, error.message)
+        except TextError as error:  # no scene can hold what it says
+            return self._unread(error, question, answer, key)
+        several = len({one.shown for one in readings}) > 1
+        return replace(found, read_as=shown, certain=certain and not several)
 
     def _unread(self, error: TextError, question: QuestionBase, answer: Given, key: Key) -> Judgement:
-        """What could not be read, with what would be."""
-        error, nearest = in_whole(answer, error, lambda part: question.read(part, key)), None
-        parts: tuple[JudgedReading, ...] = ()
+        """Return that an answer could not be read, with what would be."""
+        error = in_whole(answer, error, lambda part: question.read(part, key.declared))
+        nearest: JudgedReading | None = None
         with suppress(DofkitError):
-            nearest = nearest_reading(answer, error, lambda text: question.judge(text, key, {}))
-            parts = _parts(question, answer, key) if nearest is None else ()
-        found = unreadable(error, (nearest,) if nearest is not None else parts)
+            nearest = nearest_reading(answer, error, self._judge_of(question, key))
+        ways = (nearest,) if nearest is not None else self._parts(question, answer, key)
+        found = unreadable(error, ways)
         return found if self.prepared.assignment.unreadable == "review" else replace(found, share=NOTHING)
+
+    def _judge_of(self, question: QuestionBase, key: Key) -> Callable[[str], Judgement]:
+        def judge(text: str) -> Judgement:
+            shown = question.read(text, key.declared)
+            return replace(question.judge(text, key, {}), read_as=shown)
+
+        return judge
+
+    def _parts(self, question: QuestionBase, answer: Given, key: Key) -> tuple[JudgedReading, ...]:
+        """Return what an answer in doubt may mean."""
+        with suppress(DofkitError):
+            return parts_read(answer, isinstance(question, NumberQuestion), self._judge_of(question, key))
+        return ()
 
     def _item(self, problem: Problem, question: QuestionBase, found: Judgement, answer: Given | None = None) -> Item:
         return Item(
@@ -223,14 +244,9 @@ class Grader:
             answer=None if answer is None else shown_text(answer),
             would_read=found.ways[0].read_as if found.status == "unreadable" and len(found.ways) == 1 else None,
             variant=self.prepared.marks.get((problem.id, question.id)),
+            certain=found.certain,
             readings=[PossibleReading(read_as=way.read_as, score=_points(way.share, question)) for way in found.ways],
         )
-
-
-def _parts(question: QuestionBase, answer: Given, key: Key) -> tuple[JudgedReading, ...]:
-    """What an answer in doubt may mean."""
-    numbers = isinstance(question, NumberQuestion)
-    return parts_read(answer, numbers, lambda text: question.judge(text, key, {}))
 
 
 def _points(share: Fraction | None, question: QuestionBase) -> float | None:
@@ -320,7 +336,7 @@ def grade(assignment: Any, submission: Any, reviewed: str | os.PathLike[str] | N
     return Grader(prepared).grade(given)
 
 
-class EchoedAnswer(ToldModel):
+class EchoedAnswer(ReportModel):
     """One answer as it was understood; ``column`` is where one that is not understood could not be read further."""
 
     problem: str
@@ -331,7 +347,7 @@ class EchoedAnswer(ToldModel):
     column: int | None = None
 
 
-class Echo(ToldModel):
+class Echo(ReportModel):
     """One student's answers as they were understood. ``error``: why the submission could not be read."""
 
     student: str
@@ -364,7 +380,7 @@ def _echoed(problem: str, question: QuestionBase, key: Key, answer: Given | None
         return EchoedAnswer(problem=problem, question=question.id, status="missing", read_as="")
     try:
         with by_processor(ANSWER_SECONDS):
-            shown = question.read(answer, key)
+            shown = question.read(answer, key.declared)
     except MemoryError:
         raise
     except Exception as error:

@@ -12,7 +12,6 @@ from dofkit.base.verdicts import Verdict, weakest
 from dofkit.configuration.drawing.at_reference import CLEAR
 from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.variety import Variety
-from dofkit.exact.independence import independent_on_set
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import rank_of, sparse
 from dofkit.exact.points.field import FieldPoint
@@ -20,6 +19,7 @@ from dofkit.exact.points.frames import pairing
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.canonical import error_bits
 from dofkit.exact.ring.program import Scalar, values
+from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.integrability.growth_vector import derived_flag, growth
 from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span

@@ -9,12 +9,11 @@ from itertools import combinations
 from typing import Any
 
 from dofkit.base.errors import NoValueError
-from dofkit.exact.independence import doubt, independent_generators, odd_constants
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, field_frame
 from dofkit.exact.ring.program import VAR, Scalar, gradient, values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero import zero_and_verdict
+from dofkit.exact.zero import doubt, independent_generators, odd_constants, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr

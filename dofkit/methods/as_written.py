@@ -10,7 +10,7 @@ from dofkit.base.errors import TextError
 from dofkit.exact.ring.program import Point, Scalar, gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
-from dofkit.expressions.differentials import accelerations_of, cleared, in_velocities
+from dofkit.expressions.calculus import accelerations_of, cleared, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.methods.table import MethodReply
 from dofkit.relations.normal.normal_form import linear_form, velocities_of

@@ -10,7 +10,7 @@ does a motion pass through? The results are a `MotionReport` and a list of confi
     3. `derivation` has Lagrange's equations of the second kind by SymPy, which `tidying` writes as on a board.
     4. `conserved` has cyclic coordinates and first integrals [Noether1918], `small_motions` equilibria and the
        linearization about one; `equations` has the entry point `dofkit.lagrange`, `report` its result.
-    Every equation can be rechecked by `dofkit.motion_checker`.
+    Every equation can be rechecked by `dofkit.checker`.
 
 `sampled`
     `configurations` follows a motion by arclength: `continuation` has the predictor along the tangent space and

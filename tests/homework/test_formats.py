@@ -59,6 +59,7 @@ def result(student: str, *items: Item) -> Result:
 RIGHT = item("right", "f", 2.0, 2.0, read_as="1")
 PARTLY = item("partly", "rod", 4.0, 8.0, codes=["IRREGULAR"], read_as="x = 0", feedback="It is a square.")
 OPEN = item("needs_review", "rod", None, 8.0, read_as="x_A = 1", feedback="The time was not enough.")
+UNCERTAIN = OPEN.model_copy(update={"certain": False})
 UNREADABLE = item("unreadable", "rod", 0.0, 8.0, feedback="'zz' is no name.", column=3)
 REFUSED = Result(student="ada", score=None, max_score=10.0, items=[], error="line 3: <b>no</b> JSON")
 
@@ -142,7 +143,10 @@ def test_prairielearn(prepared: Prepared) -> None:
 
 @pytest.mark.parametrize(
     ("second", "error"),
-    [(UNREADABLE, "p.rod (column 3): 'zz' is no name."), (OPEN, "p.rod: The time was not enough.")],
+    [
+        (UNREADABLE, "p.rod (column 3): 'zz' is no name."),
+        (UNCERTAIN, "p.rod: It reads in several ways, or in names that are not declared: x_A = 1"),
+    ],
 )
 def test_prairielearn_takes_no_attempt(second: Item, error: str, prepared: Prepared) -> None:
     found = document("prairielearn", prepared, result("ada", RIGHT, second))

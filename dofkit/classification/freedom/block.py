@@ -18,11 +18,10 @@ from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety
 from dofkit.configuration.witness import of_real_point, of_reference
 from dofkit.exact.errors import NoPointError
-from dofkit.exact.independence import doubt, independent_generators
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
-from dofkit.exact.zero import BALLS, BOTH
+from dofkit.exact.zero import BALLS, BOTH, doubt, independent_generators
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import SampledSpan, on_the_same_part, span_at
 from dofkit.integrability.nonlinear_velocities import first_order_beside_bends, set_velocity_freedom
@@ -59,7 +58,7 @@ APART = "real configurations were found only on components other than those of t
 
 def answer(block: Block, setting: Setting) -> Answer:
     """All that is asked of one block, and how large the model was."""
-    bridged = bridged_answer(block, setting, answer)
+    bridged = bridged_answer(block, setting, answer) if setting.bridges else None
     if bridged is not None:
         return bridged
     found = _engines(block, setting)

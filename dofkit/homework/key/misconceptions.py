@@ -126,7 +126,8 @@ ERRORS: tuple[Misconception, ...] = (
     ),
     Misconception(
         "NH_HALF",
-        "A non-holonomic constraint does not remove half a degree of freedom.",
+        "If half of each non-holonomic constraint was subtracted: it does not reduce the dimension of the "
+        "configuration space at all.",
         _less(lambda f: Fraction(f.nonholonomic, 2)),
         True,
     ),
@@ -163,7 +164,7 @@ ERRORS: tuple[Misconception, ...] = (
     ),
     Misconception(
         "CART_FIXED",
-        "The support moves freely along its guide: its motion is not prescribed.",
+        "Was the motion of the support taken as prescribed? It moves freely along its guide.",
         _less(lambda f: f.guides if f.dof > 1 else 0),
     ),
     Misconception(
@@ -186,7 +187,7 @@ ERRORS: tuple[Misconception, ...] = (
         "SUM_SQ", "A vanishing sum of squares stands for several equations: each square vanishes.", _sum_of_squares
     ),
     Misconception(
-        "GROUND", "The ground is a fixed link: it must be counted as a link, but it has no freedom.", _ground
+        "GROUND", "The ground is one of the n links in 3 (n - 1) - 2 j: count it there, but it cannot move.", _ground
     ),
     Misconception(
         "SPATIAL_GRUBLER",

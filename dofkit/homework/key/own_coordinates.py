@@ -12,6 +12,7 @@ from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.expressions.text import Comparison, parse_expression, to_text, valid_name
 from dofkit.expressions.tree import Expr, coordinate, num, sqrt
+from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.answers.relations import AnswerNames, readings_of
 from dofkit.homework.answers.words import is_none, lists_only, names_of
 from dofkit.homework.judgement import DoubtError, Given
@@ -29,51 +30,46 @@ _BEGINS = (re.compile(rf"[,;:(]?\s*\b{_WITH}"), re.compile(r"[,;:(]"))
 
 
 class ChosenCoordinates(NamedTuple):
-    """The names that an answer chooses, and the key of the scene that has them all."""
+    """The coordinates that an answer names, and those of its own that it defines by relations."""
 
-    names: list[str]
-    key: Key
+    names: tuple[str, ...]
+    own: tuple[str, ...] = ()
+    relations: tuple[Comparison, ...] = ()
 
 
-def chosen_coordinates(answer: Given, key: Key) -> ChosenCoordinates:
-    """The coordinates that an answer names; those that it defines, or that are offered, are known too.
-
-    Raises TextError for others.
-    """
-    known = [*key.coordinates, *key.also]
-    if is_none(answer, lambda part: lists_only(part, known), known):
-        return ChosenCoordinates([], key)
+def chosen_coordinates(answer: Given, names: DeclaredNames) -> ChosenCoordinates:
+    """Return the coordinates that an answer names, defined by it or not. Raises TextError for others."""
+    every = [*names.coordinates, *names.also]
+    if is_none(answer, lambda part: lists_only(part, every), every):
+        return ChosenCoordinates(())
     try:
-        return ChosenCoordinates(names_of(answer, key.coordinates, "coordinate", key.others), key)
-    except TextError as error:
-        defines = isinstance(answer, str) and "=" in answer
-        found = _defined(str(answer), key) if defines else _offered_names(answer, key)
-        if found is None:
-            raise error from None
-        return found
+        return ChosenCoordinates(tuple(names_of(answer, every, "coordinate", names.others)))
+    except TextError:
+        if not isinstance(answer, str) or (defined := _defined(answer, names)) is None:
+            raise
+        return defined
 
 
-def _offered_names(answer: Given, key: Key) -> ChosenCoordinates | None:
-    if not key.also:
-        return None
-    names = names_of(answer, [*key.coordinates, *key.also], "coordinate", key.others)
-    return ChosenCoordinates(names, offered(key, [n for n in names if n in key.also]))
-
-
-def _defined(answer: str, key: Key) -> ChosenCoordinates | None:
-    """`theta, where x = l sin(theta), y = -l cos(theta)`."""
+def _defined(answer: str, names: DeclaredNames) -> ChosenCoordinates | None:
+    """Return the coordinates of `theta, where x = l sin(theta), y = -l cos(theta)`, or None for anything else."""
     answer = _TITLE.sub(lambda m: " " * len(m[0]), answer)
-    if "=" not in answer:
-        return _offered_names(answer, key)
     cut = _BEGINS[0].search(answer) or _BEGINS[1].search(answer)
-    if cut is None or "=" in answer[: cut.start()]:
+    if "=" not in answer or cut is None or "=" in answer[: cut.start()]:
         return None
     rest = answer[cut.end() :].rstrip().removesuffix(")") if cut[0][0] == "(" else answer[cut.end() :]
-    way = readings_of(rest, AnswerNames(key.names))[0]
-    if way.moving or not way.own or any(bare for bare in way.bare):
+    way = readings_of(rest, AnswerNames(names.names))[0]
+    if way.moving or not way.own or any(way.bare):
         return None
-    names = names_of(answer[: cut.start()], [*key.coordinates, *way.own], "coordinate", key.others)
-    return ChosenCoordinates(names, extended(key, way.own, way.relations))
+    chosen = names_of(answer[: cut.start()], [*names.coordinates, *way.own], "coordinate", names.others)
+    return ChosenCoordinates(tuple(chosen), way.own, way.relations)
+
+
+def with_chosen(key: Key, chosen: ChosenCoordinates) -> Key:
+    """Return the key with the coordinates that an answer defines, or that the assignment offers and it names."""
+    if chosen.own:
+        return extended(key, chosen.own, chosen.relations)
+    offers = [name for name in chosen.names if name in key.also]
+    return offered(key, offers) if offers else key
 
 
 def extended(key: Key, own: Sequence[str], relations: Sequence[Comparison]) -> Key:
@@ -97,7 +93,7 @@ def _equations(key: Key, name: str) -> list[str]:
     e = parse_expression(key.also[name], key.names)
     if e.op == "fn" and e.args[0] == "atan2":
         a, b = (to_text(part) for part in e.args[1:])
-        for radius in key.constants:
+        for radius in key.declared.constants:
             if key.scene.parameters.get(radius) == "positive" and implied(key, f"({a})^2 + ({b})^2 = {radius}^2"):
                 return [f"{a} = {radius}*sin({name})", f"{b} = {radius}*cos({name})"]
     return [f"{name} = {to_text(e)}"]

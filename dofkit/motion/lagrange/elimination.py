@@ -16,7 +16,7 @@ from dofkit.base.errors import NoValueError
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.ring.canonical import Canon, divided, is_identically_zero
 from dofkit.exact.ring.ring import Ring
-from dofkit.expressions import differentials
+from dofkit.expressions import calculus
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.enclosures import approximate
@@ -29,7 +29,7 @@ from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 
 def by_time(e: Expr) -> Expr:
     """Return de/dt = sum (de/dq) qdot + (de/dqdot) qddot + de/dt. Raises ValueError for accelerations."""
-    rate = differentials.by_time(e)
+    rate = calculus.by_time(e)
     if rate is None:
         raise ValueError("the derivative of an acceleration or a differential by time has no meaning here")
     return rate

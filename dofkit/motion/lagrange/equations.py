@@ -15,7 +15,7 @@ from dofkit.base.errors import Fault, SceneError
 from dofkit.classification.passes import Examined, studied
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
-from dofkit.expressions.text.bounds import MAX_CHARACTERS
+from dofkit.expressions.text.characters import MAX_CHARACTERS
 from dofkit.expressions.text.names import Names
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
