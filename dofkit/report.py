@@ -305,7 +305,7 @@ class Report(Displayed, ToldModel):
 
     def beside(self, scene: object) -> Self:
         """The same report with what it is about beside it, whose title and picture are then shown."""
-        self._companion.scene = scene
+        self._companion.about = scene
         return self
 
 

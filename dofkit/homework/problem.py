@@ -17,8 +17,7 @@ from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBa
 from dofkit.homework.questions.base import Points, identifier
 from dofkit.scene.constraints import AnyConstraint
 from dofkit.scene.constraints.equations import as_equation
-from dofkit.scene.fields import Listed, Text, WrittenModel, suggestion
-from dofkit.scene.tagged_union import TaggedUnion
+from dofkit.scene.fields import Listed, TaggedUnion, Text, WrittenModel, suggestion
 
 #: What may differ between the sheets of students.
 Aspect = Literal["geometry", "names", "constraints", "supports", "rolling"]

@@ -12,7 +12,7 @@ from dofkit.checker import CheckError, Verification, verify
 from dofkit.interface.supervised import CertificateGiven
 from dofkit.methods.certificates import verifying
 from dofkit.motion_checker import MOTION_RULES
-from dofkit.scene.found_files import find
+from dofkit.scene.catalog import find
 
 #: Exit statuses: all is well, something failed, something could not be read.
 VERIFIED, REFUSED, UNREAD = 0, 1, 2

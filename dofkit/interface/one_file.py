@@ -24,11 +24,10 @@ from dofkit.interface.show.terminal import Screen
 from dofkit.interface.supervised import STDIN, Cut, Given
 from dofkit.methods.stages import classified, lowered, stages
 from dofkit.report import Report
-from dofkit.scene.dropped import without
+from dofkit.scene.catalog import FoundFile, find
 from dofkit.scene.expectation import unmet
-from dofkit.scene.found_files import FoundFile, find
 from dofkit.scene.reading import SceneFile
-from dofkit.scene.scene import Scene
+from dofkit.scene.scene import Scene, without
 
 
 def report_lines(given: Given) -> Iterator[Json]:

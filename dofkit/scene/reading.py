@@ -18,10 +18,12 @@ from dofkit.base.documents import DEEPEST, Document, read_document
 from dofkit.base.errors import ArgumentError, Fault, SceneError
 from dofkit.models.formats import is_model, read_model
 from dofkit.models.model_document import ModelFile
+from dofkit.scene.catalog import find
 from dofkit.scene.constraints.equations import as_equation
-from dofkit.scene.found_files import find
+from dofkit.scene.fields import faults_of
 from dofkit.scene.hints import UNKNOWN_KEY, UNKNOWN_TYPE, meant_section, with_hint, without_echoes
-from dofkit.scene.scene import Scene, check, faults_of
+from dofkit.scene.lowering import check
+from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import StandardWords, standard_words
 from dofkit.system import System
 

@@ -1,37 +1,32 @@
 """A scene as a person writes it: particles, bodies, coordinates, and the constraints on them.
 
-`Scene` checks its structure when it is built; `check` finds every fault across its fields and in its
-texts: names that are not declared, joints without their axis, lengths that contradict the drawing.
+`Scene` checks its structure when it is built; `lowering.check` finds every fault across its fields and in its texts:
+names that are not declared, joints without their axis, lengths that contradict the drawing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr, WrapValidator
 
-from dofkit.base.display import Displayed
-from dofkit.base.errors import Fault
+from dofkit.base.arguments import require_one_of
+from dofkit.base.display import Companion, Displayed
 from dofkit.scene.constraints import TYPES, ConstraintBase, OneConstraint
 from dofkit.scene.constraints.equations import as_equation
 from dofkit.scene.fields import (
     Listed,
     Number,
+    TaggedUnion,
     Value,
     WrittenModel,
     exact,
     fault_at,
     fault_error,
-    faults_of,
 )
 from dofkit.scene.hints import type_advice
-from dofkit.scene.parts import AnyBody, AnyParticle, Body, BodyPoint, Energies, Force, Particle
-from dofkit.scene.survey import KeptSurvey, Survey
-from dofkit.scene.tagged_union import TaggedUnion
-
-__all__ = ["Body", "BodyPoint", "Energies", "Force", "Particle", "Scene", "check", "faults_of"]
-
+from dofkit.scene.parts import AnyBody, AnyParticle, Energies, Force
 
 _CONSTRAINT = TaggedUnion(
     base=ConstraintBase,
@@ -161,18 +156,26 @@ class Scene(Displayed, WrittenModel):
         default_factory=dict, description="what the report must say, by report key"
     )
 
-    _kept: KeptSurvey = PrivateAttr(default_factory=KeptSurvey)
+    _kept: Companion = PrivateAttr(default_factory=Companion)
 
     @classmethod
     def called(cls) -> str:
         return "a scene"
 
 
-def check(scene: Scene) -> tuple[Fault, ...]:
-    """Every fault of a scene across its fields and in its texts, each with its path; none if it is sound."""
-    return survey_of(scene).faults
+def without(scene: Scene, names: Sequence[str]) -> Scene:
+    """Return the scene without the constraints of these names; the others keep theirs, those given by position too.
 
+    What the scene expects is dropped as well. Raises ArgumentError, with the nearest name, for one that is no
+    constraint's.
 
-def survey_of(scene: Scene) -> Survey:
-    """All that is known of a scene, found out when it is first asked for."""
-    return scene._kept.of(scene)
+    >>> import dofkit
+    >>> scene = dofkit.load({"coordinates": ["x", "y"], "constraints": ["x = 1", "y = 2", "x = y"]})
+    >>> [c.name for c in without(scene, ["c2"]).constraints]
+    ['c1', 'c3']
+    """
+    named = {c.name or f"c{i}": c for i, c in enumerate(scene.constraints, 1)}
+    for name in names:
+        require_one_of(name, named, "constraint")
+    kept = tuple(c.model_copy(update={"name": name}) for name, c in named.items() if name not in names)
+    return scene.model_copy(update={"constraints": kept, "expect": {}})

@@ -17,7 +17,7 @@ from dofkit.base.documents import read_document
 from dofkit.base.errors import Fault, SceneError
 from dofkit.base.yaml_events import ComposedText, compose
 from dofkit.interface.explanations import explanations_of
-from dofkit.scene.found_files import find
+from dofkit.scene.catalog import find
 from dofkit.scene.reading import MOST_FAULTS, SceneFile, load, loads
 from dofkit.scene.scene import Scene
 

@@ -63,7 +63,7 @@ class Link(ConstraintBase):
         if given is not None:
             _check_length(world, first, second, given, "length")
         if first.frame is None and second.frame is None and (given is None or not _moves(given)):
-            world.links.append((first.label, second.label))
+            world.links.append((world.index, first.label, second.label))
         yield Relation(distance(world, first, second, given))
 
     def texts(self) -> Iterator[str]:
@@ -249,7 +249,7 @@ class Rigid(ConstraintBase):
             seen.add(member)
             placed.append(world.particle(member, "members", i))
         for first, second in combinations(placed, 2):
-            world.links.append((first.label, second.label))
+            world.links.append((world.index, first.label, second.label))
             yield Relation(distance(world, first, second, None), part=f"length {first.label}-{second.label}")
 
     def notes(self, world: World) -> Iterator[str]:
