@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from dofkit.methods.ask import ask
     from dofkit.methods.certificates.verifying import verify
     from dofkit.methods.classify import classify, derived_flag
-    from dofkit.mobility.graph.answers import Linkage, linkage, redundant_links
+    from dofkit.mobility.graph.linkage import Linkage, linkage, redundant_links
     from dofkit.motion.lagrange.equations import lagrange
     from dofkit.motion.sampled.configurations import configurations
     from dofkit.pictures.animation import animate
@@ -56,7 +56,7 @@ _MODULES = {
     "methods.ask": ["ask"],
     "methods.certificates.verifying": ["verify"],
     "methods.classify": ["classify", "derived_flag"],
-    "mobility.graph.answers": ["Linkage", "linkage", "redundant_links"],
+    "mobility.graph.linkage": ["Linkage", "linkage", "redundant_links"],
     "motion.lagrange.equations": ["lagrange"],
     "motion.sampled.configurations": ["configurations"],
     "pictures.animation": ["animate"],

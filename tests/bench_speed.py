@@ -225,11 +225,10 @@ def asked(scene: Mapping[str, Any], rounds: int, rival: tuple[Any, ...]) -> Meas
 
 
 def against_pyrigi() -> Measured:
-    """1 000 joints in the plane and a tenth more links than they need, in pure Python."""
+    """1 000 joints in the plane and a tenth more links than they need."""
     links = speed_scenes.rigid(1000, 2, 100)
     theirs = speed_scenes.least_seconds(partial(speed_scenes.by_pyrigi, links), 1)
-    with speed_scenes.plain():
-        return Measured(speed_scenes.least_seconds(speed_scenes.redundant(links, 2), 5), theirs)
+    return Measured(speed_scenes.least_seconds(speed_scenes.redundant(links, 2), 5), theirs)
 
 
 def complete(n: int) -> list[tuple[int, int]]:
@@ -238,12 +237,11 @@ def complete(n: int) -> list[tuple[int, int]]:
 
 
 def growth(make: Callable[[int], list[tuple[int, int]]]) -> Measured:
-    """Time for each joint of 10^5, against that of 10^3, nothing compiled; every redundant link is told."""
+    """Time for each joint of 10^5, against that of 10^3; every redundant link is told."""
     each = {}
     for n, rounds in ((1000, 20), (100_000, 1)):
         links = make(n)
-        with speed_scenes.plain():
-            each[n] = speed_scenes.least_seconds(speed_scenes.redundant(links, 2), rounds) / (1 + max(map(max, links)))
+        each[n] = speed_scenes.least_seconds(speed_scenes.redundant(links, 2), rounds) / (1 + max(map(max, links)))
     return Measured(each[100_000] * 1e5, fold=each[100_000] / each[1000])
 
 

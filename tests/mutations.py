@@ -98,11 +98,6 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "if float(np.max(np.abs(step))) <= 1e-12:",
     ): "a floating point number does not meet a bound exactly",
     (
-        "dofkit/mobility/graph/rigid_clusters.py",
-        "for k in range(first, len(net.order)):",
-        "for k in range(first, len(net.order) - 1):",
-    ): "a rigid cluster stays in one piece without its last joint: its links are compared at the others",
-    (
         "dofkit/relations/normal/extremes.py",
         "return [(index, -1 if (weight > 0) == (constant > 0) else 1) for index, weight in weights.items()]",
         "return [(index, -1 if (weight > 0) == (constant >= 0) else 1) for index, weight in weights.items()]",

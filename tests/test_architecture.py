@@ -31,7 +31,9 @@ TOP = {
 
 LONGEST_FUNCTION, MOST_PARAMETERS, LONGEST_CLASS, LONGEST_FILE, MOST_METHODS = 40, 6, 200, 400, 20
 #: Heavy, optional, or what nothing but this needs: imported where they are used.
-LATE_IMPORTS = frozenset({"sympy", "rich", "matplotlib", "numba", "distributed", "jinja2", "flint", "mujoco", "typst"})
+LATE_IMPORTS = frozenset(
+    {"sympy", "rich", "matplotlib", "distributed", "jinja2", "flint", "mujoco", "typst", "latex2mathml"}
+)
 #: Where one bad file or answer must not stop the others, whatever it does.
 CATCH_ALL = frozenset(
     {"base/workers.py", "homework/assignment.py", "homework/grading.py", "homework/echo.py",

@@ -238,7 +238,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "an expression is 0",
         "",
         "its canonical form is 0",
-        "dofkit.exact.zero.identity.zero_and_verdict",
+        "dofkit.exact.zero.zero_and_verdict",
         "the expression",
     ),
     "zero with another derivative": Argument(

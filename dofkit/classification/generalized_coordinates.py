@@ -12,9 +12,9 @@ from dofkit.classification.turned_coordinates import TurnedGroup, chosen_at_draw
 from dofkit.configuration.drawing.rigid_orbit import RigidOrbit
 from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
-from dofkit.exact.engines import BOTH
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import last_columns, rank_of_rows
+from dofkit.exact.zero import BOTH
 from dofkit.expressions import tree as ex
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block

@@ -17,8 +17,8 @@ from dofkit.classification.feasibility.feasibility_fields import inequalities_to
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
-from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import precise_for
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.mobility.kutzbach import without_drives
 from dofkit.relations.reductions import ALL, Reductions
 from dofkit.relations.setting import Setting

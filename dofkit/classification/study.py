@@ -17,7 +17,7 @@ from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.labels.companions import Companionship
 from dofkit.classification.labels.entries import entries_of
-from dofkit.exact.engines import BOTH, Engines
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.relations.reduced import Reduced
 from dofkit.relations.reductions import ALL, Reductions
 from dofkit.relations.setting import Setting

@@ -18,7 +18,7 @@ from dofkit.base.libraries import nx
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.modular import without_time
+from dofkit.exact.matrices.sparse import without_time
 from dofkit.exact.points.frames import sparse_frame
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.expressions import tree as ex

@@ -26,11 +26,11 @@ from dofkit.configuration import cases as all_cases
 from dofkit.configuration.generic_points import field_jacobian, on_variety
 from dofkit.configuration.reality import most_near
 from dofkit.configuration.variety import Variety
+from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.analyticity import is_analytic
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr

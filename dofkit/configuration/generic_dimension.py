@@ -11,12 +11,11 @@ from dofkit.configuration.generic_points import field_jacobian, generators_of, h
 from dofkit.configuration.local import dimension as local_dimension
 from dofkit.configuration.reality import BALL_COLUMNS, near_singular_point, real_point, with_reality
 from dofkit.configuration.variety import Variety
-from dofkit.exact.matrices.modular import rank_of
-from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.exact.matrices.sparse import rank_of, rank_of_rows
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.program import gradient, values
-from dofkit.exact.solving.triangular import TriangularSolver
+from dofkit.exact.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.relations.chart import Chart
 

@@ -13,7 +13,7 @@ from dofkit.configuration.generic_points import field_jacobian
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of_rows
-from dofkit.exact.zero.identity import is_proved_zero
+from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import differs_from_zero, interval_of

@@ -7,7 +7,7 @@ from typing import Any
 
 from dofkit.base.libraries import np
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch

@@ -82,7 +82,8 @@ def _diff_node(node: Expr, go: Callable[[Expr], Expr]) -> Expr:
         base, exponent = node.args
         if exponent.op == "num":
             return mul(exponent, power(base, exponent - 1), go(base))
-        return mul(node, go(exponent) * fn("log", base) + exponent * go(base) / base)
+        by_base = ZERO if (slope := go(base)).is_zero else exponent * slope / base
+        return mul(node, go(exponent) * fn("log", base) + by_base)
     if node.op == "call":
         name, orders, arguments = node.args
         raised = (tuple(o + (i == j) for j, o in enumerate(orders)) for i in range(len(orders)))

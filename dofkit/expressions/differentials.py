@@ -6,6 +6,9 @@ says nothing. Second derivatives have to stand linearly: then the relation may i
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from functools import partial
+
 from dofkit.base.errors import TextError
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
@@ -19,7 +22,7 @@ def differential_degree(e: Expr) -> int | None:
     """The degree in (dq, dt), None for the number 0. Raises TextError where terms differ."""
     if e.is_zero:
         return None
-    if not any(s.args[0] in ("differential", "dt") for s in e.symbols):
+    if not any(map(is_differential, e.symbols)):
         return 0
     if e.op == "sym":
         return 1
@@ -47,7 +50,7 @@ def differential_degree(e: Expr) -> int | None:
 def in_velocities(e: Expr) -> tuple[Expr, bool]:
     """``e`` in velocities instead of differentials, and whether it had a dt to divide by."""
     degree = differential_degree(e)
-    if not degree and not any(s.args[0] in ("differential", "dt") for s in e.symbols):
+    if not degree and not any(map(is_differential, e.symbols)):
         return e, False
     mapping = {s: ex.velocity(s.args[1]) for s in e.symbols if s.args[0] == "differential"}
     mapping |= {s: ex.ONE for s in e.symbols if s.args[0] == "dt"}
@@ -91,3 +94,55 @@ def linear_in_accelerations(e: Expr, sense: str) -> None:
         )
     if any(accelerations_of(diff(e, s)) for s in moving):
         raise TextError(NOT_LINEAR, hint=SOLVE_FOR_IT)
+
+
+# -- derivatives that a text may ask for -----------------------------------------------------------
+
+
+_RATES: dict[str, Callable[[str], Expr]] = {
+    "coordinate": ex.velocity, "velocity": partial(ex.sym, "acceleration"), "time": lambda _: ex.ONE,
+}  # fmt: skip
+_DIFFERENTIALS: dict[str, Callable[[str], Expr]] = {"coordinate": ex.differential, "time": lambda _: ex.DT}
+
+
+def by_time(e: Expr) -> Expr | None:
+    """Return the total derivative by time, or None where that has no meaning here."""
+    return _by_the_chain_rule(e, _RATES)
+
+
+def total_differential(e: Expr) -> Expr | None:
+    """Return the sum of the partial derivatives times the differentials, or None where motions occur."""
+    return _by_the_chain_rule(e, _DIFFERENTIALS)
+
+
+def _by_the_chain_rule(e: Expr, slopes: Mapping[str, Callable[[str], Expr]]) -> Expr | None:
+    terms = []
+    for symbol in sorted(e.symbols, key=lambda s: s.args):
+        kind, name = symbol.args
+        if kind in slopes:
+            terms.append(ex.mul(diff(e, symbol), slopes[kind](name)))
+        elif kind != "parameter":
+            return None
+    return ex.add(*terms)
+
+
+def over_dt(e: Expr) -> Expr | None:
+    """Return ``e`` divided by dt where it is linear in differentials: `dx/dt` is the velocity of x; else None."""
+    if e.op == "sym":
+        if e == ex.DT:
+            return ex.ONE
+        return ex.velocity(e.args[1]) if e.args[0] == "differential" else None
+    if e.op == "add":
+        terms = [over_dt(term) for term in e.args]
+        divided = [term for term in terms if term is not None]
+        return ex.add(*divided) if len(divided) == len(terms) else None
+    if e.op == "mul":
+        moving = [i for i, part in enumerate(e.args) if any(is_differential(s) for s in part.symbols)]
+        if len(moving) == 1 and (rate := over_dt(e.args[moving[0]])) is not None:
+            return ex.mul(*e.args[: moving[0]], rate, *e.args[moving[0] + 1 :])
+    return None
+
+
+def is_differential(e: Expr) -> bool:
+    """Return whether ``e`` is dq or dt."""
+    return e.op == "sym" and e.args[0] in ("differential", "dt")

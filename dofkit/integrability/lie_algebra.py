@@ -23,8 +23,7 @@ from dofkit.base.deadline import affordable, check
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.points.frames import FormRows, Pivots, kernel, rank_over
 from dofkit.exact.points.series import Series, SeriesPoint, series_values, zero_poly
-from dofkit.exact.ring.instructions import Scalar
-from dofkit.exact.ring.program import gradient, values
+from dofkit.exact.ring.program import Scalar, gradient, values
 
 #: A matrix of numbers, and a power series of them: the coefficients of s^0, s^1, ...
 Matrix = Any

@@ -20,13 +20,12 @@ from dofkit.configuration.search import find
 from dofkit.configuration.states import States, moves, value_at, vanishes
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
+from dofkit.exact.independence import independent_on_set
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.ring.instructions import VAR, Scalar, reachable
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import VAR, Scalar, reachable, values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.independence import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import Span

@@ -20,7 +20,7 @@ from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots, certified_rank, kernel
 from dofkit.exact.points.real_search import RealPoint
-from dofkit.exact.zero.identity import is_zero
+from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.relations.answer import Answer, HolonomyLabel

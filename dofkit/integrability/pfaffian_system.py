@@ -12,7 +12,7 @@ from dofkit.configuration.drawing.at_reference import CLEAR, ball_matrix, ball_p
 from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.frames import FormRows
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex

@@ -22,12 +22,12 @@ from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.labels.entries import labels_in_system
 from dofkit.classification.study import Study, study
-from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import precise_for, precision
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
 from dofkit.methods.table import QUESTIONS, Question
 from dofkit.mobility.frameworks import unprescribed_links
-from dofkit.mobility.graph.answers import linkage
+from dofkit.mobility.graph.linkage import linkage
 from dofkit.mobility.rank_at_drawing import drawn_rank
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite

@@ -7,9 +7,9 @@ from contextlib import ExitStack
 from typing import Any
 
 from dofkit.base.deadline import OutOfTimeError
-from dofkit.exact.engines import BALLS, FIELD, Engines
 from dofkit.exact.points.balls import balls_of
 from dofkit.exact.points.field import primes_of
+from dofkit.exact.zero import BALLS, FIELD, Engines
 from dofkit.methods.ask import answered_by
 from dofkit.methods.reply import Knobs, MethodReply, cannot
 from dofkit.methods.table import METHODS, MethodName, Question, function_of

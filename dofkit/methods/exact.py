@@ -10,8 +10,7 @@ from flint import fmpq, fmpq_mat, fmpz
 
 from dofkit.base.verdicts import Verdict
 from dofkit.exact.errors import NoValueError, PoleError, raising_no_value
-from dofkit.exact.ring.instructions import Scalar, Var
-from dofkit.exact.ring.program import value_of
+from dofkit.exact.ring.program import Scalar, Var, value_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff

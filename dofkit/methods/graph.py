@@ -8,7 +8,7 @@ from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.points.field import prime_for
 from dofkit.methods.reply import Knobs, MethodReply, cannot
 from dofkit.mobility.frameworks import unprescribed_links
-from dofkit.mobility.graph.answers import Linkage, linkage
+from dofkit.mobility.graph.linkage import Linkage, linkage
 from dofkit.mobility.placement import general_placement
 from dofkit.mobility.twists import rows_of
 from dofkit.scene.lowering import lower

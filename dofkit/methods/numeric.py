@@ -11,7 +11,7 @@ import numpy as np
 from dofkit.base.verdicts import Verdict
 from dofkit.exact.points.balls import FloatPoint
 from dofkit.exact.points.real_search import RealSearch
-from dofkit.exact.ring.instructions import Scalar
+from dofkit.exact.ring.program import Scalar
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.methods.as_written import Written, as_written, posed

@@ -11,8 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from dofkit.exact.ring.instructions import Point, Scalar
-from dofkit.exact.ring.program import gradient, values
+from dofkit.exact.ring.program import Point, Scalar, gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr

@@ -13,7 +13,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Literal
 
 from dofkit.base.verdicts import Verdict
-from dofkit.exact.engines import BALLS, BOTH, FIELD, Engines
+from dofkit.exact.zero import BALLS, BOTH, FIELD, Engines
 
 if TYPE_CHECKING:
     from dofkit.methods.reply import MethodReply

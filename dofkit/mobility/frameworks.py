@@ -16,7 +16,7 @@ from dofkit.exact.points.field import prime_for
 from dofkit.expressions import tree as ex
 from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.tree import Expr
-from dofkit.mobility.graph.answers import linkage
+from dofkit.mobility.graph.linkage import linkage
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.pieces import Finite

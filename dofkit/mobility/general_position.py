@@ -19,7 +19,7 @@ from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.mobility.graph.answers import redundant_links
+from dofkit.mobility.graph.linkage import redundant_links
 from dofkit.mobility.placement import Placement, general_placement
 from dofkit.mobility.twists import rows_of
 from dofkit.relations.blocks import Row

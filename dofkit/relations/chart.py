@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import combinations
 
-from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.reductions import ALL, ReductionName, Reductions

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from dofkit.expressions.renaming import Unwritten
 from dofkit.expressions.tree import Expr
-from dofkit.expressions.unwritten import Unwritten
 from dofkit.relations.normal.pieces import Finite, Normal
 from dofkit.system import Relation
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from dofkit.expressions.unwritten import Unwritten
+from dofkit.expressions.renaming import Unwritten
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Inequality, Normal
 from dofkit.system import Constraint, Relation

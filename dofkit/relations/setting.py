@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import NamedTuple
 
-from dofkit.exact.engines import BOTH, Engines
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions.tree import Expr
 from dofkit.relations.reductions import ALL, Reductions
 from dofkit.system import Coordinate, Distance

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import is_zero
+from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.terms import linear_terms

@@ -9,7 +9,7 @@ from dofkit.base.errors import Fault, TextError
 from dofkit.expressions.differentials import in_velocities, linear_in_accelerations
 from dofkit.expressions.renaming import Template
 from dofkit.expressions.text import Names, parse_expression, parse_relations
-from dofkit.expressions.text.patterns import pattern_of
+from dofkit.expressions.text.names import pattern_of
 from dofkit.expressions.tree import Expr, num, parameter
 from dofkit.expressions.vectors import Vec
 from dofkit.scene.fields import Vector, as_written, suggestion

@@ -9,7 +9,7 @@ from shared.trees import tree_with_loops
 
 import dofkit
 from dofkit.classification.passes import GENERIC, examined
-from dofkit.expressions.unwritten import Unwritten
+from dofkit.expressions.renaming import Unwritten
 from dofkit.relations.reductions import ALL
 from dofkit.scene.lowering import lower
 

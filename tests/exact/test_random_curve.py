@@ -5,7 +5,7 @@ from __future__ import annotations
 from flint import nmod_mat
 
 from dofkit.exact.points.field import field_point
-from dofkit.exact.points.random_curve import RandomCurve
+from dofkit.exact.points.series import RandomCurve
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex

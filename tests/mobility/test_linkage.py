@@ -6,7 +6,7 @@ import os
 import random
 import subprocess
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import combinations, pairwise, product
 from typing import Any, NamedTuple
 
@@ -17,9 +17,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import dofkit
-from dofkit.mobility.graph import compiled, pebbles, plane, space
-from dofkit.mobility.graph import sparse_core as large
-from dofkit.mobility.graph.answers import LinkageError
+from dofkit.mobility.graph import space
+from dofkit.mobility.graph.linkage import LinkageError
 
 Link = tuple[Any, Any]
 Pairs = Sequence[tuple[int, int]]
@@ -304,39 +303,46 @@ def test_graphs_apart_add_up(
     assert both.clusters == one.clusters + two.clusters
 
 
-def middling(seed: int, d: int, n: int = 26) -> list[tuple[int, int]]:
-    """Links enough for some large groups."""
-    rng = random.Random(seed)
-    return rng.choices(list(combinations(range(n), 2)), k=d * n - rng.randint(-4, 12))
+def random_links(rng: random.Random, d: int) -> list[tuple[int, int]]:
+    """Links between 26 joints, enough for some large groups."""
+    return rng.choices(list(combinations(range(26), 2)), k=d * 26 - rng.randint(-4, 12))
 
 
-@pytest.mark.parametrize(("seed", "d"), [(seed, d) for d in (1, 2, 3) for seed in range(3)])
-def test_larger_graphs(seed: int, d: int) -> None:
-    links = middling(seed, d)
-    assert list(dofkit.linkage(links, d).redundant_places) == Positions(26, d).basis(links)[1]
+def bodies(rng: random.Random, d: int) -> list[tuple[int, int]]:
+    """Small bodies that share joints, in any order: blocks that share one joint, or two and become one."""
+    sets = [rng.sample(range(20), rng.randint(2, 3 + d)) for _ in range(9)]
+    pairs = [pair for members in sets for pair in combinations(sorted(members), 2) if rng.random() < 0.85]
+    rng.shuffle(pairs)
+    return pairs or [(0, 1)]
 
 
-@pytest.mark.sweep
-@pytest.mark.xdist_group("compiled")
-@pytest.mark.parametrize("d", [1, pytest.param(2, marks=pytest.mark.sweep)])
-def test_compiled_loops_give_the_same(d: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    lists = [middling(seed, d) for seed in range(25)]
-    plain = [answers(dofkit.linkage(links, d)) for links in lists]
-    monkeypatch.setattr(compiled, "WORTH_COMPILING", 0)
-    assert [answers(dofkit.linkage(links, d)) for links in lists] == plain
-    assert compiled.engine_for(pebbles, 0).compiled
-    monkeypatch.setattr(compiled, "WORTH_COMPILING", 10**9)
-    monkeypatch.setattr(compiled, "WORTH_CALLING", 0)
-    assert [answers(dofkit.linkage(links, d)) for links in lists] == plain  # compiled ones are there, and used in part
-    monkeypatch.setattr(plane, "WORTH_WORDS", 0)
-    assert [answers(dofkit.linkage(links, d)) for links in lists] == plain
+def braced(rng: random.Random, d: int) -> list[tuple[int, int]]:
+    """Squares with diagonals, most of them there: one block that grows, or several."""
+    m = rng.randint(2, 5)
+    number = {joint: i for i, joint in enumerate(product(range(m), repeat=2))}
+    steps = ((1, 0), (0, 1), (1, 1))
+    pairs = [(k, number[i + a, j + b]) for (i, j), k in number.items() for a, b in steps if (i + a, j + b) in number]
+    pairs = [pair for pair in pairs if rng.random() < 0.9]
+    rng.shuffle(pairs)
+    return pairs or [(0, 1)]
 
 
-def test_many_circuits_at_once_are_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    lists = [middling(seed, 2, 8 + 3 * seed) for seed in range(25)]
-    plain = [dofkit.linkage(links, 2).circuit_places for links in lists]
-    monkeypatch.setattr(plane, "WORTH_WORDS", 0)
-    assert [dofkit.linkage(links, 2).circuit_places for links in lists] == plain
+@pytest.mark.parametrize("kind", [random_links, bodies, braced])
+@pytest.mark.parametrize("d", [1, 2, 3])
+@pytest.mark.parametrize("seed", range(6))
+def test_larger_graphs(kind: Callable[[random.Random, int], list[tuple[int, int]]], seed: int, d: int) -> None:
+    """The redundant links are those that depend at random positions; each circuit is one, and clusters are cliques."""
+    links = kind(random.Random(seed), d)
+    n = 1 + max(map(max, links))
+    told, positions = dofkit.linkage(links, d, range(n)), Positions(n, d)
+    pivots, dependent = positions.basis(links)
+    assert list(told.redundant_places) == dependent
+    for i, circuit in told.circuit_places.items():
+        assert positions.rank([links[j] for j in [*circuit, i]]) == len(circuit)
+        assert len(positions.basis([links[j] for j in [i, *circuit]])[1]) == 1
+    fixed = [pair for pair in combinations(range(n), 2) if not reduced(positions.row(pair), pivots)]
+    cliques = nx.find_cliques(nx.Graph([*fixed, *((v, v) for v in range(n))]))
+    assert sorted(map(sorted, told.clusters)) == sorted(map(sorted, cliques))
 
 
 def test_rigidity_as_pyrigi_tells_it() -> None:
@@ -433,14 +439,8 @@ def test_a_dependence_that_no_count_proves_is_probable(monkeypatch: pytest.Monke
     assert "chance of error below" in told.proof("redundant").reason
 
 
-def test_a_core_too_large_for_a_dense_matrix(monkeypatch: pytest.MonkeyPatch) -> None:
-    lists = [middling(seed, 3, 9 + seed) for seed in range(12)]
-    dense = [dofkit.linkage(links, 3) for links in lists]
-    monkeypatch.setattr(large, "DENSE", 0)
-    for links, known in zip(lists, dense, strict=True):
-        told = dofkit.linkage(links, 3)
-        assert (told.rank, told.redundant, told.circuit_places) == (known.rank, known.redundant, known.circuit_places)
-        assert told.verdict == ("probable" if len(told.redundant) > len(links) - len(set(links)) else "proved")
+def test_a_large_part_that_is_not_rigid_is_not_separated(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(space, "MAX_JOINTS", 5)
     assert dofkit.linkage(complete("ABCDEF"), 3).clusters == [list("ABCDEF")]
     with pytest.raises(LinkageError, match="too many to separate"):
         _ = dofkit.linkage(BANANAS, 3).clusters

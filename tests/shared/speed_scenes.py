@@ -10,15 +10,12 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import AbstractContextManager
 from fractions import Fraction
 from functools import partial
 from itertools import combinations, product
 from typing import Any
-from unittest.mock import patch
 
 import dofkit
-from dofkit.mobility.graph import compiled
 
 #: Seconds that a rival is given for one answer.
 PATIENCE = 30.0
@@ -172,11 +169,6 @@ def truss(links: int) -> Links:
 def apart_triangles(links: int) -> Links:
     """Triangles that share nothing."""
     return [(3 * k + a, 3 * k + b) for k in range(links // 3) for a, b in ((0, 1), (1, 2), (0, 2))]
-
-
-def plain() -> AbstractContextManager[object]:
-    """Nothing compiled."""
-    return patch.multiple(compiled, WORTH_COMPILING=10**9, WORTH_CALLING=10**9)
 
 
 def seconds(work: Callable[[], object]) -> float:

@@ -11,7 +11,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.mobility.graph.answers import redundant_links
+from dofkit.mobility.graph.linkage import redundant_links
 
 Position = tuple[Fraction, ...]
 #: A name of a free joint, or the number of a joint on the ground.

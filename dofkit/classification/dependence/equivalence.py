@@ -21,8 +21,8 @@ from dofkit.classification.dependence.regularity import Regularity
 from dofkit.classification.dependence.roots import bounds, loses_nothing, unsound
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
-from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import precise_for
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr

@@ -13,7 +13,7 @@ from flint import fmpq, fmpq_poly
 
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, Poly
-from dofkit.exact.ring.instructions import POW
+from dofkit.exact.ring.program import POW
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian

@@ -13,9 +13,9 @@ from dofkit.classification.dependence.implication import SLACK
 from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows
 from dofkit.classification.freedom.reference_branches import algebraic, all_of
 from dofkit.configuration.states import States
+from dofkit.exact.ideals import complex_dimension
 from dofkit.exact.matrices.sparse import SparseRow
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.ideals import complex_dimension
 from dofkit.expressions import tree as ex
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, coordinates_of

@@ -14,7 +14,7 @@ from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.dependence.implication import SLACK
 from dofkit.classification.freedom.reference_branches import all_of
 from dofkit.configuration.states import States, value_at
-from dofkit.exact.ring.instructions import Scalar
+from dofkit.exact.ring.program import Scalar
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, coordinates_of

@@ -16,7 +16,7 @@ from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.balls import jacobian
 from dofkit.exact.ring.program import values
-from dofkit.exact.zero.identity import is_proved_zero
+from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.differentials import in_velocities
 from dofkit.expressions.tree import Expr

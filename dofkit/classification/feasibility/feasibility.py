@@ -18,7 +18,7 @@ from dofkit.classification.feasibility.state_problem import StateProblem, proble
 from dofkit.classification.feasibility.witness import Values, value_of, witness
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.copies import copies
-from dofkit.exact.engines import BOTH
+from dofkit.exact.zero import BOTH
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.reduced import Reduced

@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple
 
 from flint import fmpq
 
-from dofkit.exact.solving.linear_inequalities import LinearCondition, solution
+from dofkit.exact.linear_inequalities import LinearCondition, solution
 from dofkit.expressions import tree as ex
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr

@@ -17,16 +17,15 @@ from flint import arb, fmpq, fmpq_mat
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import Verdict
 from dofkit.classification.feasibility.state_problem import StateProblem
-from dofkit.exact.boxes.box_program import BoxProgram
-from dofkit.exact.boxes.intervals import WHOLE, EmptyError, Interval, down, up
+from dofkit.exact.boxes import WHOLE, BoxProgram, EmptyError, Interval, bounds
 from dofkit.exact.errors import NoValueError
+from dofkit.exact.linear_inequalities import LinearCondition, solution
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.linear_inequalities import LinearCondition, solution
-from dofkit.exact.zero.identity import zero_and_verdict
+from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate, interval_of
@@ -296,13 +295,13 @@ def _defined(problem: StateProblem, point: BallPoint) -> bool:
     """Has all that was written a value on the whole ball, equations one that may be 0, conditions the right sign?"""
     try:
         program = BoxProgram([(e, WHOLE) for e in problem.expressions])
-        box = [_hull(arb(point.symbols[s])) for s in program.variables]
+        box = [bounds(arb(point.symbols[s])) for s in program.variables]
         at = program.forward(box)
-        if not program.total(at):
+        if not program.is_defined(at):
             return False
     except (EmptyError, NoValueError, KeyError):
         return False
-    told = [at[root] for root, _ in program.roots]
+    told = [at[e] for e in problem.expressions]
     n = len(problem.equations)
     zeros = all(low <= 0.0 <= high for low, high in told[:n])
     return zeros and all(_agrees(v, c) for v, c in zip(told[n:], problem.conditions, strict=True))
@@ -311,7 +310,3 @@ def _defined(problem: StateProblem, point: BallPoint) -> bool:
 def _agrees(value: Interval, c: DomainCondition) -> bool:
     low, high = value
     return (low > 0.0 or high < 0.0) if c.sense == "!=" else low > 0.0
-
-
-def _hull(value: arb) -> Interval:
-    return down(down(float(value.lower()))), up(up(float(value.upper())))

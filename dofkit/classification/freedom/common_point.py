@@ -19,10 +19,10 @@ from dofkit.base.verdicts import weakest
 from dofkit.configuration.components import explicit_relations
 from dofkit.configuration.reality import BALL_COLUMNS
 from dofkit.configuration.witness import Witness, of_real_point
+from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
-from dofkit.exact.zero.analyticity import is_analytic
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.renaming import coordinates_in

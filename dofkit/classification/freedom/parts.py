@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from dofkit.classification.freedom.block import answer
-from dofkit.exact.engines import BOTH
+from dofkit.exact.zero import BOTH
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution
 from dofkit.integrability.shared_forms import SharedForms, shared_forms

@@ -7,11 +7,10 @@ from itertools import chain, count
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import Fault, SceneError, TextError
-from dofkit.exact.zero.analyticity import is_analytic
+from dofkit.exact.analyticity import is_analytic
 from dofkit.expressions import tree as ex
-from dofkit.expressions.renaming import kinds_in, shape_of
+from dofkit.expressions.renaming import Unwritten, kinds_in, shape_of
 from dofkit.expressions.tree import Expr
-from dofkit.expressions.unwritten import Unwritten
 from dofkit.integrability import accelerations
 from dofkit.mobility.bridges import Bridges, bridges
 from dofkit.mobility.rows_at_drawing import RowsAtDrawing

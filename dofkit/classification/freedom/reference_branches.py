@@ -10,7 +10,7 @@ from itertools import product as cartesian
 from dofkit.configuration.drawing.at_reference import ball_matrix, ball_point
 from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.zero.identity import is_proved_zero, is_zero
+from dofkit.exact.zero import is_proved_zero, is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.differentials import accelerations_of, in_velocities

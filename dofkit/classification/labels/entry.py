@@ -18,7 +18,7 @@ from dofkit.classification.labels.time_labels import (
     timed_in_system,
     traits_together,
 )
-from dofkit.exact.engines import BOTH
+from dofkit.exact.zero import BOTH
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.single_form import Integrability, integrability

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dofkit.exact.errors import TooLargeError
 from dofkit.exact.ring.canonical import Canon, Poly, Quotient
-from dofkit.exact.ring.instructions import Var
+from dofkit.exact.ring.program import Var
 from dofkit.expressions.tree import Expr
 
 

@@ -11,13 +11,13 @@ from flint import arb, ctx, nmod, nmod_mat
 from dofkit.base.verdicts import Verdict
 from dofkit.configuration.generic_points import on_variety
 from dofkit.exact.errors import NoValueError, raising_no_value
-from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import PRECISION, BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, Pivots, certified_rank, field_frame, rank_over
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
-from dofkit.exact.solving.triangular import TriangularSolver
+from dofkit.exact.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr

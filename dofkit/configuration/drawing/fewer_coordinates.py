@@ -22,7 +22,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.mobility.graph.answers import linkage
+from dofkit.mobility.graph.linkage import linkage
 from dofkit.relations.chart import Chart
 from dofkit.relations.linear import linear
 from dofkit.relations.reductions import ReductionName

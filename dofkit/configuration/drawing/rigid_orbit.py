@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.configuration.rigid_motions import rigid_fields
-from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.matrices.sparse import rank_of
 from dofkit.expressions import tree as ex
 from dofkit.relations.chart import Chart
 from dofkit.relations.setting import Setting

@@ -9,8 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from dofkit.configuration.local.manifold import Manifold
-from dofkit.exact.ring.instructions import ADD, MUL, NUM, POW, VAR
-from dofkit.exact.ring.program import reachable
+from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, reachable
 from dofkit.exact.ring.ring import Ring
 
 

@@ -19,7 +19,7 @@ from dofkit.configuration.local.critical_set import Split
 from dofkit.configuration.local.manifold import Form, Manifold, is_zero
 from dofkit.configuration.local.neighbourhood import holds_away
 from dofkit.exact.points.series import Series
-from dofkit.exact.ring.instructions import Scalar
+from dofkit.exact.ring.program import Scalar
 
 #: Orders to which the other relations are followed on M; the second where one motion is in question.
 ORDER, LONG_ORDER = 8, 16

@@ -1,1 +1,1 @@
-"""Matrices: ranks modulo p, certified ranks, sparse and dense elimination."""
+"""Matrices: ranks modulo p, certified ranks, sparse elimination."""

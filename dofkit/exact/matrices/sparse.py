@@ -1,4 +1,4 @@
-"""Sparse matrices over GF(p): independent rows in order, what the others depend on, and columns to solve for.
+"""Ranks over GF(p); of sparse matrices also independent rows in order, dependences, and columns to solve for.
 
 Rows are taken one after another and reduced by those before them; a pivot is the entry whose column occurs in the
 fewest rows, so a chain or a tree fills in nothing and a grid little more than its width.
@@ -6,19 +6,25 @@ fewest rows, so a chain or a tree fills in nothing and a grid little more than i
 
 from __future__ import annotations
 
+import random
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from typing import Any
 
-from dofkit.base.deadline import check
+from flint import fmpq, nmod_mat
+
+from dofkit.base.deadline import affordable, check
 from dofkit.exact.errors import PoleError
 
 SparseRow = dict[int, int]
 #: For every row that depends on rows before it a minimal set of those; told where it is asked for.
 Supports = Callable[[], Mapping[int, Sequence[int]]]
 
+RationalRow = dict[int, fmpq]
+#: Primes modulo which dependences of rational rows are found; factors have up to half their bits.
+RECONSTRUCTION_PRIMES = (2**127 - 1, 2**521 - 1, 2**2203 - 1)
 #: Rows between two looks at the clock.
 LOOK = 64
 
@@ -94,6 +100,59 @@ def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
         else:
             found.append({i: 1} | {k: -v % p for k, v in reduction.support(used).items()})
     return found
+
+
+def dependences(rows: Sequence[Mapping[int, fmpq]]) -> dict[int, RationalRow] | None:
+    """Return for every rational row that is a sum of rows before it their factors, row_i = sum f_k row_k.
+
+    What is independent modulo a prime is so over the rationals; dependences are reconstructed from their residues and
+    checked. None where that succeeds for no prime.
+
+    >>> dependences([{0: fmpq(1)}, {0: fmpq(1), 1: fmpq(2)}, {1: fmpq(1)}])
+    {2: {0: -1/2, 1: 1/2}}
+    """
+    for p in RECONSTRUCTION_PRIMES:
+        try:
+            residues = [{c: int(v.p) * pow(int(v.q), -1, p) % p for c, v in row.items()} for row in rows]
+        except ValueError:  # the prime divides a denominator
+            continue
+        sums = vanishing([{c: v for c, v in row.items() if v} for row in residues], p)
+        factors = {max(s): {k: _reconstructed(-v, p) for k, v in sorted(s.items()) if k != max(s)} for s in sums}
+        if all(_is_sum(rows, i, row) for i, row in factors.items()):
+            return factors
+    return None
+
+
+def _reconstructed(residue: int, p: int) -> fmpq:
+    """Return the fraction a/b with the residue modulo p and |a|, |b| below the root of p/2, if there is one (Wang)."""
+    a, b, x, y = p, residue % p, 0, 1
+    while 2 * b * b > p:
+        quotient = a // b
+        a, b, x, y = b, a - quotient * b, y, x - quotient * y
+    return fmpq(b, y)
+
+
+def _is_sum(rows: Sequence[Mapping[int, fmpq]], i: int, factors: RationalRow) -> bool:
+    """Return whether row i is exactly the sum of rows times factors."""
+    check()
+    total = dict(rows[i])
+    for k, factor in factors.items():
+        for c, v in rows[k].items():
+            total[c] = total.get(c, fmpq(0)) - factor * v
+    return all(v == 0 for v in total.values())
+
+
+def vector_in_kernel(rows: Sequence[Mapping[int, int]], p: int, rng: random.Random) -> SparseRow:
+    """Return a random vector on which all rows vanish, with a value for each column that occurs."""
+    weight = Counter(c for row in rows for c in row)
+    reduction = _Reduction(p, weight)
+    for i, row in enumerate(rows):
+        if i % LOOK == 0:
+            check()
+        rest, used = reduction.reduced(row)
+        if rest:
+            reduction.add(i, rest, used)
+    return reduction.completed({c: rng.randrange(p) for c in weight})
 
 
 def rank_of_rows(rows: Sequence[Mapping[int, int]], p: int) -> int:
@@ -189,6 +248,13 @@ class _Reduction:
             found[column] = (reduced[number] - sum(v * found[c] for c, v in others)) % p
         return found
 
+    def completed(self, values: Mapping[int, int]) -> SparseRow:
+        """Return the vector with the given values in the columns that are no pivots, on which all rows vanish."""
+        vector = dict(values)
+        for (column, _), *others in reversed(self._rows):
+            vector[column] = -sum(v * vector[c] for c, v in others) % self.p
+        return vector
+
     def support(self, used: Mapping[int, int]) -> SparseRow:
         """A sum of pivot rows as one of rows, row -> factor: each is its row less earlier ones, unfolded backwards."""
         left, found = dict(used), SparseRow()
@@ -229,3 +295,16 @@ class FactoredMatrix:
     def solve(self, right: Sequence[int]) -> list[int]:
         """The x with A x = ``right``: what was done to the rows is done to it, then the pivots backwards."""
         return self._found.solved(right)
+
+
+def rank_of(matrix: list[list[Any]], p: int) -> int:
+    """Rank over GF(p)."""
+    if not matrix or not matrix[0]:
+        return 0
+    affordable(len(matrix), len(matrix[0]))
+    return int(nmod_mat([[int(v) for v in row] for row in matrix], p).rank())
+
+
+def without_time(rows: Sequence[SparseRow], n: int) -> list[SparseRow]:
+    """The first n columns."""
+    return [{c: v for c, v in row.items() if c < n} for row in rows]

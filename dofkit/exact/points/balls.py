@@ -8,17 +8,63 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from fractions import Fraction
-from functools import cached_property
-from typing import Any
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
 
 from flint import arb, ctx, fmpq
 
 from dofkit.exact.errors import OutsideDomainError
-from dofkit.exact.points.smooth import smooth_function
-from dofkit.exact.ring.instructions import Scalar, Var
-from dofkit.exact.ring.program import gradient
+from dofkit.exact.ring.program import Scalar, Var, gradient
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
+
+#: Sines in a function.
+WAVES = 3
+
+
+class SmoothFunction(NamedTuple):
+    """The dyadic numbers of one function of some arguments."""
+
+    start: Fraction
+    slopes: tuple[Fraction, ...]
+    waves: tuple[tuple[Fraction, tuple[Fraction, ...], Fraction], ...]
+
+    def value(self, args: Sequence[Any], orders: Sequence[int], numbers: Any, sine: Any, half_pi: Any) -> Any:
+        """The function differentiated ``orders[i]`` times by its i-th argument.
+
+        ``numbers`` turns a fraction into the numbers of the arguments; ``sine``, ``half_pi``: theirs.
+        """
+        total = sum(orders)
+        found = numbers(Fraction(0))
+        if total == 0:
+            found = found + numbers(self.start)
+            for slope, u in zip(self.slopes, args, strict=True):
+                found = found + numbers(slope) * u
+        elif total == 1:
+            found = found + numbers(self.slopes[list(orders).index(1)])
+        for height, widths, phase in self.waves:
+            factor, angle = height, numbers(phase) + half_pi * total
+            for width, order, u in zip(widths, orders, args, strict=True):
+                factor *= width**order
+                angle = angle + numbers(width) * u
+            found = found + numbers(factor) * sine(angle)
+        return found
+
+
+@lru_cache(maxsize=256)
+def smooth_function(name: str, arguments: int, seed: int) -> SmoothFunction:
+    """The function of a name: the same in every run, another for another seed."""
+    rng = random.Random(f"dofkit function {name} {arguments} {seed}")
+
+    def draw(low: int, high: int) -> Fraction:
+        return Fraction(rng.choice((-1, 1)) * rng.randrange(low, high), 512)
+
+    slopes = tuple(draw(256, 1024) for _ in range(arguments))
+    waves = tuple(
+        (draw(64, 512), tuple(draw(256, 1024) for _ in range(arguments)), draw(1, 1600)) for _ in range(WAVES)
+    )
+    return SmoothFunction(draw(1, 1024), slopes, waves)
+
 
 #: Bits of a ball; numbers of more bits than the second ask for as many more, twice: what they differ by may be as small
 #: as they are long.

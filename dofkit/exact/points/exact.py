@@ -8,8 +8,7 @@ from fractions import Fraction
 from flint import fmpq, fmpq_mat
 
 from dofkit.exact.errors import NoPointError, NoValueError
-from dofkit.exact.ring.instructions import Scalar, Var
-from dofkit.exact.ring.program import gradient, values
+from dofkit.exact.ring.program import Scalar, Var, gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 

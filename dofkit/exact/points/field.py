@@ -20,8 +20,7 @@ from flint.utils.flint_exceptions import DomainError
 
 from dofkit.exact.errors import NoPointError, NoValueError
 from dofkit.exact.points.characters import Character
-from dofkit.exact.ring.instructions import NUM, Scalar, Var
-from dofkit.exact.ring.program import value_of
+from dofkit.exact.ring.program import NUM, Scalar, Var, value_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 

@@ -8,9 +8,9 @@ from fractions import Fraction
 from typing import NamedTuple, NoReturn
 
 from dofkit.base.errors import TextError
+from dofkit.expressions.text.bounds import MAX_CHARACTERS, MAX_DIGITS, MAX_EXPONENT, MAX_NODES, MAX_TEXT_BITS
 from dofkit.expressions.text.characters import DEGREE, DOT, FRACTIONS, GREEK_LETTERS, SUPERSCRIPTS, TWO_DOTS, fold
 from dofkit.expressions.text.latex import FRACTION_MARK, unlatex
-from dofkit.expressions.text.limits import MAX_CHARACTERS, MAX_DIGITS, MAX_EXPONENT, MAX_NODES, MAX_TEXT_BITS
 from dofkit.expressions.text.names import VARIATION, Lookup, Meaning
 from dofkit.expressions.text.words import read_word
 from dofkit.expressions.tree import PI, Expr, mul, num, sym
@@ -39,10 +39,11 @@ class Tokens(NamedTuple):
     columns: Sequence[int]
 
 
-_WORD = rf"[A-Za-z{GREEK_LETTERS}][A-Za-z0-9_{GREEK_LETTERS}{DOT}{TWO_DOTS}]*"
+WORD = rf"[A-Za-z{GREEK_LETTERS}][A-Za-z0-9_{GREEK_LETTERS}{DOT}{TWO_DOTS}]*"
+NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?"
 _TOKEN = re.compile(
-    rf"""[ \t]*(?:(?P<word>{_WORD})
-    |(?P<number>(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)
+    rf"""[ \t]*(?:(?P<word>{WORD})
+    |(?P<number>{NUMBER})
     |(?P<wrong>!=|=>|=<|<>|===|<<|>>|//|->|=!|:=|\*\*\*)
     |(?P<relation><=|>=|==?|[<>])
     |(?P<degree>\^[ ]*\{{[ ]*{DEGREE}[ ]*\}}|\^?[ ]*{DEGREE})
@@ -54,9 +55,9 @@ _TOKEN = re.compile(
     re.ASCII | re.VERBOSE,
 )
 _SQUARE = r"\s*(?:²|(?:\^|\*\*)\s*(?:2|\{\s*2\s*\}))"
-_SECOND = re.compile(rf"d{_SQUARE}\s*(?P<name>{_WORD})\s*/\s*dt{_SQUARE}", re.ASCII)
-_SPACED_VARIATION = re.compile(rf"{VARIATION}[ \t]+(?P<name>{_WORD})", re.ASCII)
-_NUMBER = re.compile(r"(\d*)\.?(\d*)(?:[eE]([+-]?\d+))?", re.ASCII)
+_SECOND = re.compile(rf"d{_SQUARE}\s*(?P<name>{WORD})\s*/\s*dt{_SQUARE}", re.ASCII)
+_SPACED_VARIATION = re.compile(rf"{VARIATION}[ \t]+(?P<name>{WORD})", re.ASCII)
+_PARTS = re.compile(r"(\d*)\.?(\d*)(?:[eE]([+-]?\d+))?", re.ASCII)
 _DEGREES = frozenset({"deg", "degree", "degrees"})
 _ALIKE = {"**": "^", "==": "=", "[": "(", "{": "(", "]": ")", "}": ")", FRACTION_MARK: "frac", "√": "root"}
 
@@ -240,7 +241,7 @@ def _check_number(found: str, text: str, end: int, column: int, lookup: Lookup) 
 
 def _number(found: str, column: int) -> Fraction:
     """The exact value of a decimal."""
-    match = _NUMBER.fullmatch(found)
+    match = _PARTS.fullmatch(found)
     if match is None:  # pragma: no cover - the token's pattern is the same
         raise TextError(f"`{found}` is not a number", column)
     whole, rest, power = match.groups()

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.base.wording import closest
+from dofkit.expressions.text.bounds import MAX_NAME
 from dofkit.expressions.text.characters import spelled
-from dofkit.expressions.text.limits import MAX_NAME
 from dofkit.expressions.text.names import ELEMENTARY, SYNONYMS, Lookup, Meaning, UnknownNameError, unmarked
 from dofkit.expressions.tree import PI, E
 

@@ -13,12 +13,12 @@ from flint import nmod, nmod_mat
 
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import field_frame, kernel
-from dofkit.exact.points.random_curve import RandomCurve
+from dofkit.exact.points.series import RandomCurve
 from dofkit.exact.ring.program import gradient, values
-from dofkit.exact.solving.triangular import TriangularSolver
+from dofkit.exact.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.pfaffian_system import Codistribution

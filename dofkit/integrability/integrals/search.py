@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from itertools import chain, count
 
 from dofkit.exact.errors import raising_no_value
-from dofkit.exact.zero.identity import certainly_nonzero
+from dofkit.exact.zero import certainly_nonzero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text

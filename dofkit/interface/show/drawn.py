@@ -19,7 +19,7 @@ from dofkit.interface.show.result import sheet_of_result
 from dofkit.interface.show.scene import sheet_of_linkage, sheet_of_scene
 from dofkit.interface.show.sheet import Sheet
 from dofkit.interface.show.terminal import Screen, as_text
-from dofkit.mobility.graph.result import Linkage
+from dofkit.mobility.graph.linkage import Linkage
 from dofkit.motion.lagrange.report import MotionReport
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.scene import Scene
@@ -43,7 +43,7 @@ def html_of(value: object) -> str:
 def latex_of(value: object) -> str | None:
     """A display in LaTeX; None for what has no formulas, or where one cannot be set."""
     lines = [typeset(text) for text in _formulas(value)]
-    shown = [line.latex for line in lines if line is not None]
+    shown = [line for line in lines if line is not None]
     if not shown or len(shown) < len(lines):
         return None
     aligned = r" \\ ".join(line.replace("=", "&=", 1) for line in shown)

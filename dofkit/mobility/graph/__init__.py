@@ -1,1 +1,12 @@
-"""The graph of rigid links: what is redundant, rigid and what moves, in general position."""
+"""Graphs of rigid links in general position: the rank of the links, the redundant ones, and what is rigid.
+
+`linkage` reads a graph (`links`) and answers by its dimension; a `Linkage` holds the answers.
+
+| dimension | module | what decides | verdict |
+|---|---|---|---|
+| 1 | `line` | a spanning forest [Kirchhoff1847] | proved |
+| 2 | `plane` | the (2,3) pebble game [PollaczekGeiringer1927] [Laman1970] [JacobsHendrickson1997] | proved |
+| 3 | `space` | the rank at random positions modulo a prime [SchwartzZippel] | proved where a count agrees |
+
+`rigid_blocks` keeps the rigid parts of the plane while links are added.
+"""

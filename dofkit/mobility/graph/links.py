@@ -1,131 +1,96 @@
-"""Links as people give them: pairs of hashable joints, an array of integers with two columns, or a networkx graph."""
+"""Graphs of links as people give them, with joints and links numbered, and how certain an answer about one is."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
 
 from dofkit.base.errors import DofkitError
 from dofkit.base.libraries import np
 
+if TYPE_CHECKING:
+    from dofkit.base.verdicts import Verdict
+
 #: Any hashable name.
 Joint = Any
 Link = tuple[Any, Any]
-
-#: Whole numbers are joints' names that stand in a table of at most so many places for each end of a link.
-SPREAD = 4
-#: Beyond this a whole number is a name like any other.
-FAR = 2**62
-#: Links of a list that are read in one go.
-NEAR = 4096
+#: The numbers of a link's two joints.
+Ends = tuple[int, int]
+Question = Literal["rank", "redundant", "circuits", "redundancies", "clusters"]
 
 
 class LinkageError(DofkitError):
-    """A list of links that is none: a link from a joint to itself, or no pair; or a dimension beyond 1, 2, 3."""
+    """A list of links is not one: a link joins a joint to itself, or is no pair; or the dimension is not 1, 2 or 3."""
+
+
+class Proof(NamedTuple):
+    """How certain an answer is, and the theorem or computation that makes it so."""
+
+    verdict: Verdict
+    reason: str
 
 
 class Graph(NamedTuple):
-    """Joints in the order in which they first occur, links as given, and the numbers of their joints in turn.
+    """The joints in the order in which they first occur, the links as given, and the joints' numbers of each in turn.
 
-    ``joints``: names, or an array of integers; ``links``: tuples, or an array with two columns; ``ends``: a list or an
-    array of integers.
+    Link i lies between joints ``ends[2 i]`` and ``ends[2 i + 1]`` of an array.
     """
 
-    joints: Any
-    links: Any
+    joints: tuple[Joint, ...]
+    links: Sequence[Link]
     ends: Any
 
-    def all_joints(self) -> tuple[Joint, ...]:
-        """The joints by their names."""
-        return tuple(self.joints.tolist() if isinstance(self.joints, np.ndarray) else self.joints)
 
-    def links_at(self, places: Sequence[int]) -> list[Link]:
-        """Some of the links, as tuples."""
-        if isinstance(self.links, np.ndarray):
-            return list(map(tuple, self.links[np.asarray(places, dtype=np.intp)].tolist()))
-        return [self.links[i] for i in places]
+class GraphAnswer(Protocol):
+    """The answers for a graph of links in general position. Joints and links are numbers from 0."""
 
-    def all_links(self) -> tuple[Link, ...]:
-        """The links as tuples."""
-        return tuple(zip(*self.links.T.tolist(), strict=True) if isinstance(self.links, np.ndarray) else self.links)
+    def __init__(self, joints: int, ends: Any) -> None:
+        """Take the number of joints, and the joints of all links in turn, an array."""
+
+    @property
+    def redundant(self) -> list[int]:
+        """The links that are implied by those before them, ascending."""
+
+    def circuits(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
+        """Yield redundant links, each with the earlier links with which it is a minimal dependent set."""
+
+    def groups(self) -> list[list[int]]:
+        """Return the classes of links of which any two lie in a minimal dependent set, without single links."""
+
+    def clusters(self) -> list[list[int]]:
+        """Return the maximal sets of joints that keep all their distances; every joint is in one at least."""
+
+    def proof(self, question: Question) -> Proof:
+        """Return how certain an answer is."""
 
 
 def read(links: Iterable[Link] | Any, joints: Iterable[Joint] = ()) -> Graph:
-    """Joints and links numbered. Raises LinkageError that names the first link that is none."""
-    given = _pairs(links)
-    named = list(chain(getattr(links, "nodes", ()), joints))
-    found = _numbered_array(given) if not named else None
-    graph = found or _numbered(list(map(tuple, given.tolist())) if isinstance(given, np.ndarray) else given, named)
-    loops = np.flatnonzero(np.equal(graph.ends[::2], graph.ends[1::2]))
-    if len(loops):
-        joint = graph.all_joints()[graph.ends[2 * int(loops[0])]]
-        raise LinkageError(f"link number {loops[0] + 1} joins {joint!r} to itself")
-    return graph
-
-
-def _pairs(links: Iterable[Link] | Any) -> Any:
-    """The links as a list of tuples, or as an array of integers with two columns."""
-    if hasattr(links, "nodes") and hasattr(links, "edges"):
-        return [(a, b) for a, b, *_ in links.edges()]
-    if isinstance(links, np.ndarray):
-        if links.ndim == 2 and links.shape[1] == 2 and np.issubdtype(links.dtype, np.integer):
-            return links
-        links = links.tolist()
+    """Return the graph with its joints numbered. Raises LinkageError that names the first link that is not one."""
+    pairs = _pairs(links)
+    names = list(chain.from_iterable(pairs))
     try:
-        given: Sequence[Any] = list(links)
-    except TypeError as error:
-        raise LinkageError(f"links are a list of pairs or a graph, not {links!r}") from error
-    kinds = set(map(type, given))
-    if not kinds <= {tuple, list} or not set(map(len, given)) <= {2}:
-        for place, link in enumerate(given):
-            if not isinstance(link, tuple | list) or len(link) != 2:
-                raise LinkageError(f"link number {place + 1} is {link!r}; a link is a pair of joints")
-    return given if kinds <= {tuple} else [tuple(link) for link in given]
-
-
-def _numbered(given: Sequence[Link], named: Iterable[Joint]) -> Graph:
-    """Joints of any kind."""
-    flat = list(chain.from_iterable(given))
-    try:
-        number = {v: i for i, v in enumerate(dict.fromkeys(chain(named, flat)))}
+        number = {v: i for i, v in enumerate(dict.fromkeys(chain(getattr(links, "nodes", ()), joints, names)))}
     except TypeError as error:
         raise LinkageError(f"joints need distinct names: {error}") from error
-    return Graph(list(number), given, list(map(number.__getitem__, flat)))
+    ends = np.fromiter(map(number.__getitem__, names), np.int32, len(names))
+    loops = np.flatnonzero(ends[::2] == ends[1::2])
+    if len(loops):
+        raise LinkageError(f"link number {loops[0] + 1} joins {names[2 * loops[0]]!r} to itself")
+    return Graph(tuple(number), pairs, ends)
 
 
-def _numbered_array(given: Any) -> Graph | None:
-    """Joints that are whole numbers of a narrow range; None where they are not."""
-    flat = given.ravel() if isinstance(given, np.ndarray) else _whole_numbers(given)
-    if flat is None or not len(flat):
-        return None
-    low, high = int(flat.min()), int(flat.max())
-    span = high - low + 1
-    if span > SPREAD * len(flat) or not -FAR < low <= high < FAR:
-        return None
-    places = flat.astype(np.int64, copy=False)
-    if low:
-        places = places - low
-    first = np.full(span, len(flat), dtype=np.int32)
-    first[places[::-1]] = np.arange(len(flat) - 1, -1, -1, dtype=np.int32)
-    order = np.sort(first[first < len(flat)])
-    number = np.empty(span, dtype=np.int32)
-    number[places[order]] = np.arange(len(order), dtype=np.int32)
-    return Graph(flat[order], given, number[places])
-
-
-def _whole_numbers(given: Sequence[Link]) -> Any:
-    """The joints of all links in turn as an array, some links after others; None where one is no integer or too large.
-
-    What was just read of a part is still near when it is read again.
-    """
-    flat = np.empty(2 * len(given), np.int64)
-    for place in range(0, len(given), NEAR):
-        names = list(chain.from_iterable(given[place : place + NEAR]))
-        if not set(map(type, names)) <= {int}:
-            return None
-        try:
-            flat[2 * place : 2 * place + len(names)] = np.fromiter(names, np.int64, len(names))
-        except OverflowError:
-            return None
-    return flat
+def _pairs(links: Iterable[Link] | Any) -> Sequence[Link]:
+    """Return the links of a graph, an array with two columns, or a list of pairs, as tuples."""
+    if hasattr(links, "nodes") and hasattr(links, "edges"):
+        return [(a, b) for a, b, *_ in links.edges()]
+    try:
+        pairs = links.tolist() if isinstance(links, np.ndarray) else list(links)
+    except TypeError as error:
+        raise LinkageError(f"links are a list of pairs or a graph, not {links!r}") from error
+    kinds = set(map(type, pairs))
+    if not kinds <= {tuple, list} or not set(map(len, pairs)) <= {2}:
+        for place, link in enumerate(pairs):
+            if not isinstance(link, tuple | list) or len(link) != 2:
+                raise LinkageError(f"link number {place + 1} is {link!r}; a link is a pair of joints")
+    return pairs if kinds <= {tuple} else list(map(tuple, pairs))

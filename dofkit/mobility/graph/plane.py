@@ -1,21 +1,28 @@
-"""Links in the plane: the pebble game, circuits, groups and rigid clusters."""
+"""Links in the plane: the (2,3) pebble game, circuits, groups and rigid clusters.
+
+Every joint has two pebbles. A link is independent of those before it if and only if all four pebbles of its joints can
+be gathered there, and then one of them is spent on it [JacobsHendrickson1997], which rests on [Laman1970]. Where the
+fourth cannot be had, the joints that were reached form a rigid block. Its links are then replaced by another set that
+makes the same block rigid, every joint held by the two ends of the link, so that later searches there are short.
+
+The links are first taken away, last to first, and with each the joints that have at most two links then. Such a joint
+makes its links independent of all others (0-extension [Henneberg1911]): it pays for them and nothing is searched. Only
+a link both of whose joints still have three, when all after it are gone, is played for, in the order of the links. It
+is redundant without a search where one block holds both ends, or a joint outside the block pays for two links to
+joints of the block other than the other end.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from copy import deepcopy
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
+from dofkit.base.deadline import check
 from dofkit.base.libraries import np
-from dofkit.mobility.graph import net as nets
-from dofkit.mobility.graph import pebbles, rigid_clusters
-from dofkit.mobility.graph.answer import Proof, Question
-from dofkit.mobility.graph.circuits import circuits, rooted
-from dofkit.mobility.graph.compiled import Engine, engine_for
-from dofkit.mobility.graph.grouping import ascending, places_by_label
-from dofkit.mobility.graph.net import Net
-from dofkit.mobility.graph.pebbles import FREE, Board
-from dofkit.mobility.graph.plain_game import PlainGame
+from dofkit.mobility.graph.links import Proof, Question
+from dofkit.mobility.graph.rigid_blocks import NONE, RigidBlocks
 
 # [JacobsHendrickson1997] [PollaczekGeiringer1927] [Laman1970]
 _PROOF = Proof(
@@ -23,153 +30,293 @@ _PROOF = Proof(
     "the (2,3) pebble game (Jacobs and Hendrickson 1997): links in the plane are independent in general position if "
     "and only if every n joints carry at most 2n - 3 of them (Pollaczek-Geiringer 1927, Laman 1970)",
 )
+#: No joint: the pebble is free.
+FREE = -1
 
 
-#: Joints times circuits from which many circuits at once are faster than one after another.
-WORTH_WORDS = 2_000_000
-#: So many times faster is the game written for Python than the one for arrays, run as it is written.
-PLAIN_GAME = 4
+class Neighbours(NamedTuple):
+    """The joints ``across[start[v]]``, ``across[start[v] + 1]``, ... to which links of joint v lead.
+
+    Link i lies between ``tail[i]`` and ``head[i]``; ``degree`` counts the links of a joint that are not taken off.
+    """
+
+    tail: list[int]
+    head: list[int]
+    across: list[int]
+    start: list[int]
+    degree: list[int]
+
+    def of(self, v: int) -> list[int]:
+        """Return the joints that links lead to from joint v, in the order of the links."""
+        return self.across[self.start[v] : self.start[v + 1]]
 
 
-def _board(engine: Engine, joints: int, links: int) -> Board:
-    """All pebbles free, every link a group of its own."""
-    return Board(
-        out=engine.filled(2 * joints, FREE),
-        link=engine.filled(2 * joints, FREE),
-        group=engine.array(range(links)),
-        seen=engine.filled(joints, 0),
-        via=engine.filled(joints, 0),
-        queue=engine.filled(joints, 0),
-        clock=engine.filled(1, 0),
-    )
+def neighbours_of(flat: Any, joints: int) -> Neighbours:
+    """Return the links by joints, from the joints of all links in turn, an array.
+
+    A joint's number is one object in all lists, which are then fast to read.
+    """
+    names = np.arange(joints).astype(object)
+    bits = len(flat).bit_length()
+    places = np.arange(len(flat), dtype=np.int64)
+    places |= flat.astype(np.int64) << bits
+    places.sort()
+    places &= (1 << bits) - 1
+    places ^= 1
+    degree = np.bincount(flat, minlength=joints)
+    start = np.concatenate([[0], np.cumsum(degree)])
+    tail, head, across = (names[part].tolist() for part in (flat[::2], flat[1::2], flat[places]))
+    return Neighbours(tail, head, across, start.tolist(), degree.tolist())
 
 
-def _net(engine: Engine, ends: Any, joints: int, left_out: Any) -> tuple[Net, int]:
-    """The links that are not left out, and how many joints of few links could be taken off one after another."""
-    links = len(left_out)
-    net = Net(
-        ends=ends,
-        start=engine.filled(joints + 1, 0),
-        at=engine.filled(2 * links, 0),
-        degree=engine.filled(joints, 0),
-        order=engine.filled(joints, 0),
-        gone=engine.filled(links, 0),
-    )
-    kernels = engine.running(nets)
-    kernels.incidence(net.ends, left_out, net.start, net.at, net.degree)
-    return net, kernels.peel(net)
+class PebbleGame:
+    """The game of some links, played to its end; ``redundant`` are the links that those before them imply, ascending.
 
+    The pebbles of joint v lie on links to ``first[v]`` and ``second[v]``; where one is free it is the second. What a
+    joint pays for as it is taken off lies there from the beginning: nothing leads to it before the links of its
+    neighbours are played.
+    """
 
-def _leaders(engine: Engine, group: Any) -> list[int]:
-    """The link that stands for each link's group."""
-    return [int(engine.kernels.leader(group, i)) for i in range(len(group))]
+    def __init__(self, joints: int, ends: Any) -> None:
+        self.net = neighbours_of(ends, joints)
+        self.first, self.second = [FREE] * joints, [FREE] * joints
+        self.blocks = RigidBlocks(joints)
+        self.redundant: list[int] = []
+        first, (tail, head, *_) = self.first, self.net
+        for i in reversed(self._played_for()):
+            a, b = tail[i], head[i]
+            if self._is_held(a, b):
+                self.redundant.append(i)
+                continue
+            reached = self.gather(a, b)
+            if reached is None:
+                first[a] = b
+            else:
+                self.redundant.append(i)
+                self._condense(a, b, reached)
 
+    def _played_for(self) -> list[int]:
+        """Return the links that go with no joint, last to first; all others are paid for."""
+        tail, head, _, _, degree = self.net
+        self._take_off([v for v, number in enumerate(degree) if number <= 2])
+        played, queue = [], list[int]()
+        for i, a, b in zip(range(len(tail) - 1, -1, -1), reversed(tail), reversed(head), strict=True):
+            d, e = degree[a], degree[b]
+            if d and e:
+                played.append(i)
+                degree[a], degree[b] = d - 1, e - 1
+                if d <= 3:
+                    queue.append(a)
+                if e <= 3:
+                    queue.append(b)
+                if queue:
+                    self._take_off(queue)
+                    queue.clear()
+        return played
 
-class CompiledGame:
-    """The game on arrays; see `dofkit.mobility.graph.plain_game.PlainGame`."""
+    def _take_off(self, queue: list[int]) -> None:
+        """Let joints of at most two links, to different joints, pay for these, and then others that have no more left.
 
-    def __init__(self, engine: Engine, joints: int, ends: Any) -> None:
-        self._engine, links = engine, len(ends) // 2
-        self._board = _board(engine, joints, links)
-        dependent = engine.filled(links, 0)
-        net, outer = _net(engine, engine.array(ends), joints, dependent)
-        engine.kernels.play(self._board, net, outer, dependent)
-        self.redundant: list[int] = np.flatnonzero(dependent).tolist()
+        A joint that is off has no links left, and a link that is gone by itself comes after all that are left.
+        """
+        first, second, (_, _, across, start, degree) = self.first, self.second, self.net
+        for v in queue:
+            number = degree[v]
+            if not number:
+                continue
+            k = start[v]
+            while not degree[w := across[k]]:
+                k += 1
+            if number == 2:
+                k += 1
+                while not degree[x := across[k]]:
+                    k += 1
+                if x == w:
+                    continue
+                second[v] = x
+                degree[x] = remaining = degree[x] - 1
+                if remaining <= 2:
+                    queue.append(x)
+            first[v] = w
+            degree[v] = 0
+            degree[w] = remaining = degree[w] - 1
+            if remaining <= 2:
+                queue.append(w)
 
-    def groups(self) -> list[int]:
-        """For every link one that stands for its group."""
-        return _leaders(self._engine, self._board.group)
+    def _is_held(self, a: int, b: int) -> bool:
+        """Return whether one block fixes both joints, and let it hold both from now on.
 
-    def board(self) -> Board:
-        """A copy."""
-        return Board(*(value.copy() for value in self._board))
+        A joint that lies in no block pays for links of its own, and none of them makes the block rigid: in their stead
+        it pays for links to the poles, so that what is paid for stays independent and spans the same. In every circuit
+        of the link between a and b all that such a joint pays for occurs, because at least three links meet at each of
+        its joints, and with it links of the block.
+        """
+        blocks, of = self.blocks, self.blocks.of
+        g, h = of[a], of[b]
+        if g < 0:
+            g = self._fixing(a, b)
+        if h < 0:
+            h = self._fixing(b, a)
+        if not (g == h >= 0 or blocks.is_same(g, h)):
+            return False
+        for v in (a, b):
+            if of[v] < 0:
+                of[v] = g
+                self.first[v], self.second[v] = blocks.poles(g)
+        return True
+
+    def _fixing(self, v: int, other: int) -> int:
+        """Return the block of two joints, neither of them ``other``, that joint v pays for links to."""
+        of, w, x = self.blocks.of, self.first[v], self.second[v]
+        if x < 0 or w == other or x == other:
+            return NONE
+        g, h = of[w], of[x]
+        return g if g == h or self.blocks.is_same(g, h) else NONE
+
+    def gather(self, a: int, b: int) -> list[int] | None:
+        """Free both pebbles of a, and then of b; return the joints that were reached where the fourth cannot be had."""
+        first, second = self.first, self.second
+        while second[a] >= 0 or first[a] >= 0:
+            self.bring(a, a)
+        reached = None
+        while reached is None and (second[b] >= 0 or first[b] >= 0):
+            reached = self.bring(b, a)
+        return reached
+
+    def bring(self, root: int, held: int) -> list[int] | None:
+        """Free one more pebble at ``root``, keeping those of ``held``; return the joints reached if there is none."""
+        first, second = self.first, self.second
+        via = {FREE: root, root: root, held: root}
+        queue = [root]
+        for v in queue:
+            w = first[v]
+            if w not in via:
+                via[w] = v
+                if second[w] < 0:
+                    break
+                queue.append(w)
+            w = second[v]
+            if w not in via:
+                via[w] = v
+                if second[w] < 0:
+                    break
+                queue.append(w)
+        else:
+            return queue
+        self._move(w, root, via)
+        return None
+
+    def _move(self, w: int, root: int, via: dict[int, int]) -> None:
+        """Move a free pebble of ``w`` to ``root``: every link on the way is paid for from its other end."""
+        first, second = self.first, self.second
+        in_first = first[w] < 0
+        while w != root:
+            v = via[w]
+            if in_first:
+                first[w] = v
+            else:
+                second[w] = v
+            w, in_first = v, first[v] == w
+        if in_first:
+            first[root] = second[root]
+        second[root] = FREE
+
+    def _condense(self, a: int, b: int, reached: list[int]) -> None:
+        """Make one rigid block of a and the joints that were reached, all held by a and b.
+
+        Both pebbles of a are free, and one of b: the other pays for a link between the two, or what stands for it.
+        """
+        first, second = self.first, self.second
+        for v in reached:
+            first[v], second[v] = a, b
+        first[a] = second[a] = second[b] = FREE
+        self.blocks.unite([a, *(v for v in reached if v != a)], (a, b))
+
+    def labels(self) -> list[int]:
+        """Return for every link the first one of its block, itself where it is in none."""
+        tail, head, *_ = self.net
+        representative: dict[int, int] = {}
+        blocks = (self.blocks.common(a, b) for a, b in zip(tail, head, strict=True))
+        return [i if block < 0 else representative.setdefault(block, i) for i, block in enumerate(blocks)]
+
+    def complete_blocks(self) -> None:
+        """Make every rigid set of joints a block, whether its links depend or not.
+
+        Two links x-y and x-z turn together if and only if the distance of y and z is fixed: with three pebbles held at
+        x and y none can be had at z. All links of a cluster are found so, because a rigid graph stays connected
+        without a joint.
+        """
+        for x in range(len(self.first)):
+            check()
+            apart: list[int] = []
+            for z in self.net.of(x):
+                if not any(y == z or self._turn_together(x, y, z) for y in apart):
+                    apart.append(z)
+
+    def _turn_together(self, x: int, y: int, z: int) -> bool:
+        """Return whether links x-y and x-z turn together; then all joints between them become one block."""
+        first, second, block = self.first, self.second, self.blocks.common(x, y)
+        if block >= 0 and block == self.blocks.common(x, z):
+            return True
+        while second[x] >= 0 or first[x] >= 0:
+            self.bring(x, x)
+        if second[y] >= 0:
+            self.bring(y, x)
+        first[x] = second[x] = x
+        second[y] = y
+        reached = None if second[z] < 0 else self.bring(z, z)
+        first[x] = second[x] = second[y] = FREE
+        if reached is not None:
+            self._condense(x, y, reached)
+        return reached is not None
 
 
 class PlaneGraph:
-    """A graph of links in two dimensions; see `dofkit.mobility.graph.answer.GraphAnswer`."""
+    """A graph of links in two dimensions; see `dofkit.mobility.graph.links.GraphAnswer`."""
 
-    def __init__(self, joints: int, ends: Sequence[int]) -> None:
-        self._joints, self._links, self._given = joints, len(ends) // 2, ends
-        engine = engine_for(pebbles, self._links, if_ready=True, faster=PLAIN_GAME)
-        self._game = CompiledGame(engine, joints, ends) if engine.compiled else PlainGame(joints, ends)
-        if isinstance(self._game, PlainGame):
-            self._game.play()
+    def __init__(self, joints: int, ends: Any) -> None:
+        self._joints = joints
+        self._game = PebbleGame(joints, ends)
+        self._ends = list(zip(self._game.net.tail, self._game.net.head, strict=True))
 
     @property
     def redundant(self) -> list[int]:
         return self._game.redundant
 
-    @cached_property
-    def _dependent(self) -> list[int]:
-        """1 for every redundant link, 0 for the others."""
-        found = [0] * self._links
-        for i in self.redundant:
-            found[i] = 1
-        return found
-
-    @cached_property
-    def _ends(self) -> list[int]:
-        found: list[int] = Engine(pebbles, False).array(self._given)
-        return found
-
     def circuits(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
-        work = len(links) * self._joints
-        engine = engine_for(pebbles, max(self._links, work // 100))
-        if engine.compiled or work < WORTH_WORDS:
-            return self._one_by_one(links, engine)
-        return self._in_words(links)
-
-    def _one_by_one(self, links: Sequence[int], engine: Engine) -> Iterator[tuple[int, list[int]]]:
-        ends, kernels = engine.array(self._given), engine.kernels
-        board = _board(engine, self._joints, 0)
-        dependent = engine.array(self._dependent)
-        kernels.orient(board, *_net(engine, ends, self._joints, dependent), dependent)
-        found = engine.filled(2 * self._joints, 0)
+        """With three pebbles at its ends, what they reach is tight, and lies in every tight set that holds both."""
+        redundant = set(self.redundant)
+        link = {frozenset(pair): i for i, pair in enumerate(self._ends) if i not in redundant}
+        basis = PebbleGame(self._joints, np.array([v for i in link.values() for v in self._ends[i]], dtype=np.int32))
         for i in links:
-            number = kernels.circuit(board, int(ends[2 * i]), int(ends[2 * i + 1]), found)
-            yield i, ascending(found[:number])
+            check()
+            reached = basis.gather(*self._ends[i]) or ()
+            paid = ((v, w) for v in reached for w in (basis.first[v], basis.second[v]) if w >= 0)
+            yield i, sorted(link[frozenset(pair)] for pair in paid)
 
-    def _in_words(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
-        """Group by group: every circuit lies in one, and its independent links are isostatic."""
-        asked, plain = set(links), Engine(pebbles, False)
-        for group in self.groups():
-            pairs = [i for i in group if i in asked]
-            if not pairs:
-                continue
-            basis = [i for i in group if not self._dependent[i]]
-            number: dict[int, int] = {}
-            ends = [number.setdefault(self._ends[place], len(number)) for i in basis for place in (2 * i, 2 * i + 1)]
-            board = _board(plain, len(number), 0)
-            independent = [0] * len(basis)
-            pebbles.orient(board, *_net(plain, ends, len(number), independent), independent)
-            root = rooted(board.out, list(zip(ends[::2], ends[1::2], strict=True)))
-            wanted = [(number[self._ends[2 * i]], number[self._ends[2 * i + 1]]) for i in pairs]
-            for i, found in zip(pairs, circuits(root, wanted), strict=True):
-                yield i, [basis[k] for k in found]
+    @cached_property
+    def _groups(self) -> list[list[int]]:
+        return [group for group in _by_label(self._game.labels()) if len(group) > 1]
 
     def groups(self) -> list[list[int]]:
-        return [g for g in places_by_label(self._game.groups()) if len(g) > 1]
+        return self._groups
 
     def clusters(self) -> list[list[int]]:
-        n = self._joints
-        if self._links - len(self.redundant) == 2 * n - 3:
-            return [list(range(n))]
-        alone, joints = set(range(n)), []
-        for links in places_by_label(self._cluster_leaders()):
-            members = {int(self._ends[place]) for i in links for place in (2 * i, 2 * i + 1)}
-            alone -= members
-            joints.append(sorted(members))
-        return sorted([*joints, *([v] for v in alone)])
-
-    def _cluster_leaders(self) -> Sequence[int]:
-        """For every link the one that stands for its rigid cluster."""
-        e = engine_for(rigid_clusters, self._links)
-        board = Board(*(e.array(value) for value in self._game.board()))
-        net, outer = _net(e, e.array(self._given), self._joints, e.array(self._dependent))
-        e.running(nets).sweep(net, outer)
-        e.kernels.core_clusters(board, net, outer)
-        e.kernels.outer_clusters(board, net, outer)
-        return _leaders(e, board.group)
+        if len(self._ends) - len(self.redundant) == 2 * self._joints - 3:
+            return [list(range(self._joints))]
+        game = deepcopy(self._game)
+        game.complete_blocks()
+        sets = [sorted({v for i in links for v in self._ends[i]}) for links in _by_label(game.labels())]
+        alone = set(range(self._joints)).difference(*sets)
+        return sorted([*sets, *([v] for v in alone)])
 
     def proof(self, question: Question) -> Proof:
         return _PROOF
+
+
+def _by_label(labels: Sequence[Any]) -> list[list[int]]:
+    """Return the places of each label, in the order in which the labels first occur."""
+    places: dict[Any, list[int]] = {}
+    for place, label in enumerate(labels):
+        places.setdefault(label, []).append(place)
+    return list(places.values())

@@ -31,7 +31,7 @@ class RigidBlocks:
             block = became[block]
         return block
 
-    def alike(self, g: int, h: int) -> bool:
+    def is_same(self, g: int, h: int) -> bool:
         """Are both the same block, and none of them `NONE`?"""
         return g >= 0 and h >= 0 and (g == h or self.now(g) == self.now(h))
 
@@ -45,7 +45,7 @@ class RigidBlocks:
         """The block that holds two joints."""
         of, several = self.of, self.several
         if v not in several and w not in several:
-            return self.now(of[v]) if self.alike(of[v], of[w]) else NONE
+            return self.now(of[v]) if self.is_same(of[v], of[w]) else NONE
         return next(iter(self.holding(v) & self.holding(w)), NONE)
 
     def poles(self, block: int) -> tuple[int, int]:

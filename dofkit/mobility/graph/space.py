@@ -1,175 +1,188 @@
 """Links in space: no count decides which are independent (the double banana passes Maxwell's), so ranks do.
 
-Joints of three links or fewer are taken off, the rest is cut at single joints and its rigidity matrix eliminated at
-random positions modulo a random prime. What is independent there is independent in general position: a minor that is
-not 0 at a point is not 0. What depends there is proved by counting where that is possible, else tried again.
+The rigidity matrix has a row (p_a - p_b) . (v_a - v_b) for every link a-b. It is eliminated at random positions modulo
+a random prime. What is independent there is independent in general position: a minor that is not 0 at a point is not
+0. What depends there is proved by a count where that is possible; else it is probable [SchwartzZippel].
+
+Rigid clusters are the maximal sets of joints all of whose distances stay the same in a random motion. In general
+position a joint that is fixed to three joints of a cluster belongs to it, so they are the maximal cliques of the pairs
+that are fixed, and two of them share at most two joints.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+import random
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
-from typing import Protocol
+from itertools import combinations
+from typing import Any, NamedTuple
 
-from dofkit.mobility.graph.answer import Proof, Question
-from dofkit.mobility.graph.core import Core, core_of
-from dofkit.mobility.graph.decompose import Ends, PeeledGraph, decompose
-from dofkit.mobility.graph.grouping import components
-from dofkit.mobility.graph.hinged_bodies import bodies_of_core, hinged_bound, rigid_by_count
-from dofkit.mobility.graph.rigid_bodies import RigidBodies
-from dofkit.mobility.graph.sparse_core import Large, too_large
+from dofkit.base.components import components
+from dofkit.base.libraries import np, nx
+from dofkit.exact.matrices.sparse import SparseRow, echelon, rank_of_rows, vector_in_kernel
+from dofkit.exact.points.field import prime_for
+from dofkit.mobility.graph.links import Ends, LinkageError, Proof, Question
 
-#: Positions that are tried for dependences that no count proves, and before a run of bad luck is given up.
-TRIES = 5
+#: Joints of a part that is not rigid, beyond which its clusters are not separated.
+MAX_JOINTS = 2000
 _INDEPENDENT = "links are independent in general position where they are at one point modulo a prime"
-_PEELED = "every joint can be taken off with at most three links, so all links are independent"
-
-
-class CorePart(Protocol):
-    """A core: the links that depend on those before them, in order, and what is told of them."""
-
-    @property
-    def dependent(self) -> Sequence[int]:
-        """The links that those before them make superfluous."""
-
-    @property
-    def circuits(self) -> Mapping[int, list[int]]:
-        """Those with the links that each depends on."""
-
-    @property
-    def chance(self) -> float:
-        """A bound on the chance that one of the dependences is none; 0 where all are proved."""
-
-    def bodies(self) -> tuple[list[list[int]], bool]:
-        """Maximal sets of joints that keep all their distances, and whether each is proved to."""
 
 
 class SpaceGraph:
-    """A graph of links in three dimensions; see `dofkit.mobility.graph.answer.GraphAnswer`."""
+    """A graph of links in three dimensions; see `dofkit.mobility.graph.links.GraphAnswer`."""
 
-    def __init__(self, joints: int, ends: Sequence[int]) -> None:
-        self._joints = joints
-        plain = list(map(int, ends))
-        self._ends = list(zip(plain[::2], plain[1::2], strict=True))
+    def __init__(self, joints: int, ends: Any) -> None:
+        self._joints, self._ends = joints, list(zip(ends[::2].tolist(), ends[1::2].tolist(), strict=True))
         first: dict[frozenset[int], int] = {}
-        self._original = {}
+        self._original: dict[int, int] = {}
         for i, pair in enumerate(self._ends):
             original = first.setdefault(frozenset(pair), i)
             if original != i:
                 self._original[i] = original
-        self._piece = decompose(list(first.values()), self._ends)
-        self._cores = {tuple(links): _part(links, self._ends) for links in self._piece.cores()}
+        self._links = list(first.values())
+        self._pairs = [self._ends[i] for i in self._links]
 
-    @cached_property
-    def _circuits(self) -> dict[int, list[int]]:
-        found = {i: circuit for part in self._cores.values() for i, circuit in part.circuits.items()}
-        for i, original in self._original.items():
-            found[i] = found.get(original, [original])
-        return found
+        self._matrix = _matrix(self._pairs)
 
     @cached_property
     def redundant(self) -> list[int]:
-        return sorted([*self._original, *(i for part in self._cores.values() for i in part.dependent)])
+        independent = {self._links[k] for k in echelon(self._matrix.rows, self._matrix.p).independent}
+        return [i for i in range(len(self._ends)) if i not in independent]
+
+    @cached_property
+    def _circuits(self) -> dict[int, list[int]]:
+        """For every redundant link the earlier ones that it depends on."""
+        if len(self.redundant) == len(self._original):
+            supports: dict[int, tuple[int, ...]] = {}
+        else:
+            supports = echelon(self._matrix.rows, self._matrix.p, supports=True).supports
+        circuits = {self._links[k]: [self._links[j] for j in support] for k, support in supports.items()}
+        return circuits | {i: circuits.get(original, [original]) for i, original in self._original.items()}
 
     def circuits(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
         return ((i, self._circuits[i]) for i in links)
 
     def groups(self) -> list[list[int]]:
-        return components([i, *circuit] for i, circuit in self._circuits.items())
+        circuits = [[*circuit, i] for i, circuit in self._circuits.items()]
+        return [sorted({i for k in part for i in circuits[k]}) for part in components(circuits)]
 
     @cached_property
-    def _bodies(self) -> tuple[RigidBodies, bool]:
-        """Rigid clusters, and whether each of them is rigid by the count of its own independent links."""
-        bodies = RigidBodies()
-        return bodies, self._built(self._piece, bodies)
-
-    def _built(self, piece: PeeledGraph, bodies: RigidBodies) -> bool:
-        proved = sum(not self._built(part, bodies) for part in piece.parts) == 0
-        if piece.core:
-            found, sure = self._cores[tuple(piece.core)].bodies()
-            for body in found:
-                bodies.add(body)
-            proved &= sure
-        for v, links in reversed(piece.peeled):
-            bodies.attach(v, [sum(self._ends[i]) - v for i in links])
-        return proved
+    def _clusters(self) -> list[list[int]]:
+        return rigid_sets(self._pairs)
 
     def clusters(self) -> list[list[int]]:
-        return self._bodies[0].sets(self._joints)
+        alone = set(range(self._joints)).difference(*self._clusters)
+        return sorted([*self._clusters, *([v] for v in alone)])
 
     def proof(self, question: Question) -> Proof:
-        if not self._cores:
-            return Proof("proved", _PEELED)
-        doubtful = [part.chance for part in self._cores.values() if part.chance]
-        if doubtful:
-            return Proof("probable", f"{_INDEPENDENT}; some dependences are probable, with a chance of error below "
-                                     f"{sum(doubtful):.1e}")  # fmt: skip
-        if question == "clusters" and not self._bodies[1]:
-            return Proof(
-                "probable",
-                "some clusters keep their distances in random infinitesimal motions, but not because of their "
-                "own links alone",
-            )
+        circuits = {i: c for i, c in self._circuits.items() if i not in self._original}
+        uncounted = [i for i, c in circuits.items() if not _is_counted([self._ends[j] for j in (i, *c)])]
+        if uncounted:
+            chance = chance_of_error(len(uncounted), len(self._ends))
+            why = f"{_INDEPENDENT}; some dependences are probable, with a chance of error below {chance:.1e}"
+            return Proof("probable", why)
+        if question == "clusters" and not _are_rigid_by_count(self._clusters, self._pairs):
+            why = "some clusters keep their distances in a random motion, but not because of their own links alone"
+            return Proof("probable", why)
+        if not circuits:
+            return Proof("proved", _INDEPENDENT)
         return Proof("proved", f"{_INDEPENDENT}, and more than 3n - 6 links on n joints, or hinged bodies, depend")
 
 
-@dataclass(frozen=True)
-class Small:
-    """A core whose matrix was eliminated; see `CorePart`."""
+class _Matrix(NamedTuple):
+    """The ``rows`` of a rigidity matrix modulo ``p``, with the joints at random positions ``at``."""
 
-    core: Core
-    chance: float
-    ends: Ends
-
-    @property
-    def dependent(self) -> Sequence[int]:
-        return list(self.core.circuits)
-
-    @property
-    def circuits(self) -> Mapping[int, list[int]]:
-        return self.core.circuits
-
-    def bodies(self) -> tuple[list[list[int]], bool]:
-        found = bodies_of_core(self.core)
-        return found, len(found) == 1 or rigid_by_count(found, [self.ends[i] for i in self.core.links])
+    rows: list[SparseRow]
+    p: int
+    at: dict[int, list[int]]
 
 
-def _part(links: Sequence[int], ends: Ends) -> CorePart:
-    if too_large(links, ends):
-        return Large(links, ends)
-    return Small(*_sure(links, ends), ends)
+def _matrix(pairs: Iterable[Ends]) -> _Matrix:
+    """Return the rigidity matrix of links."""
+    rng, p, rows = random.Random("dofkit links in space"), prime_for(1, (), 0), list[SparseRow]()
+    at: dict[int, list[int]] = {}
+    for a, b in pairs:
+        for v in (a, b):
+            if v not in at:
+                at[v] = [rng.randrange(p) for _ in range(3)]
+        arm = [(x - y) % p for x, y in zip(at[a], at[b], strict=True)]
+        rows.append({3 * v + k: sign * x % p for v, sign in ((a, 1), (b, -1)) for k, x in enumerate(arm)})
+    return _Matrix(rows, p, at)
 
 
-def _sure(links: Sequence[int], ends: Ends) -> tuple[Core, float]:
-    """The core, and a bound on the chance that one of its dependences is none (0: all are proved)."""
-    for attempt in range(TRIES):
-        core = core_of(links, ends, f"core {attempt}")
-        chances = [_doubt([*circuit, i], ends) for i, circuit in core.circuits.items()]
-        if None not in chances:
-            return core, sum(c for c in chances if c is not None)
-    raise ArithmeticError("repeated random positions were not generic")
+def chance_of_error(dependent: int, links: int) -> float:
+    """Return a bound of the chance that one of the dependences is none: each is a minor that is 0 [SchwartzZippel]."""
+    return dependent * links / 2**59
 
 
-def _doubt(circuit: Sequence[int], ends: Ends) -> float | None:
-    """A bound on the chance that links that depended at one random point are independent; None where they are."""
-    n = len({v for i in circuit for v in ends[i]})
-    if len(circuit) > 3 * n - 6:  # [Maxwell1864]
-        return 0.0
-    core = core_of(sorted(circuit), ends, "circuit 0")
-    if not core.circuits:
-        return None
-    if core.rank >= hinged_bound(bodies_of_core(core)):
-        return 0.0
-    if any(not core_of(sorted(circuit), ends, f"circuit {k}").circuits for k in range(1, TRIES - 1)):
-        return None
-    return chance(len(circuit)) ** TRIES
+def _rank(pairs: Sequence[Ends]) -> int:
+    """Return the rank of links of different pairs at a point modulo a prime: in general position it is no less."""
+    matrix = _matrix(pairs)
+    return rank_of_rows(matrix.rows, matrix.p)
 
 
-def chance(rank: int) -> float:
-    """Bound on the chance that independent links, ``rank`` of them, depend at random positions modulo a random prime.
+def _full_rank(joints: int) -> int:
+    """Return the rank of all links between some joints."""
+    return 3 * joints - 6 if joints > 2 else joints - 1
 
-    A minor is a polynomial of that degree [SchwartzZippel], with coefficients below 12^rank, which few of the
-    268 000 primes of 23 bits divide.
+
+def rigid_sets(pairs: Sequence[Ends]) -> list[list[int]]:
+    """Return the maximal sets of joints that keep all their distances in a random motion, for links of distinct pairs.
+
+    Parts that share a single joint turn about it, so each part is looked at by itself.
     """
-    return rank / 2**22 + rank * 3.6 / 22 / 268_000
+    sets: list[list[int]] = []
+    for block in nx.biconnected_component_edges(nx.Graph(list(pairs))):
+        part = sorted({(min(pair), max(pair)) for pair in block})
+        joints = sorted({v for pair in part for v in pair})
+        if len(part) >= _full_rank(len(joints)) and _rank(part) == _full_rank(len(joints)):
+            sets.append(joints)
+        elif len(joints) > MAX_JOINTS:
+            raise LinkageError(f"rigid clusters of {len(part)} links in space are too many to separate")
+        else:
+            sets += map(sorted, nx.find_cliques(nx.Graph(_fixed_pairs(part, joints))))
+    return sorted(sets)
+
+
+def _fixed_pairs(pairs: Sequence[Ends], joints: Sequence[int]) -> list[Ends]:
+    """Return the pairs of joints whose distance stays the same in a random motion: (p_i - p_j) . (v_i - v_j) = 0."""
+    rows, p, at = _matrix(pairs)
+    motion = vector_in_kernel(rows, p, random.Random("dofkit motion in space"))
+    x = np.array([at[v] for v in joints], dtype=object)
+    v = np.array([[motion[3 * v + k] for k in range(3)] for v in joints], dtype=object)
+    own, cross = (x * v).sum(axis=1), x @ v.T
+    fixed = (own[:, None] + own[None, :] - cross - cross.T) % p == 0
+    return [(joints[a], joints[b]) for a, b in np.argwhere(np.triu(fixed, 1)).tolist()]
+
+
+def _is_counted(circuit: Sequence[Ends]) -> bool:
+    """Return whether a count proves that links depend: Maxwell's [Maxwell1864], or that of hinged bodies."""
+    joints = {v for pair in circuit for v in pair}
+    return len(circuit) > 3 * len(joints) - 6 or len(circuit) > hinged_bound(rigid_sets(circuit))
+
+
+def hinged_bound(bodies: Sequence[Sequence[int]]) -> int:
+    """Return a bound of the rank of links in general position, each of them in one of the bodies.
+
+    r <= r(H) + sum of (3|X| - 6 - r(H in X)) over bodies X, for the pairs H of joints that two of them share: by
+    submodularity [Whitney1935], once all pairs of every body are linked. The double banana: 1 + 8 + 8 = 17.
+    """
+    shared = (x & y for x, y in combinations(map(frozenset, bodies), 2))
+    hinges = sorted({(min(pair), max(pair)) for pair in shared if len(pair) == 2})
+    bound = len(hinges)
+    for body in map(frozenset, bodies):
+        bound += _full_rank(len(body)) - _rank([pair for pair in hinges if body.issuperset(pair)])
+    return bound
+
+
+def _are_rigid_by_count(bodies: Iterable[Sequence[int]], links: Iterable[Ends]) -> bool:
+    """Return whether every body is rigid by its own links, and by pairs that it shares with bodies that are."""
+    sure = nx.Graph(list(links))
+    undecided = [frozenset(body) for body in bodies]
+    while undecided:
+        rigid = [body for body in undecided if _rank(list(sure.subgraph(body).edges)) == _full_rank(len(body))]
+        if not rigid:
+            return False
+        undecided = [body for body in undecided if body not in rigid]
+        sure.add_edges_from(tuple(body & other) for body in rigid for other in undecided if len(body & other) == 2)
+    return True

@@ -10,8 +10,7 @@ from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
 from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.passes import Examined
 from dofkit.exact.errors import NoValueError, raising_no_value
-from dofkit.exact.matrices.modular import without_time
-from dofkit.exact.matrices.sparse import echelon
+from dofkit.exact.matrices.sparse import echelon, without_time
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.text import Names, UnknownNameError, parse_relations

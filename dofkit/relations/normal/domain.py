@@ -14,7 +14,7 @@ from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon, lowest_terms
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import is_proved_zero
+from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.domains import DomainSense, of_function, of_power

@@ -18,7 +18,7 @@ from flint import fmpq
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, divided, lowest_terms
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import is_proved_zero
+from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr

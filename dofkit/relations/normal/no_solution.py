@@ -16,15 +16,13 @@ from fractions import Fraction
 from itertools import combinations, islice
 from typing import Any
 
-from flint import ctx, fmpq_mat, fmpz_poly
+from flint import arb, ctx, fmpq_mat, fmpz_poly
 
 from dofkit.base.deadline import check
-from dofkit.exact.boxes.box_program import Box, BoxProgram
-from dofkit.exact.boxes.functions import constant
-from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval, middle
+from dofkit.exact.boxes import NON_NEGATIVE, UNIT, WHOLE, Box, BoxProgram, EmptyError, Interval, bounds, middle
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.instructions import Var
+from dofkit.exact.ring.program import Var
 from dofkit.exact.ring.radicals import known_signs
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
@@ -46,7 +44,6 @@ MAX_PAIRS = 60
 #: Projective charts are tried for up to this many unbounded unknowns.
 MAX_CHARTS = 6
 ZERO: Interval = (0.0, 0.0)
-UNIT: Interval = (-1.0, 1.0)
 
 #: An expression and where its value must lie.
 Wanted = tuple[Expr, Interval]
@@ -208,7 +205,7 @@ def _range(var: Var, ring: Ring) -> Interval:
     if var.kind == "atan2":
         return -3.2, 3.2
     if var.kind == "pi":
-        return constant("pi")
+        return bounds(arb.pi())
     if var.kind == "exp" or (var.kind == "root" and var.degree % 2 == 0):
         return NON_NEGATIVE
     return NON_NEGATIVE if var.kind == "symbol" and var.key in ring.positive else WHOLE

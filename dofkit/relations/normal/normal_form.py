@@ -12,12 +12,11 @@ from collections.abc import Sequence
 from itertools import product as cartesian
 
 from dofkit.base.errors import TextError
-from dofkit.exact.zero.identity import is_proved_zero
+from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
-from dofkit.expressions.combinations import Combined, combined
 from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, cleared, in_velocities
-from dofkit.expressions.terms import without_cancelled
+from dofkit.expressions.terms import Combined, combined, without_cancelled
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.exact_zeros import SOLE_NOTE, sole_zero

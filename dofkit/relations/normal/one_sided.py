@@ -8,13 +8,12 @@ from fractions import Fraction
 from functools import lru_cache
 
 from dofkit.base.deadline import OutOfTimeError, check
-from dofkit.exact.boxes.box_program import BoxProgram
-from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError
+from dofkit.exact.boxes import NON_NEGATIVE, WHOLE, BoxProgram, EmptyError
 from dofkit.exact.errors import NoValueError, PoleError
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import is_proved_zero
+from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
@@ -91,7 +90,7 @@ def _never_by_bounds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
     try:
         program = BoxProgram([(e, WHOLE)])
         box = [NON_NEGATIVE if v in positive else WHOLE for v in program.variables]
-        top = program.forward(box)[program.roots[0][0]][1]
+        top = program.forward(box)[e][1]
     except (EmptyError, NoValueError):
         return False
     return top <= 0 if strict else top < 0

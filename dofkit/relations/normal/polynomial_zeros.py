@@ -12,8 +12,8 @@ from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.zero.identity import zero_and_verdict
+from dofkit.exact.triangular import TriangularSolver
+from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.extremes import EXTREME_NOTE, apart

@@ -11,10 +11,9 @@ from itertools import product as cartesian
 from typing import Any
 
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.radicals import square_root
+from dofkit.exact.ring.canonical import Canon, square_root
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import is_proved_zero
+from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
@@ -39,11 +38,10 @@ def with_absolute_values(e: Expr, positive: frozenset[Expr]) -> Expr:
     """``e`` with roots of squares that are written out as absolute values: sqrt(x^2 + 2 x y + y^2) is abs(x + y)."""
     if "pow" not in e.functions or not any(_root_of_sum(node) for node in ex.nodes(e)):
         return e
-    ring = Ring((), positive)
 
     def folded(node: Expr) -> Expr:
         parts = ex.children(node)
-        base = square_root(ring, node.args[0]) if _root_of_sum(node) else None
+        base = square_root(node.args[0], positive) if _root_of_sum(node) else None
         if base is not None:
             return ex.power(ex.fn("abs", base), ex.num(2 * node.args[1].args[0]))
         return ex.rebuild(node, tuple(map(folded, parts))) if parts else node

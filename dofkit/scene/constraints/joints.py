@@ -15,8 +15,8 @@ from typing import ClassVar, NamedTuple
 from pydantic import Field
 
 from dofkit.exact.matrices import rows
+from dofkit.expressions.renaming import Unwritten
 from dofkit.expressions.tree import HALF, MINUS_ONE, ONE, ZERO, Expr, fn, mul
-from dofkit.expressions.unwritten import Unwritten
 from dofkit.expressions.vectors import Vec, cross, difference, dot, is_zero, length, minus, scaled, unit
 from dofkit.scene.constraints.base import ConstraintBase, component_relations
 from dofkit.scene.constraints.places import along

@@ -17,7 +17,7 @@ from flint import Ordering, fmpq_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.instructions import ADD, MUL, NUM
+from dofkit.exact.ring.program import ADD, MUL, NUM
 from dofkit.exact.ring.ring import Ring
 
 #: Relations, unknowns, degree and terms of what is looked at.

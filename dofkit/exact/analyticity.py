@@ -10,8 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import partial
 
-from dofkit.exact.boxes.box_program import BoxProgram
-from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval
+from dofkit.exact.boxes import NON_NEGATIVE, WHOLE, BoxProgram, EmptyError, Interval
 from dofkit.exact.errors import NoValueError
 from dofkit.expressions.tree import Expr
 
@@ -111,6 +110,6 @@ def _bounds(e: Expr, positive: frozenset[Expr]) -> Interval:
     try:
         program = BoxProgram([(e, WHOLE)])
         box = [NON_NEGATIVE if v in positive else WHOLE for v in program.variables]
-        return program.forward(box)[program.roots[0][0]]
+        return program.forward(box)[e]
     except (EmptyError, NoValueError):
         return WHOLE

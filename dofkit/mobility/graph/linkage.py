@@ -1,20 +1,30 @@
-"""What is told of a graph of links."""
+"""A graph of rigid links in general position: what is redundant, what is rigid, and what moves.
+
+Plain graphs in, no scene needed. `linkage` answers everything about a graph, `redundant_links` one question.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from dofkit.base.display import Displayed
 from dofkit.base.wording import many
-from dofkit.mobility.graph.answer import GraphAnswer, Proof, Question
-from dofkit.mobility.graph.links import Graph, Joint, Link, LinkageError
+from dofkit.mobility.graph.line import LineGraph
+from dofkit.mobility.graph.links import GraphAnswer, Joint, Link, LinkageError, Proof, Question, read
+from dofkit.mobility.graph.plane import PlaneGraph
+from dofkit.mobility.graph.space import SpaceGraph
 
 if TYPE_CHECKING:
+    import networkx as nx
+
     from dofkit.base.verdicts import Verdict
+
+#: The class that answers in each dimension.
+_GRAPHS: dict[int, type[GraphAnswer]] = {1: LineGraph, 2: PlaneGraph, 3: SpaceGraph}
 
 
 class Group(NamedTuple):
@@ -47,66 +57,57 @@ class Linkage(Displayed):
     """
 
     dimension: int
-    _graph: Graph = field(repr=False)
-    _solved: GraphAnswer = field(repr=False)
-
-    @cached_property
-    def joints(self) -> tuple[Joint, ...]:
-        """As they first occur."""
-        return self._graph.all_joints()
-
-    @cached_property
-    def links(self) -> tuple[Link, ...]:
-        """As given."""
-        return self._graph.all_links()
+    joints: tuple[Joint, ...]
+    links: tuple[Link, ...]
+    _answer: GraphAnswer = field(repr=False)
 
     @property
     def rank(self) -> int:
-        """Independent links."""
-        return len(self._graph.links) - len(self._solved.redundant)
+        """The number of independent links."""
+        return len(self.links) - len(self._answer.redundant)
 
     @property
     def freedom(self) -> int:
-        """n d - rank: independent infinitesimal motions, which in general position are finite ones."""
-        return len(self._graph.joints) * self.dimension - self.rank
+        """The number of independent infinitesimal motions, n d - rank, which in general position are finite ones."""
+        return len(self.joints) * self.dimension - self.rank
 
     @property
     def inner_freedom(self) -> int:
-        """The freedom without the motions of the whole as one rigid body, d(d+1)/2 where there are joints enough."""
-        n, d = len(self._graph.joints), self.dimension
+        """The freedom without the rigid motions of all joints together, d(d+1)/2 if there are enough joints."""
+        n, d = len(self.joints), self.dimension
         return self.freedom - (n * d - n * (n - 1) // 2 if n < d else d * (d + 1) // 2)
 
     @property
     def rigid(self) -> bool:
-        """Can it move as one body only?"""
+        """Whether the joints can only move as one rigid body."""
         return self.inner_freedom == 0
 
     @property
     def maxwell(self) -> int:
         """Maxwell's count n d - links: the freedom if no link were redundant [Maxwell1864]."""
-        return len(self._graph.joints) * self.dimension - len(self._graph.links)
+        return len(self.joints) * self.dimension - len(self.links)
 
     @cached_property
     def redundant_places(self) -> tuple[int, ...]:
-        """Where in ``links`` the redundant ones stand, from 0."""
-        return tuple(self._solved.redundant)
+        """The places of the redundant links in ``links``, from 0."""
+        return tuple(self._answer.redundant)
 
     @cached_property
     def redundant(self) -> list[Link]:
-        """Links that those given before them make superfluous, in the order given."""
-        return self._graph.links_at(self.redundant_places)
+        """The links that are implied by those given before them, in the order given."""
+        return [self.links[i] for i in self.redundant_places]
 
     @cached_property
     def circuit_places(self) -> Mapping[int, list[int]]:
-        """For every redundant link, by place, the places of its `circuit`."""
-        found = dict(self._solved.circuits(self.redundant_places))
-        return {i: found[i] for i in self.redundant_places}
+        """The places of the `circuit` of every redundant link, by the link's place."""
+        circuits = dict(self._answer.circuits(self.redundant_places))
+        return {i: circuits[i] for i in self.redundant_places}
 
     def circuit(self, link: Link) -> list[Link]:
-        """The links given before a redundant one that fix its length; none of them can be left out.
+        """Return the earlier links that fix the length of a redundant one; none of them can be left out.
 
         They are independent; with the link itself they are a minimal dependent set. Of a pair given more than once the
-        last is meant. Raises LinkageError for what is no redundant link.
+        last is meant. Raises LinkageError if the link is not redundant.
 
         >>> from dofkit import linkage
         >>> linkage([("A", "B"), ("B", "C"), ("B", "A")]).circuit(("A", "B"))
@@ -115,29 +116,29 @@ class Linkage(Displayed):
         ends = {*link}
         for i in reversed(self.redundant_places):
             if ends == {*self.links[i]}:
-                ((_, found),) = self._solved.circuits([i])
-                return [self.links[j] for j in found]
+                ((_, places),) = self._answer.circuits([i])
+                return [self.links[j] for j in places]
         raise LinkageError(f"{link!r} is not a redundant link")
 
     @cached_property
     def redundancies(self) -> list[Group]:
         """The groups of dependent links: the connected components of the matroid that are more than one link."""
         redundant = set(self.redundant_places)
-        groups = sorted(self._solved.groups())
+        groups = sorted(self._answer.groups())
         return [Group(len(redundant.intersection(g)), [self.links[i] for i in g]) for g in groups]
 
     @cached_property
     def _clusters(self) -> list[list[int]]:
-        return self._solved.clusters()
+        return self._answer.clusters()
 
     @cached_property
     def clusters(self) -> list[list[Joint]]:
-        """Rigid clusters: maximal sets of joints that keep all their distances. A joint may be in several."""
+        """The maximal sets of joints that keep all their distances. A joint may be in several."""
         return [[self.joints[v] for v in members] for members in self._clusters]
 
     @cached_property
     def hinges(self) -> list[Hinge]:
-        """What clusters turn about: the joints that two or more of them share.
+        """The joints that two or more clusters share, about which these turn.
 
         The double banana has one, of two joints that need no link between them.
         """
@@ -160,26 +161,26 @@ class Linkage(Displayed):
 
     @cached_property
     def _clusters_of(self) -> Mapping[Joint, set[int]]:
-        found: dict[Joint, set[int]] = {v: set() for v in self.joints}
+        numbers: dict[Joint, set[int]] = {v: set() for v in self.joints}
         for k, members in enumerate(self.clusters):
             for v in members:
-                found[v].add(k)
-        return found
+                numbers[v].add(k)
+        return numbers
 
     def moves(self, a: Joint, b: Joint) -> bool:
-        """Does the distance of two joints change in some motion? Raises LinkageError for what is no joint."""
+        """Return whether the distance of two joints changes in some motion. Raises LinkageError if one is no joint."""
         for joint in (a, b):
             if joint not in self._clusters_of:
                 raise LinkageError(f"{joint!r} is not a joint")
         return a != b and not self._clusters_of[a] & self._clusters_of[b]
 
     def proof(self, question: Question) -> Proof:
-        """How sure the answer to a question is, and why."""
-        return self._solved.proof(question)
+        """Return how certain the answer to a question is, and why."""
+        return self._answer.proof(question)
 
     @property
     def verdict(self) -> Verdict:
-        """How sure rank, freedom and redundant links are."""
+        """How certain the rank, the freedom and the redundant links are."""
         return self.proof("redundant").verdict
 
     def __str__(self) -> str:
@@ -190,3 +191,69 @@ class Linkage(Displayed):
             f"{many(n, 'joint')} in {many(d, 'dimension')}, {k} link{'s' * (k != 1)}, {redundant}: "
             f"f = N d - rank = {n * d} - {self.rank} = {self.freedom}, {self.inner_freedom}{body} ({self.verdict})"
         )
+
+
+def linkage(links: Iterable[Link] | nx.Graph[Any], dimension: int = 2, joints: Iterable[Joint] = ()) -> Linkage:
+    """Return how joints in general position can move if links keep the distances of some pairs.
+
+    Parameters
+    ----------
+    links
+        Pairs of hashable joints, or a networkx graph. A pair may occur more than once.
+    dimension
+        1, 2 or 3.
+    joints
+        Further joints, which need no link.
+
+    Returns
+    -------
+    Linkage
+        Rank, freedom, redundant links and rigid clusters. Of a dependent set the last link is the redundant one.
+
+    Raises
+    ------
+    LinkageError
+        If ``links`` are no links, or the dimension is not 1, 2 or 3.
+
+    References
+    ----------
+    G. Laman, On graphs and rigidity of plane skeletal structures, 1970.
+
+    Examples
+    --------
+    >>> braced = linkage(zip("ABCDAB", "BCDACD"))
+    >>> braced.rank, braced.freedom, braced.redundant, braced.clusters
+    (5, 3, [('B', 'D')], [['A', 'B', 'C', 'D']])
+    """
+    if not isinstance(dimension, int) or dimension not in (1, 2, 3):
+        raise LinkageError(f"links lie in 1, 2 or 3 dimensions, not {dimension!r}")
+    graph = read(links, joints)
+    return Linkage(dimension, graph.joints, tuple(graph.links), _GRAPHS[dimension](len(graph.joints), graph.ends))
+
+
+def redundant_links(links: Iterable[Link] | nx.Graph[Any], dimension: int) -> list[Link]:
+    """Return the links that are redundant in general position, in the order given.
+
+    A link is redundant if and only if the links before it already fix its length.
+
+    Parameters
+    ----------
+    links, dimension
+        As for `linkage`.
+
+    Returns
+    -------
+    list of links
+        As they were given.
+
+    Raises
+    ------
+    LinkageError
+        As for `linkage`.
+
+    Examples
+    --------
+    >>> redundant_links([("A", "B"), ("B", "C"), ("C", "D"), ("D", "A"), ("A", "C"), ("B", "D")], 2)
+    [('B', 'D')]
+    """
+    return linkage(links, dimension).redundant

@@ -12,8 +12,7 @@ from dofkit.exact.errors import NoPointError, NoValueError
 from dofkit.exact.points.characters import MOST_REDUCED
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.ring.canonical import Canon, divided
-from dofkit.exact.ring.instructions import VAR, Var, reachable
-from dofkit.exact.ring.program import value_of
+from dofkit.exact.ring.program import VAR, Var, reachable, value_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff

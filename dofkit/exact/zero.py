@@ -1,20 +1,31 @@
-"""Is an expression identically zero?"""
+"""Is an expression identically zero, and which of the two one-sided engines may be asked?"""
 
 from __future__ import annotations
+
+from typing import Literal
 
 from flint import ctx
 
 from dofkit.base.verdicts import Verdict
-from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.errors import NoValueError
+from dofkit.exact.independence import independent_generators
 from dofkit.exact.points.balls import BallPoint, fixed_bits
 from dofkit.exact.points.field import field_point
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.independence import independent_generators
 from dofkit.expressions.tree import Expr
+
+#: ``field``: exact arithmetic at random points modulo random primes, where zero can be trusted. ``balls``: interval
+#: arithmetic at real points, where non-zero is a proof.
+Engine = Literal["field", "balls"]
+Engines = frozenset[Engine]
+
+FIELD: Engines = frozenset(("field",))
+BALLS: Engines = frozenset(("balls",))
+BOTH: Engines = FIELD | BALLS
+
 
 #: Bits of the balls that must hold 0 before anything is taken for 0.
 PRECISIONS = (256, 1024)
