@@ -20,7 +20,7 @@ from dofkit.base.errors import Fault, SceneError
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.text import Names
 from dofkit.expressions.tree import MINUS_ONE, ZERO, Expr, mul, parameter, power
-from dofkit.expressions.unwritten import Unwritten
+from dofkit.expressions.renaming import Unwritten
 from dofkit.expressions.vectors import Vec
 from dofkit.report import Report
 from dofkit.scene.constraints import ConstraintBase
@@ -99,9 +99,11 @@ def check(scene: Scene) -> tuple[Fault, ...]:
 def survey_of(scene: Scene) -> Survey:
     """Return the survey of a scene, which is kept while the scene's mappings hold what they held."""
     mappings = [dict(part) for part in (scene.parameters, scene.functions, scene.configuration, scene.expect)]
-    owner, written, known = scene._kept.about or (None, None, None)
-    if isinstance(known, Survey) and owner() is scene and written == mappings:
-        return known
+    known: Survey
+    if scene._kept.about is not None:
+        owner, written, known = scene._kept.about
+        if owner() is scene and written == mappings:
+            return known
     found = survey(scene)
     scene._kept = Companion((weakref.ref(scene), mappings, found))
     return found

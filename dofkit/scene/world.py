@@ -124,8 +124,8 @@ class World(Texts):
 
     def _direction(self, values: Vector | None, *where: str | int) -> Direction:
         if values is None:
-            n = (ONE, *(self.fresh() for _ in range(self.dimension - 1)))
-            return Direction(n, across(n, 0))
+            generic = (ONE, *(self.fresh() for _ in range(self.dimension - 1)))
+            return Direction(generic, across(generic, 0))
         n = self.vector(values, self.dimension, *where)
         direction = _direction_along(n)
         if direction is None and n is not None:
