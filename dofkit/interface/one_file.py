@@ -61,7 +61,7 @@ def answer_lines(given: Given, answer: Callable[[Scene, Given], Iterator[Json]])
         try:
             yield from answer(scene, given)
         except SceneError as error:
-            raise read.with_places(error) from None
+            raise read.error(error.faults) from None
     except MemoryError:
         raise
     except Exception as error:

@@ -8,7 +8,6 @@ from fractions import Fraction
 from itertools import combinations, product
 from math import dist
 from operator import mul
-from typing import TYPE_CHECKING
 
 from dofkit.base.errors import Fault
 from dofkit.expressions.enclosures import approximate, differs_from_zero
@@ -17,12 +16,8 @@ from dofkit.expressions.vectors import Vec
 from dofkit.scene.frames import Chart, Frame, Placed
 from dofkit.scene.ledger import Texts
 from dofkit.scene.names import Vocabulary
-from dofkit.scene.parts import Particle
+from dofkit.scene.parts import Declarations, Particle
 from dofkit.system import GROUND
-
-if TYPE_CHECKING:
-    from dofkit.scene.scene import Scene
-
 
 #: Up to this many points the distance of every pair is measured.
 EVERY_PAIR = 1000
@@ -47,7 +42,7 @@ class Drawing:
     drawn: frozenset[str]
 
 
-def drawing_of(scene: Scene, vocabulary: Vocabulary, mentioned: frozenset[str], faults: list[Fault]) -> Drawing:
+def drawing_of(scene: Declarations, vocabulary: Vocabulary, mentioned: frozenset[str], faults: list[Fault]) -> Drawing:
     """Return the drawing of a scene; a spatial body of whose angles one is ``mentioned`` keeps its Euler angles.
 
     The faults of the configuration and of the particles' positions are added to ``faults``.

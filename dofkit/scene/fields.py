@@ -32,7 +32,7 @@ from pydantic import (
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from dofkit.base.errors import Fault
-from dofkit.base.wording import nearest
+from dofkit.base.wording import many, nearest, verb
 
 #: A number is refused beyond this power of ten, up or down.
 LARGEST_EXPONENT = 1000
@@ -55,7 +55,9 @@ _KEYS_MEANT: dict[str, tuple[str, ...]] = {
     "members": ("between", "points", "particles", "point", "particle", "nodes"),
     "along": ("over", "through", "via", "points", "members", "particles"),
     "point": ("member", "members", "particle", "particles", "points"),
-    "body": ("bodies",),
+    "body": ("bodies", "wheel", "disc", "sphere", "link"),
+    "on": ("body", "link"),
+    "carrier": ("arm", "carried_by"),
     "surface": ("text",),
     "text": ("expression", "formula"),
     "at": ("position", "place", "pos", "location", "point"),
@@ -279,9 +281,10 @@ def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tup
             detail["input"], known, "choices"
         )
     if kind in ("too_short", "too_long"):
-        bound = context.get("min_length", context.get("max_length"))
+        bound = int(context.get("min_length", context.get("max_length", 0)))
         word = "at least" if kind == "too_short" else "at most"
-        return f"{word} {bound} entries are needed, not {context['actual_length']}", None
+        needed = f"{word} {many(bound, 'entry')} {verb(bound)} needed"
+        return f"{needed}, not {context['actual_length']}", None
     return str(detail["msg"]).removeprefix("Value error, "), None
 
 

@@ -18,9 +18,9 @@ from dofkit.base.deadline import gc_rarely
 from dofkit.base.display import Companion
 from dofkit.base.errors import Fault, SceneError
 from dofkit.expressions.enclosures import approximate
+from dofkit.expressions.renaming import Unwritten
 from dofkit.expressions.text import Names
 from dofkit.expressions.tree import MINUS_ONE, ZERO, Expr, mul, parameter, power
-from dofkit.expressions.renaming import Unwritten
 from dofkit.expressions.vectors import Vec
 from dofkit.report import Report
 from dofkit.scene.constraints import ConstraintBase

@@ -240,7 +240,7 @@ def test_faults_without_end_are_counted() -> None:
 
 def test_a_fault_found_later_gets_its_place_too() -> None:
     file = SceneFile.read('coordinates: [x]\nconstraints:\n- "x = 1"\n- "x = 2"\n', "x")
-    located = file.with_places(SceneError((Fault("no", ("constraints", 1)),)))
+    located = file.error([Fault("no", ("constraints", 1))])
     assert (located.faults[0].line, located.faults[0].column) == (4, 3)
 
 

@@ -175,7 +175,7 @@ SHOWN: dict[str, tuple[str, str]] = {
     ),
     "time in a place": ("{A}[{type: ball, between: [ground, a], at: [t, 0, 0]}]", "`x_A = cos(t)`"),
     "a negative length": ("particles: [A, B]\nconstraints: [{type: link, between: [A, B], length: -2}]", "`length: 2`"),
-    "one end": ("{A}[{type: hinge, between: [a], at: [0, 0, 0]}]", "`between: [ground, a]`"),
+    "one end": ("{A}[{type: hinge, between: [a], at: [0, 0, 0]}]", "`between: [ground, crank]`"),
     "one end of a link": ("particles: [A]\nconstraints: [{type: link, between: [A]}]", "`between: [A, B]`"),
     "a place in space": ("dimension: 2\n{A}[{type: pin, between: [ground, a], at: [0, 1, 0]}]", "`at: [0, 1]`"),
     "a place in the plane": ("{A}[{type: ball, between: [ground, a], at: [0, 1]}]", "`at: [0, 1, 0]`"),
