@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from copy import copy
 from functools import lru_cache
-from typing import Any, ClassVar, Literal, Self, TypeVar
+from typing import Any, ClassVar, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, PrivateAttr, model_validator
 
@@ -24,23 +23,6 @@ class ToldModel(BaseModel):
     """The base of what is told: frozen, with no keys beyond the fields."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
-
-
-Told = TypeVar("Told", bound=ToldModel)
-
-
-def with_values(told: Told, **values: Any) -> Told:
-    """As ``told.model_copy(update=values)``, for values of fields that were given: which these are the copy shares.
-
-    >>> with_values(Redundancy(nullity=1, members=["A"]), nullity=2)
-    Redundancy(nullity=2, members=['A'])
-    """
-    made = type(told).__new__(type(told))
-    object.__setattr__(made, "__dict__", {**told.__dict__, **values})
-    object.__setattr__(made, "__pydantic_fields_set__", told.__pydantic_fields_set__)
-    object.__setattr__(made, "__pydantic_extra__", told.__pydantic_extra__)
-    object.__setattr__(made, "__pydantic_private__", copy(told.__pydantic_private__))
-    return made
 
 
 class FieldVerdict(ToldModel):

@@ -36,8 +36,8 @@ LATE_IMPORTS = frozenset(
 )
 #: Where one bad file or answer must not stop the others, whatever it does.
 CATCH_ALL = frozenset(
-    {"base/workers.py", "homework/assignment.py", "homework/grading.py", "homework/echo.py",
-     "interface/one_file.py", "benchmark/runner.py"}
+    {"base/workers.py", "homework/assignment.py", "homework/grading.py", "interface/one_file.py",
+     "benchmark/runner.py"}
 )  # fmt: skip
 
 

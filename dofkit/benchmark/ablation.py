@@ -1,4 +1,4 @@
-"""What each reduction of `dofkit.relations.reductions` is worth: cost and size of the model without one after another.
+"""What each reduction of `dofkit.relations.setting` is worth: cost and size of the model without one after another.
 
 The scenes grow by what one reduction leaves out; those of the catalog stand beside them.
 """
@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from dofkit.base.deadline import OutOfTimeError
 from dofkit.benchmark.record import ReductionCost
 from dofkit.classification.passes import Examined, examined
-from dofkit.relations.reductions import ALL, REDUCTIONS, ReductionName, Reductions
+from dofkit.relations.setting import ALL, REDUCTIONS, ReductionName, Reductions
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.catalog import catalog_names
 from dofkit.scene.lowering import lower

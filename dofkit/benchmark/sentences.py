@@ -13,7 +13,7 @@ from typing import NamedTuple
 from dofkit.benchmark import statistics
 from dofkit.benchmark.record import ALL, AUTO, ChartRun, Data, Ran, ReductionCost, Score
 from dofkit.benchmark.statistics import grouped
-from dofkit.relations.reductions import REDUCTIONS
+from dofkit.relations.setting import REDUCTIONS
 
 #: `auto` should take no more than so many times the fastest method that is right.
 TWICE = 2

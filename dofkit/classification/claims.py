@@ -10,9 +10,8 @@ from dataclasses import replace
 from typing import Any
 
 from dofkit.base.verdicts import OPEN, VERDICTS, ArgumentKey, Claim, least, together
-from dofkit.classification.generalized_coordinates import orbit_at_reference, regular_at_witness
+from dofkit.classification.generalized_coordinates import claim_of_choice, counted
 from dofkit.classification.study import Study
-from dofkit.classification.turned_coordinates import are_coordinates, partly_turned, turned_together
 from dofkit.integrability.growth_vector import is_free
 from dofkit.relations.answer import BITS
 from dofkit.report import ConstraintEntry, FieldVerdict
@@ -21,18 +20,6 @@ from dofkit.report import ConstraintEntry, FieldVerdict
 HOLDS = Claim("proved", "zero at the reference", about="reference")
 ROWS = Claim("probable", "rows at a point", bits=BITS)
 IMPLIED = Claim("probable", "implication", bits=BITS)
-#: Arguments by which every part of the set is as good as every other.
-ALIKE: frozenset[ArgumentKey | None] = frozenset(
-    {
-        "nothing constrains",
-        "one relation",
-        "graph",
-        "links in general position",
-        "Lie algebra, certified",
-        "states of motion",
-        "exact elimination",
-    }
-)
 #: Arguments that tell what depends on what as well.
 SETTLED: frozenset[ArgumentKey | None] = frozenset({"links in general position", "exact elimination"})
 LEFT_OUT = Claim("probable", "leaving out", bits=BITS)
@@ -46,12 +33,11 @@ def claims(study: Study, told: Mapping[str, Any]) -> dict[str, Claim]:
         found["conflicting"] = _conflict(study, found["consistent"])
     else:
         found |= {"dof": _unless(told["dof"], free), "velocity_dof": _unless(told["velocity_dof"], free)}
-        found["redundant_equations"] = _unless(told["redundant_equations"], _counted(free))
+        found["redundant_equations"] = _unless(told["redundant_equations"], counted(free))
         found["redundant"] = _unless(told["redundant"], _dependence(study, free, bool(told["redundant"])))
-        found["redundancies"] = _unless(told["redundancies"], _dependence(study, free, bool(told["redundancies"])))
-        found["generalized_coordinates"] = _unless(
-            told["generalized_coordinates"], _chosen(study, free, told["generalized_coordinates"] or ())
-        )
+        found["redundancies"] = _unless(told["redundant"], _dependence(study, free, bool(told["redundancies"])))
+        claim = claim_of_choice(study, free, told["generalized_coordinates"] or ())
+        found["generalized_coordinates"] = _unless(told["generalized_coordinates"], claim)
     if study.system.reference is not None and told["consistent"] is not False:
         first = first_order(study)
         found["instantaneous_dof"] = _unless(told["instantaneous_dof"], first)
@@ -122,15 +108,10 @@ def _claim(told: FieldVerdict) -> Claim:
     return Claim(told.verdict, told.argument, bits, gap, told.about or "everywhere")
 
 
-def _counted(claim: Claim) -> Claim:
-    """A number that is counted from another: a proof of it is a proof by counting."""
-    return Claim("proved", "count", claim.bits, claim.gap, claim.about) if claim.verdict == "proved" else claim
-
-
 def _dependence(study: Study, free: Claim, some: bool) -> Claim:
     """Of what depends on what: nothing does where the count says so; links in general position by their graph."""
     if not some and study.redundant_equations == 0:
-        return _counted(free)
+        return counted(free)
     copied = {study.names[i] for i in study.outcome.copies}
     if {study.names[i] for r in study.dependence.dependent for i in r.redundant} <= copied:
         return free
@@ -138,35 +119,6 @@ def _dependence(study: Study, free: Claim, some: bool) -> Claim:
     if settled:
         return free
     return replace(together(free, ROWS, IMPLIED), about=least(study.dependence.about, free.about))
-
-
-def _chosen(study: Study, free: Claim, chosen: Sequence[str]) -> Claim:
-    """Of the generalized coordinates: the others have independent rows, at the reference or at a generic point.
-
-    Where the set may have several parts the point may lie on another one. At a singular reference the set is known
-    where it is the orbit of the whole as one body; elsewhere it may be no graph over any coordinates. Where
-    some angles of a body that turns are chosen, at a certified configuration.
-    """
-    parts = []
-    for block, a in zip(study.outcome.blocks, study.outcome.answers, strict=True):
-        if a.argument in ALIKE or not a.dof or (a.about == "reference" and a.instantaneous == a.velocity_dof):
-            parts.append(_counted(a.claim))
-        elif a.argument == "joints that close no loop":
-            parts.append(replace(_counted(a.claim), about="component"))
-        elif a.about == "reference":
-            orbit = orbit_at_reference(block, a, study.setting)
-            sure = orbit is not None and orbit.rank(chosen) == a.dof
-            near = Claim("probable", "generic points", bits=BITS, about="component")
-            parts.append(_counted(a.claim) if sure else together(a.claim, near))
-        elif regular_at_witness(block.coordinates, a, chosen):
-            parts.append(replace(a.claim, about="component"))
-        else:
-            parts.append(together(a.claim, Claim("probable", "generic points", bits=BITS)))
-    outcome, turning = study.outcome, partly_turned(chosen, study.system.rotations)
-    for group in turned_together(outcome.blocks, outcome.answers, outcome.untouched, turning):
-        if not are_coordinates(group, chosen, study.setting, study.system.rotations):
-            parts.append(Claim("probable", "generic points", bits=BITS, about="component"))
-    return together(*parts) if parts else _counted(free)
 
 
 def _growth(study: Study, free: Claim, growth: Sequence[int]) -> Claim:
@@ -178,7 +130,7 @@ def _growth(study: Study, free: Claim, growth: Sequence[int]) -> Claim:
         (a.growth, a.trusted) for b, a in zip(study.outcome.blocks, study.outcome.answers, strict=True) if b.forms
     ]
     if len(growth) == 1 or (len(growth) == 2 and all(trusted for _, trusted in blocks)):
-        return _counted(free)
+        return counted(free)
     if free.verdict == "proved" and all(trusted and own and is_free(own) for own, trusted in blocks):
         return replace(free, argument="free Lie algebra")
     return together(free, Claim("probable", "brackets at points", bits=BITS))

@@ -9,17 +9,12 @@ from dofkit.base.deadline import unless_late
 from dofkit.base.wording import many, verb
 from dofkit.classification.dependence.redundancy import merged
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.generalized_coordinates import generalized
-from dofkit.classification.labels.integrable_part import integrable_part
+from dofkit.classification.labels.companions import integrable_part
 from dofkit.classification.study import Study
-from dofkit.classification.turned_coordinates import partly_turned, turned_together
 from dofkit.expressions.text import to_text
-from dofkit.mobility import tree_pose
 from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.mobility.textbook_count import CountedFacts, count
-from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import uses_time
-from dofkit.relations.integration_constants import about_constants
+from dofkit.relations.blocks import about_constants, uses_time
 from dofkit.relations.normal.pieces import Finite
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, Count, ForceEntry, IntegrablePart, Redundancy
 from dofkit.system import BINDING, System
@@ -28,10 +23,8 @@ from dofkit.system import BINDING, System
 def instantaneous_dof(study: Study) -> int | None:
     """Velocities allowed to first order at the reference configuration; None without one, or where branches cross."""
     outcome = study.outcome
-    if study.system.reference is None or outcome.consistent is not True or outcome.kinked:
+    if study.system.reference is None or outcome.consistent is not True or outcome.crossing:
         return None
-    if outcome.crossing:
-        return outcome.first_order
     parts = [a.instantaneous for a in outcome.answers]
     if any(p is None for p in parts):
         return None
@@ -42,13 +35,6 @@ def singular(study: Study) -> bool | None:
     """Does the drawing allow other velocities than finite motions have? None without a drawing."""
     here, velocities = instantaneous_dof(study), study.outcome.velocity_dof
     return None if here is None or velocities is None else here != velocities
-
-
-def of_all(labels: Sequence[bool | None]) -> bool | None:
-    """True where all are, False where one is not, else None."""
-    if any(label is False for label in labels):
-        return False
-    return None if any(label is None for label in labels) else True
 
 
 def lecture_count(study: Study) -> Count:
@@ -79,55 +65,11 @@ def redundancies(study: Study) -> list[Redundancy]:
     return [Redundancy(nullity=nullity, members=[names[i] for i in members]) for nullity, members in merged(dependent)]
 
 
-def generalized_coordinates(study: Study) -> list[str] | None:
-    """An independent choice of ``dof`` coordinates: those that are not pivots of what integrates.
-
-    Of an open tree where that is not known at the drawing, by the rows of its joints at another pose.
-    """
-    found = unless_late(partial(_generalized, study), None)
-    return unless_late(partial(_on_tree, study), None) if found is None else found
-
-
-def _on_tree(study: Study) -> list[str] | None:
-    found = None if not study.outcome.dof else tree_pose.free_coordinates(study.system, study.setting.positive)
-    return found if found is not None and len(found) == study.outcome.dof else None
-
-
 def joint_coordinates(study: Study) -> list[str] | None:
     """Angles and displacements of joints that describe a tree; None for what is none, or has another freedom."""
     dof = study.outcome.dof
     found = None if dof is None else tree_coordinates(study.system)
     return found if found is not None and len(found) == dof else None
-
-
-def _generalized(study: Study) -> list[str] | None:
-    system, outcome = study.system, study.outcome
-    if outcome.dof is None:
-        return None
-    chosen = set(outcome.untouched)
-    known: dict[int, list[int]] = {}
-    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
-        places = None if a.kind is None else known.get(a.kind)
-        if places is None:
-            own = generalized(block, a, study.setting, system.rotations)
-        else:
-            own = [block.coordinates[k] for k in places]
-        if own is None:
-            return None
-        if a.kind is not None and not system.rotations:
-            known[a.kind] = [block.coordinates.index(name) for name in own]
-        chosen.update(own)
-    turning = partly_turned(chosen, system.rotations)
-    for group in turned_together(outcome.blocks, outcome.answers, outcome.untouched, turning):
-        if group.places == 1:
-            continue
-        free = chosen.intersection(group.block.coordinates)
-        whole = Answer(dof=len(free), dependent=group.block.coordinates, hidden=[*group.hidden])
-        own = generalized(group.block, whole, study.setting, system.rotations)
-        if own is None:
-            return None
-        chosen = chosen - free | set(own)
-    return [c.name for c in system.coordinates if c.name in chosen]
 
 
 def largest_integrable_part(study: Study) -> IntegrablePart | None:

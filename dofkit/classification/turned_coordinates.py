@@ -26,10 +26,8 @@ from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block
-from dofkit.relations.chart import Chart
-from dofkit.relations.chart_of_block import make_chart
-from dofkit.relations.joint_equations import JointEquation
-from dofkit.relations.normal.pieces import Finite
+from dofkit.relations.chart import Chart, make_chart
+from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import NamedRows, Setting
 from dofkit.system import Rotation
 

@@ -36,7 +36,7 @@ from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
 from dofkit.relations.normal.zero_set import never_vanishes
-from dofkit.relations.reductions import ReductionName
+from dofkit.relations.setting import ReductionName
 
 #: Relations that are looked at; nodes of an expression past which no coordinate is put into it; cases of all parts
 #: together that are looked at, and that are listed.

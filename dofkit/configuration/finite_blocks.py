@@ -25,8 +25,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer, RealRows
 from dofkit.relations.blocks import Block
-from dofkit.relations.chart import Chart
-from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.chart import Chart, make_chart
 from dofkit.relations.setting import Setting
 
 OFF_REFERENCE = (

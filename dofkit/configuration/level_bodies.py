@@ -7,7 +7,7 @@ import math
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.relations.blocks import Block
-from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.chart import make_chart
 from dofkit.relations.setting import Setting
 
 #: So many configurations are looked at, and a sine that is smaller is taken for 0.

@@ -13,8 +13,7 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import gradient, values
 from dofkit.expressions import tree as ex
-from dofkit.relations.ambient import free_point
-from dofkit.relations.chart import Chart, Displacement, displacement_fields
+from dofkit.relations.chart import Chart, Displacement, displacement_fields, free_point
 
 #: Random real points that are tried.
 TRIES = 8

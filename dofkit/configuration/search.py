@@ -25,8 +25,7 @@ from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.zero import excludes_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.ambient import free_point
-from dofkit.relations.chart import Chart
+from dofkit.relations.chart import Chart, free_point
 from dofkit.relations.linear import presolve
 from dofkit.relations.normal.no_solution import no_solution
 

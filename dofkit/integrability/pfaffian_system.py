@@ -19,8 +19,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, uses_time
-from dofkit.relations.chart import Chart
-from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.chart import Chart, make_chart
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
 

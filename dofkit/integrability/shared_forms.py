@@ -19,7 +19,7 @@ from dofkit.exact.ring.program import VAR, Scalar, gradient, values
 from dofkit.expressions import tree as ex
 from dofkit.integrability.lie_algebra import lie_span
 from dofkit.integrability.pfaffian_system import Codistribution
-from dofkit.relations.ambient import free_point
+from dofkit.relations.chart import free_point
 
 #: The seed of the point.
 SEED = 5

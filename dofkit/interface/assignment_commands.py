@@ -33,9 +33,7 @@ def new(
 @assignment_app.command("handout", cls=PanelCommand)
 def handout(
     assignment: options.Assignment,
-    form: Annotated[
-        str | None, typer.Option("--format", metavar="NAME", help="html (default), pdf, tex or md.")
-    ] = None,
+    form: Annotated[str | None, typer.Option("--format", metavar="NAME", help="html (default), pdf or md.")] = None,
     out: Annotated[
         Path | None,
         typer.Option("--out", metavar="PATH", help="The file, whose ending decides the format."),
@@ -50,7 +48,7 @@ def handout(
     """
     from dofkit.homework.assignment import load_assignment
     from dofkit.homework.handout.sheets import HANDOUTS, remarks, write_sheet, written_sheet
-    from dofkit.homework.own_sheets import own
+    from dofkit.homework.variants import own
 
     with failures_of(assignment):
         form = form or "html" if out is None else format_of_path(out, HANDOUTS, form)
@@ -73,25 +71,26 @@ def vary(
     seed: Annotated[str, typer.Option("--seed", metavar="TEXT", help="The seed of the variants: keep it.")],
     out: Annotated[Path, typer.Option("--out", metavar="FOLDER", callback=options.folder, help="The folder to write.")],
     form: Annotated[
-        str, typer.Option("--format", metavar="NAME", help="The format of the handouts: html, pdf, tex or md.")
+        str, typer.Option("--format", metavar="NAME", help="The format of the handouts: html, pdf or md.")
     ] = "html",
     anew: Annotated[bool, typer.Option("--anew", help="Replace the variants that the folder holds already.")] = False,
 ) -> None:
-    """Write an equally hard variant for every student.
+    """Write a variant for every student.
 
-    The folder gets a handout per student, one assignment that grades all of them (`dofkit grade FOLDER/assignment.yaml
-    ...`), and a table of the differences. The same seed gives a student the same variant everywhere, and every key is
-    proved. Students who have a variant in the folder keep it when the roster changes.
+    A problem lists what varies (`vary: {n: [2, 3, 5]}`); every combination is proved, and a keyed hash picks one for
+    each student. The folder gets a handout per student, one assignment that grades all of them (`dofkit grade
+    FOLDER/assignment.yaml ...`), and a table of the variants. Students who have one there keep it when the roster
+    changes.
     """
     from dofkit.homework.answers.roster import load_roster
-    from dofkit.homework.class_sheets import class_sheets, write_class
+    from dofkit.homework.handout.class_sheets import class_sheets, write_class
 
     with failures_of(assignment):
         made = class_sheets(assignment, load_roster(roster), seed, out, anew)
         write_class(made, form, drawing(), out)
     for remark in made.remarks():
         typer.echo(f"{assignment}: {remark}", err=True)
-    typer.echo(f"{out}: {len(made.sheets)} sheets")
+    typer.echo(f"{out}: {len(made.variants.students)} sheets")
 
 
 def drawing() -> Callable[[Any, Any, str], str | None]:

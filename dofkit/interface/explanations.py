@@ -12,7 +12,7 @@ from typing import NamedTuple
 from dofkit.base.errors import Fault, SceneError
 from dofkit.base.wording import closest, nearest, series
 from dofkit.classification.arguments import TABLE
-from dofkit.homework.key.codes import CODES
+from dofkit.homework.key.misconceptions import CODES
 from dofkit.interface.field_meanings import OF_CONSTRAINT, OF_REPORT
 from dofkit.interface.show.assurance import VERDICT_MEANS
 from dofkit.scene.constraints import TYPES, ConstraintBase

@@ -45,24 +45,6 @@ def export_gradescope(
         typer.echo(f"{out}: {note}", err=True)
 
 
-@export_app.command("otter", cls=PanelCommand)
-def export_otter(
-    assignment: options.Assignment,
-    out: Annotated[
-        Path, typer.Option("--out", metavar="FOLDER", callback=options.folder, help="The folder to write.")
-    ] = Path("otter"),
-) -> None:
-    """Write the master notebook for `otter assign`.
-
-    Two files that the notebook's tests read are written beside it.
-    """
-    from dofkit.homework import export
-
-    with failures_of(assignment):
-        for path in export.export_otter(assignment, out):
-            typer.echo(path)
-
-
 @export_app.command("grades", cls=PanelCommand)
 def export_grades(
     assignment: options.Assignment,
@@ -74,8 +56,7 @@ def export_grades(
     roster: options.RosterPath = None,
 ) -> None:
     """Write existing results in another format, without regrading."""
-    from dofkit.homework.runs.conversion import convert
-    from dofkit.homework.runs.run import GradingOptions
+    from dofkit.homework.runs.run import GradingOptions, convert
 
     with failures_of(assignment):
         count = convert(assignment, results, GradingOptions(form, out, roster=roster))

@@ -227,15 +227,6 @@ CertificateFiles = Annotated[
     list[str],
     typer.Argument(metavar="[SCENE] CERT", help="A scene and its certificate, or a certificate that holds its scene."),
 ]
-CertificateFolder = Annotated[
-    Path | None,
-    typer.Option(
-        "--certificates",
-        metavar="DIR",
-        callback=folder,
-        help="Write the evidence behind keys and judgements, for appeals.",
-    ),
-]
 Strict = Annotated[bool, typer.Option("--strict", help="Fail if a claim is not covered by evidence, too.")]
 
 # of pictures

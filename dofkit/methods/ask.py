@@ -30,8 +30,7 @@ from dofkit.mobility.frameworks import unprescribed_links
 from dofkit.mobility.graph.linkage import linkage
 from dofkit.mobility.rank_at_drawing import drawn_rank
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.pieces import Finite
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.normal.pieces import Finite, Reduced
 from dofkit.scene.added_equations import read_equations, with_equations
 from dofkit.scene.lowering import lower
 from dofkit.scene.names import names_by_position, vocabulary_of

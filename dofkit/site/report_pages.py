@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from importlib import resources
 
 from dofkit.classification.arguments import TABLE
-from dofkit.homework.key.codes import CODES
+from dofkit.homework.key.misconceptions import CODES
 from dofkit.interface.explanations import all_explanations
 from dofkit.interface.field_meanings import OF_CONSTRAINT, OF_REPORT
 from dofkit.interface.show.assurance import VERDICT_MEANS

@@ -16,7 +16,7 @@ from dofkit.benchmark.ablation import SCENES, AblatedScene, costs, differences, 
 from dofkit.benchmark.trials import FAMILIES
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.exact.matrices.sparse import rank_of_rows
-from dofkit.relations.reductions import ALL, REDUCTIONS, ReductionName
+from dofkit.relations.setting import ALL, REDUCTIONS, ReductionName
 
 #: A quarter of the catalog's scenes: the whole of it takes a minute.
 CATALOG = sorted((Path(__file__).parents[2] / "catalog").glob("*/*.yaml"))[::4]

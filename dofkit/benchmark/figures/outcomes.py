@@ -21,7 +21,7 @@ from dofkit.benchmark.record import ALL, AUTO, OUTCOMES, ChartRun, ReductionCost
 from dofkit.benchmark.sentences import compared
 from dofkit.benchmark.statistics import grouped
 from dofkit.benchmark.trials import GLOSSES, HEADINGS
-from dofkit.relations.reductions import REDUCTIONS
+from dofkit.relations.setting import REDUCTIONS
 
 # Method against family: who is right where, and how the others fail; under five headings, the hardest last
 

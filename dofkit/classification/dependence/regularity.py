@@ -21,11 +21,10 @@ from dofkit.expressions.calculus import diff
 from dofkit.expressions.differentials import in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, split
-from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.chart import make_chart
 from dofkit.relations.normal.normal_form import velocities_of
-from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian, Piece
+from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.normal.polynomial_zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
-from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import eliminated, form_rate
 
@@ -104,6 +103,6 @@ def _is_flat(r: Reduced, choice: Sequence[Sequence[Piece]], positive: frozenset[
         return False
     try:
         forms = [form_rate(p) for branch in choice for p in branch if isinstance(p, Pfaffian)]
-        return all(is_proved_zero(eliminated(e, forms)[0], positive) for e in slopes)
+        return all(is_proved_zero(eliminated(e, forms, positive), positive) for e in slopes)
     except NoValueError:
         return True

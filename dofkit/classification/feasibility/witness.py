@@ -7,9 +7,8 @@ An inequality e >= 0 becomes the equation e = s^2 of one more unknown. A zero th
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from itertools import product as cartesian
 from typing import NamedTuple
 
 from flint import arb, fmpq, fmpq_mat
@@ -28,22 +27,13 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.enclosures import approximate, interval_of
+from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.linear import linear
 from dofkit.relations.normal.domain import DomainCondition
 
 #: Searches along slacks, from so many starts each, with so many steps; equations and conditions that one may have.
 SEARCHES, STARTS, STEPS, MAX_ROWS = 3, 6, 60, 80
-#: Simple points that are tried: up to this many places take every choice of values.
-MAX_GRID = 3
-_SIMPLE = (ex.ZERO, ex.ONE, ex.MINUS_ONE)
-#: Numbers that what a search ended near is taken for: fractions with these denominators, times one of these.
-#: Else a fraction with at most the last one below.
-DENOMINATORS, NEAR, PLAIN = 12, 1e-5, 1000
-_UNITS = (ex.ONE, ex.PI, ex.sqrt(ex.TWO), ex.sqrt(ex.num(3)))
-
-
 #: An exact value, or a ball, of symbols.
 Values = Mapping[Expr, Expr | arb]
 
@@ -72,8 +62,7 @@ def witness(
         return _linearly(problem, positive)
     if len(problem.expressions) > MAX_ROWS:
         return None
-    found = _by_simple_points(problem, positive)
-    return _by_slacks(problem, positive, codimension) if found is None else found
+    return _by_slacks(problem, positive, codimension)
 
 
 def value_of(s: Expr) -> Fraction:
@@ -125,55 +114,6 @@ def _holds(e: Expr, c: DomainCondition, positive: frozenset[Expr], at: Mapping[E
     if c.sense == "!=":
         return not value.contains(0)
     return bool(value > 0) or (c.sense == ">=" and _vanishes(e, positive, at))
-
-
-def _by_simple_points(problem: StateProblem, positive: frozenset[Expr]) -> Witness | None:
-    """Simple values of the places, then such values near to where a search ends."""
-    if not problem.rigidly:
-        return None
-    for point in _simple_points(problem):
-        check()
-        if not _far_off(problem, point):
-            found = _at(problem, positive, point)
-            if found is not None:
-                return found
-    return None
-
-
-def _simple_points(problem: StateProblem) -> Iterator[Mapping[Expr, Expr]]:
-    places = problem.places
-    if len(places) <= MAX_GRID:
-        for choice in cartesian(_SIMPLE, repeat=len(places)):
-            yield dict(zip(places, choice, strict=True))
-    else:
-        yield from (dict.fromkeys(places, v) for v in _SIMPLE)
-    search = _Search(problem, frozenset())
-    for seed in range(SEARCHES):
-        near = search.ended(seed)
-        if near is not None:
-            yield {s: _simple_near(near[s]) for s in places}
-
-
-def _far_off(problem: StateProblem, point: Mapping[Expr, Expr]) -> bool:
-    """Is some equation or condition clearly not met, by a rough ball?"""
-    at = {s: approximate(v) for s, v in point.items()}
-    fractions = {s: Fraction(v) for s, v in at.items() if v is not None}
-    for k, e in enumerate(problem.expressions):
-        value = interval_of(e, fractions, 64)
-        if value is None or bool(value < -NEAR) or (k < len(problem.equations) and bool(value > NEAR)):
-            return True
-    return False
-
-
-def _simple_near(value: float) -> Expr:
-    """The simple number near to a float, else the float itself."""
-    for unit in _UNITS:
-        size = approximate(unit) or 1.0
-        for denominator in range(1, DENOMINATORS + 1):
-            top = round(value / size * denominator)
-            if abs(top * size / denominator - value) < NEAR:
-                return ex.mul(ex.num(Fraction(top, denominator)), unit)
-    return ex.num(Fraction(value).limit_denominator(PLAIN))
 
 
 # -- linear ones ------------------------------------------------------------------------------------
@@ -228,16 +168,6 @@ class _Search:
         self.rows = [self.ring.node(e) for e in rows]
         self.search = RealSearch(self.ring, self.rows, [*problem.unknowns, *self.slacks], positive)
         self.given = {s: float(v) for s, v in problem.fixed.items()}
-
-    def ended(self, seed: int) -> dict[Expr, float] | None:
-        """Where a search in floating point ends; 0 for what nothing mentions."""
-        try:
-            symbols = self.search.start(seed, self.given)
-            if self.search.descend(symbols, seed, STEPS) is None:
-                return None
-        except (NoValueError, ArithmeticError, ValueError):
-            return None
-        return {s: symbols.get(s, 0.0) for s in self.problem.places}
 
     def found(self, seed: int) -> RealPoint | None:
         """A point that is certified, with all slacks apart from 0."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import replace
-from fractions import Fraction
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -18,11 +17,8 @@ from dofkit.base.components import components
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.components import explicit_relations
 from dofkit.configuration.reality import BALL_COLUMNS
-from dofkit.configuration.witness import Witness, of_real_point
+from dofkit.configuration.witness import Witness
 from dofkit.exact.analyticity import is_analytic
-from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.real_search import RealSearch
-from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.renaming import coordinates_in
@@ -30,10 +26,8 @@ from dofkit.expressions.text import Names, parse_expression, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, expressions, uses_time
-from dofkit.relations.chart_of_block import make_chart
-from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.pieces import Finite
+from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import Setting
 
 APART = "each part of the system can be satisfied at some time, but no common time was found"
@@ -161,8 +155,7 @@ def simultaneous(
         group = [i for i in group if _restricts(blocks[i], result[i])]
         if len(group) < 2:
             continue
-        found = _with_common_values([blocks[i] for i in group], [result[i] for i in group], shared, setting)
-        together = found or _as_one([blocks[i] for i in group], [result[i] for i in group], setting, answered)
+        together = _as_one([blocks[i] for i in group], [result[i] for i in group], setting, answered)
         for i, a in zip(group, together, strict=True):
             result[i] = a
     return result
@@ -201,43 +194,6 @@ def _restricts(block: Block, a: Answer) -> bool:
 
 def _relations(block: Block, a: Answer) -> list[Expr]:
     return [*(row.piece.expr for row in block.finite if isinstance(row.piece, Finite)), *a.hidden]
-
-
-def _with_common_values(
-    blocks: Sequence[Block], answers: Sequence[Answer], shared: Sequence[frozenset[Expr]], setting: Setting
-) -> list[Answer] | None:
-    """Return the answers with witnesses at the values of one of them; None where none of these serves all."""
-    if any(block.nonlinear or a.witness is None for block, a in zip(blocks, answers, strict=True)):
-        return None
-    common = frozenset[Expr]().union(*shared)
-    for chosen in answers:
-        given = {s: Fraction(text) for s, text in (chosen.witness or {}).items() if s in common}
-        witnesses = [_witness_at(block, a, given, setting) for block, a in zip(blocks, answers, strict=True)]
-        if None not in witnesses:
-            return [replace(a, witness=w) for a, w in zip(answers, witnesses, strict=True)]
-    return None
-
-
-def _witness_at(block: Block, a: Answer, given: Mapping[Expr, Fraction], setting: Setting) -> Witness | None:
-    """Return a certified regular point of a block at given values of time and parameters; None where none was found."""
-    witness = a.witness or {}
-    if all(Fraction(witness[s]) == value for s, value in given.items() if s in witness):
-        return witness
-    conditions = [c.expr for c in block.conditions]
-    chart = make_chart(block, replace(setting, reference=None), a.hidden, conditions)
-    unknowns = [s for s in chart.unknowns if s not in given]
-    search = RealSearch(chart.ring, chart.nodes, unknowns, chart.positive, chart.symbols)
-    try:
-        real = search.search(0, {s: float(v) for s, v in given.items()})
-        if real is None or not real.certified or not real.consistent or real.solved < real.rank:
-            return None
-        at = values(chart.ring, real.point)
-    except (NoValueError, OverflowError, ValueError):
-        return None
-    inside = (at[chart.ring.node(e)] for e in conditions)
-    within = all(v != 0 if c.sense == "!=" else v > 0 for v, c in zip(inside, block.conditions, strict=True))
-    regular = bool(block.forms) or chart.coordinates - real.rank == a.dof
-    return of_real_point(chart, real) if within and regular else None
 
 
 def _as_one(

@@ -1,7 +1,7 @@
-"""Conditions of a block: do its relations hold somewhere where, as they were written, they have a value?
+"""Conditions of a block: do its equations have a solution at which, as they were written, they have a value?
 
-At a regular point where the conditions hold strictly the set is what the relations make it; where they hold nowhere
-there is nothing.
+At a regular point where the conditions are satisfied strictly the set is what the equations make it; where they are
+satisfied nowhere there is nothing.
 """
 
 from __future__ import annotations
@@ -9,14 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import Literal
 
 from flint import arb
 
 from dofkit.classification.freedom.block import answer
-from dofkit.configuration.components import is_irreducible
 from dofkit.configuration.finite_blocks import OFF_REFERENCE
-from dofkit.configuration.search import find
 from dofkit.configuration.witness import of_real_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealPoint, RealSearch
@@ -24,13 +21,11 @@ from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
-from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Row
-from dofkit.relations.chart import Chart
-from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.blocks import Block
+from dofkit.relations.chart import Chart, make_chart
 from dofkit.relations.normal.domain import DomainCondition, holds_at
 from dofkit.relations.normal.no_solution import hold_nowhere
 from dofkit.relations.normal.pieces import Finite
@@ -42,136 +37,68 @@ SEEDS, LATER = 6, 4.0
 
 
 def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answer:
-    """The answer where the block's conditions hold; inconsistent where they hold nowhere, undecided where unknown."""
+    """Return the answer where the conditions of a block are satisfied.
+
+    It is inconsistent where they are satisfied nowhere, and undecided where that is not known, or where the reference
+    configuration lies on the boundary.
+    """
+    block = _without_satisfied_conditions(block)
     if not block.conditions or result.consistent is False:
         return result
     if result.consistent is None:
-        return _nowhere(result, block.conditions, "proved") if _empty(block, result, setting) else result
-    if result.instantaneous is not None and setting.reference is not None:
-        known = {**setting.reference, ex.TIME: ex.ZERO}
-        holds = [holds_at(c, known, setting.positive) for c in block.conditions]
-        if all(holds):
-            return _beside_boundary(block, _beside_edge(block, result, setting), setting)
-        if None in holds and False not in holds:
-            return _open(result, block.conditions)
-        elsewhere = replace(setting, reference=None, pose={})
-        result = restricted_to_domain(block, answer(block, elsewhere), elsewhere)
-        result.reasons.append(OFF_REFERENCE)
-        return result
+        return _nowhere(block, result) if _is_empty(block, result, setting) else result
     if setting.reference is not None:
-        known = {**setting.reference, ex.TIME: ex.ZERO}
-        if any(holds_at(c, known, setting.positive) is False for c in block.conditions):
+        here = {**setting.reference, ex.TIME: ex.ZERO}
+        drawn = result.instantaneous is not None
+        inside = [holds_at(c, here, setting.positive, strictly=drawn) for c in block.conditions]
+        if drawn and all(inside):
+            return result
+        outside = False in [holds_at(c, here, setting.positive) for c in block.conditions]
+        if drawn and not outside:
+            return _undecided(block, result)
+        if drawn:
+            elsewhere = replace(setting, reference=None, pose={})
+            result = restricted_to_domain(block, answer(block, elsewhere), elsewhere)
+        if outside:
             result.reasons.append(OFF_REFERENCE)
-    return _somewhere(block, result, setting)
+        if drawn:
+            return result
+    return _at_a_point(block, result, setting)
 
 
-def _beside_edge(block: Block, result: Answer, setting: Setting) -> Answer:
-    """The answer at a reference where conditions are 0 and yet hold: is the branch one that goes on from there?
-
-    It is where the differential of each depends on none of those of the finite relations; z != 0 beside z = 0 is none.
-    """
-    known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
-    strictly = [(c, replace(c, adjoining=False)) for c in block.conditions if c.adjoining]
-    edges = [c for c, strict in strictly if not holds_at(strict, known, setting.positive)]
-    if not edges:
-        return result
-    finite = replace(block, rows=block.finite, conditions=())
-    free = answer(finite, setting).instantaneous if finite.rows else len(block.coordinates)
-    for number, c in enumerate(edges):
-        row = Row(-1 - number, Finite(c.expr))
-        if answer(replace(finite, rows=(*finite.rows, row)), setting).instantaneous != (free or 0) - 1:
-            return _nowhere(result, edges, "proved") if _empty(block, result, setting) else _open(result, edges)
-    return result
+def _without_satisfied_conditions(block: Block) -> Block:
+    """Return the block without conditions u >= 0 where its equations give coordinates such that u is 0."""
+    weak = any(c.sense == ">=" for c in block.conditions)
+    explicit = given_by(r.piece.expr for r in block.finite if isinstance(r.piece, Finite)) if weak else {}
+    conditions = (c for c in block.conditions if c.sense != ">=" or not substitute(c.expr, explicit).is_zero)
+    return replace(block, conditions=tuple(conditions)) if explicit else block
 
 
-def _beside_boundary(block: Block, result: Answer, setting: Setting) -> Answer:
-    """The answer at a regular reference where some expressions are 0 and asked to be >= 0: does the set go on inside?
-
-    It does where their differentials are independent on its tangent space, and where they are 0 all over it: c = 0 then
-    leaves all of its dimension. y = -x^2 with y >= 0 is a point.
-    """
-    known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
-    given = given_by(r.piece.expr for r in block.finite if isinstance(r.piece, Finite))
-    weak = [c for c in block.conditions if c.sense == ">=" and not c.adjoining]
-    there = dict.fromkeys(replace(c, expr=_scaled(substitute(c.expr, given)), sense=">") for c in weak)
-    active = [c for c in there if not c.expr.is_zero and not holds_at(c, known, setting.positive)]
-    if not active or not result.consistent:
-        return result
-    if result.instantaneous is None or result.instantaneous != result.velocity_dof:
-        return _open(result, active)
-    plain = replace(block, conditions=())
-    entered: list[Row] = []
-    for number, c in enumerate(active):
-        row = Row(-1 - number, Finite(c.expr))
-        inside = answer(replace(plain, rows=(*plain.rows, *entered, row)), setting).instantaneous
-        if inside == result.instantaneous - len(entered) - 1:
-            entered.append(row)
-        elif answer(replace(plain, rows=(*plain.rows, row)), setting).dof != result.dof:
-            return _open(result, active)
-    return result
+def _equations(block: Block, result: Answer) -> list[Expr]:
+    return [*(r.piece.expr for r in block.finite if isinstance(r.piece, Finite)), *result.hidden]
 
 
-def _scaled(e: Expr) -> Expr:
-    """Return ``e`` times a positive number, the same expression for all such multiples of ``e``."""
-    terms = linear_terms(e)
-    first = abs(terms[min(terms, key=repr)]) if terms else Fraction(1)
-    return e if first == 1 else e / ex.num(first)
+def _is_empty(block: Block, result: Answer, setting: Setting) -> bool:
+    """Return whether the conditions are proved to be satisfied nowhere where the finite equations are."""
+    return hold_nowhere(_equations(block, result), block.conditions, setting.positive)
 
 
-def _empty(block: Block, result: Answer, setting: Setting) -> bool:
-    """Do the conditions hold nowhere where the finite relations do?"""
-    relations = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + result.hidden
-    return hold_nowhere(relations, block.conditions, setting.positive)
-
-
-def _somewhere(block: Block, result: Answer, setting: Setting) -> Answer:
-    relations = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + result.hidden
+def _at_a_point(block: Block, result: Answer, setting: Setting) -> Answer:
+    """Return the answer with a witness at which all conditions are satisfied strictly."""
     conditions = [c.expr for c in block.conditions]
     chart = make_chart(block, replace(setting, reference=None), result.hidden, conditions)
-    nodes = [chart.ring.node(e) for e in conditions]
-    zero = _identically_zero(chart, nodes)
-    dead = [c for c, z in zip(block.conditions, zero, strict=True) if z and c.sense != ">="]
-    if dead:
-        return _where_some_vanish(chart, result, relations, dead, setting)
-    left = [(n, c) for n, c, z in zip(nodes, block.conditions, zero, strict=True) if not z]
     dof = result.dof if not block.forms and not block.nonlinear else None
-    inside = _point_within(chart, left, dof)
-    if inside is not None and _witness_within(block, result):
-        strict = [c for _, c in left]
-        return result if _is_within(result, strict) else replace(result, witness=of_real_point(chart, inside))
-    if hold_nowhere(relations, block.conditions, setting.positive):
-        return _nowhere(result, block.conditions, "proved")
-    return _open(result, block.conditions)
+    point = _point_within(chart, block.conditions, dof)
+    if point is not None and _is_same_component(block, result):
+        within = _is_strict_at_witness(block, result)
+        return result if within else replace(result, witness=of_real_point(chart, point))
+    return _nowhere(block, result) if _is_empty(block, result, setting) else _undecided(block, result)
 
 
-def _where_some_vanish(
-    chart: Chart, result: Answer, relations: Sequence[Expr], dead: Sequence[DomainCondition], setting: Setting
-) -> Answer:
-    """The answer where conditions are 0 at the points that were drawn: on all of the set, or on a part of it only."""
-    if not relations:
-        return _nowhere(result, dead, "proved")
-    if is_irreducible(chart):
-        return _nowhere(result, dead, "probable")
-    return _nowhere(result, dead, "proved") if hold_nowhere(relations, dead, setting.positive) else _open(result, dead)
+def _point_within(chart: Chart, conditions: Sequence[DomainCondition], dof: int | None) -> RealPoint | None:
+    """Return a certified regular point, of the largest rank that was seen, at which all conditions hold strictly.
 
-
-def _identically_zero(chart: Chart, nodes: Sequence[int]) -> list[bool]:
-    """Which of the nodes vanish on the whole set, as far as points over GF(p) tell?"""
-    samples = find(chart, {}).samples
-    found = [bool(samples)] * len(nodes)
-    for point in samples:
-        try:
-            at = values(chart.ring, point)
-        except NoValueError:
-            return [False] * len(nodes)
-        found = [z and at[n] == 0 for z, n in zip(found, nodes, strict=True)]
-    return found
-
-
-def _point_within(chart: Chart, left: Sequence[tuple[int, DomainCondition]], dof: int | None) -> RealPoint | None:
-    """A certified regular point, of the largest rank that was seen, at which all conditions hold strictly.
-
-    Of finite relations alone the rank there has to say the ``dof``: other parts of the set may be larger or smaller.
+    For finite equations alone the rank there has to agree with ``dof``: other components may be larger or smaller.
     """
     search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
     points = []
@@ -184,48 +111,46 @@ def _point_within(chart: Chart, left: Sequence[tuple[int, DomainCondition]], dof
         if point is not None and point.certified and point.consistent:
             points.append(point)
     wanted = max((p.rank for p in points), default=0) if dof is None else chart.coordinates - dof
-    return next((p for p in points if p.rank == wanted and _strictly(chart, p, left)), None)
+    return next((p for p in points if p.rank == wanted and _is_strict_at(chart, p, conditions)), None)
 
 
-def _witness_within(block: Block, result: Answer) -> bool:
-    """Of what is told of one part of the set only: do the conditions hold at its witness?"""
+def _is_same_component(block: Block, result: Answer) -> bool:
+    """Return whether a point may stand for the answer: one about a component needs the conditions at its witness."""
     if result.about != "component" or not (block.forms or block.nonlinear):
         return True
-    return result.witness is not None and _is_within(result, block.conditions)
+    return result.witness is not None and _is_strict_at_witness(block, result)
 
 
-def _is_within(result: Answer, conditions: Sequence[DomainCondition]) -> bool:
-    """Do conditions hold strictly at the witness, where there is one? False where it is written with roots."""
+def _is_strict_at_witness(block: Block, result: Answer) -> bool:
+    """Return whether the conditions hold strictly at the witness; False where that is written with roots."""
     try:
-        known = {s: Fraction(text) for s, text in (result.witness or {}).items()}
+        configuration = {s: Fraction(text) for s, text in (result.witness or {}).items()}
     except ValueError:
         return False
-    there = [(c, interval_of(c.expr, known)) for c in conditions] if known else []
-    return all(v is not None and not v.contains(0) and (c.sense == "!=" or bool(v > 0)) for c, v in there)
+    balls = [(c, interval_of(c.expr, configuration)) for c in block.conditions] if configuration else []
+    return all(v is not None and not v.contains(0) and (c.sense == "!=" or bool(v > 0)) for c, v in balls)
 
 
-def _strictly(chart: Chart, found: RealPoint, left: Sequence[tuple[int, DomainCondition]]) -> bool:
+def _is_strict_at(chart: Chart, point: RealPoint, conditions: Sequence[DomainCondition]) -> bool:
     try:
-        at = values(chart.ring, found.point)
+        at = values(chart.ring, point.point)
     except NoValueError:
         return False
-    return all(at[n] > 0 if c.sense != "!=" else not arb(at[n]).contains(0) for n, c in left)
+    balls = [arb(at[chart.ring.node(c.expr)]) for c in conditions]
+    return all(v > 0 if c.sense != "!=" else not v.contains(0) for v, c in zip(balls, conditions, strict=True))
 
 
-def _conditions_text(conditions: Sequence[DomainCondition]) -> str:
-    return " and ".join(f"{to_text(c.expr)} {c.sense} 0" for c in conditions)
+def _text(block: Block) -> str:
+    return " and ".join(f"{to_text(c.expr)} {c.sense} 0" for c in block.conditions)
 
 
-def _nowhere(result: Answer, conditions: Sequence[DomainCondition], verdict: Literal["proved", "probable"]) -> Answer:
-    why = f"as written, the equations require {_conditions_text(conditions)}, which holds nowhere where they do"
-    return Answer(
-        False, verdict=verdict, argument="outside the domain", hidden=result.hidden, reasons=[*result.reasons, why]
-    )
+def _nowhere(block: Block, result: Answer) -> Answer:
+    why = f"as written, the equations require {_text(block)}, which is satisfied nowhere where they are"
+    reasons = [*result.reasons, why]
+    return Answer(False, verdict="proved", argument="outside the domain", hidden=result.hidden, reasons=reasons)
 
 
-def _open(result: Answer, conditions: Sequence[DomainCondition]) -> Answer:
-    why = (
-        f"no configuration was found that satisfies the equations and, as they require, {_conditions_text(conditions)}"
-    )
+def _undecided(block: Block, result: Answer) -> Answer:
+    why = f"no configuration was found that satisfies the equations and, as they require, {_text(block)}"
     most = result.dof if result.verdict == "proved" and result.about != "component" else None
     return Answer(None, verdict="undecided", hidden=result.hidden, reasons=[*result.reasons, why], most=most)

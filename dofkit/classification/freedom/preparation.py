@@ -14,15 +14,11 @@ from dofkit.expressions.tree import Expr
 from dofkit.integrability import accelerations
 from dofkit.mobility.bridges import Bridges, bridges
 from dofkit.mobility.rows_at_drawing import RowsAtDrawing
-from dofkit.relations.joint_equations import unwritten
 from dofkit.relations.normal.normal_form import normalise
-from dofkit.relations.normal.notes import INSTANT_NOTE
-from dofkit.relations.normal.pieces import Finite, Inequality, Normal, Piece
+from dofkit.relations.normal.pieces import INSTANT_NOTE, Finite, Inequality, Normal, Piece, Reduced, unwritten
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
 from dofkit.relations.piece_shapes import NormalTemplate
-from dofkit.relations.reduced import Reduced
-from dofkit.relations.reductions import ALL, Reductions
-from dofkit.relations.setting import Setting
+from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.system import System
 
 #: The kinds of symbols that no finite relation holds.

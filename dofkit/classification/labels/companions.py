@@ -7,16 +7,18 @@ from dataclasses import dataclass, field
 from itertools import chain, count, islice
 
 from dofkit.base.deadline import OutOfTimeError, check
-from dofkit.classification.freedom.parts import AnsweredParts
+from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.labels.single_constraint_labels import AnsweredParts
+from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import TIME
 from dofkit.integrability import first_integrals
 from dofkit.integrability.first_integrals import FirstIntegral
 from dofkit.integrability.pfaffian_system import codistribution
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Row, split, uses_time
-from dofkit.relations.integration_constants import about_constants
+from dofkit.relations.blocks import Block, Row, about_constants, split, uses_time
 from dofkit.relations.normal.pieces import Pfaffian, Still
+from dofkit.report import ConstraintEntry, IntegrablePart
 
 #: Blocks up to this many constraints and coordinates are searched for companions and integrals.
 MAX_CONSTRAINTS, MAX_COORDINATES = 10, 12
@@ -189,3 +191,46 @@ def equation(f: FirstIntegral, block: Block, number: int | None = None) -> str:
     names = (f"C{i}" for i in count(1))
     free = (name for name in (names if number is not None else chain(("C",), names)) if name not in taken)
     return f"{to_text(f.expr)} = {next(islice(free, number or 0, None))}"
+
+
+def integrable_part(
+    outcome: Outcome, entries: Sequence[ConstraintEntry], company: Companionship
+) -> IntegrablePart | None:
+    """What the differential constraints say in finite relations; None where there are none or it is undecided.
+
+    The rank of I^(inf), the bottom of the derived flag, over all coordinates; its basis beyond the finite relations
+    that were written: hidden ones, and integrals of which each block's are independent.
+    """
+    blocks = [(b, a) for b, a in zip(outcome.blocks, outcome.answers, strict=True) if b.forms]
+    if not blocks or outcome.dof is None:
+        return None
+    coordinates = len(outcome.untouched) + sum(len(b.coordinates) - _constants(b) for b in outcome.blocks)
+    basis: list[str] | None = []
+    for block, a in blocks:
+        known = len(block.finite) + len(a.hidden)
+        finite = rank_of_rows(a.matrix[:known], a.modulus) if a.matrix else known
+        left = len(block.coordinates) - (a.dof or 0) - finite
+        left -= _constants(block)
+        found = _integrals(block, left, entries, company) if left > 0 else []
+        if found is None or basis is None:
+            basis = None
+        else:
+            basis += [f"{to_text(g)} = 0" for g in a.hidden] + found
+    return IntegrablePart(rank=coordinates - outcome.dof, basis=basis)
+
+
+def _constants(block: Block) -> int:
+    """Return the number of constants of an earlier integration, which are coordinates of the block and do not move."""
+    return sum(isinstance(r.piece, Still) for r in block.rows)
+
+
+def _integrals(
+    block: Block, number: int, entries: Sequence[ConstraintEntry], company: Companionship
+) -> list[str] | None:
+    """So many independent integrals of a block; None where fewer were found."""
+    owners = {r.constraint for r in block.rows if isinstance(r.piece, Pfaffian)}
+    alone = [entries[i].integral for i in owners]
+    if number == len(alone) == 1 and alone[0] is not None:
+        return [alone[0]]
+    found = company.basis(block)
+    return found if len(found) == number else None

@@ -2,22 +2,67 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import islice
 from itertools import product as cartesian
 
 from dofkit.base.deadline import OutOfTimeError, check
-from dofkit.classification.freedom.block import alone
+from dofkit.classification.freedom.block import alone, answer
 from dofkit.classification.freedom.branches import MAX_CHOICES
 from dofkit.classification.freedom.domain import restricted_to_domain
-from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.freedom.reference_branches import branches_at_reference
 from dofkit.classification.labels.entry import LabelledRow
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.pfaffian_system import Codistribution, codistribution
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Row, coordinates_of
-from dofkit.relations.integration_constants import with_rows
-from dofkit.relations.normal.pieces import Nonlinear, Pfaffian, Still
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.blocks import Block, Row, coordinates_of, with_rows
+from dofkit.relations.normal.pieces import Nonlinear, Pfaffian, Reduced, Still
+from dofkit.relations.setting import Setting
+
+#: A part by its coordinates and by which pieces its rows and conditions are.
+_Key = tuple[tuple[str, ...], tuple[int, ...]]
+
+
+@dataclass
+class AnsweredParts:
+    """The answers to parts of the blocks of a system. What was answered is kept: identities of its pieces are keys."""
+
+    setting: Setting
+    _answers: dict[_Key, tuple[Block, Answer]] = field(default_factory=dict)
+    _forms: dict[tuple[int, ...], tuple[Block, Codistribution]] = field(default_factory=dict)
+
+    @cached_property
+    def plain(self) -> Setting:
+        """What may be assumed where no drawing is looked at, and nothing but the labels is asked."""
+        return replace(self.setting, pose={}, reference=None, grows=False, flag=False)
+
+    def know(self, blocks: Iterable[tuple[Block, Answer]]) -> None:
+        """Take the answers of whole blocks; those that were found at no drawing either are not asked again."""
+        if self.setting.reference is None and not self.setting.pose:
+            self._answers |= {_key(b): (b, a) for b, a in blocks if a.dof is not None}
+
+    def of(self, part: Block) -> Answer:
+        """The answer to a part. Raises OutOfTimeError, and ArithmeticError where an expression has no value."""
+        key = _key(part)
+        if key not in self._answers:
+            self._answers[key] = part, answer(part, self.plain)
+        return self._answers[key][1]
+
+    def forms(self, part: Block, hidden: Sequence[Expr] = ()) -> Codistribution:
+        """The rows of a part as one-forms, with hidden relations; written down once."""
+        key = _key(part)[1]
+        if hidden:
+            return codistribution(part, self.plain, hidden)
+        if key not in self._forms:
+            self._forms[key] = part, codistribution(part, self.plain, ())
+        return self._forms[key][1]
+
+
+def _key(part: Block) -> _Key:
+    return part.coordinates, tuple(id(p) for p in (*(row.piece for row in part.rows), *part.conditions))
+
 
 #: Up to this many coordinates, those of one constraint are listed in the scene's order.
 LISTED = 2000

@@ -20,30 +20,25 @@ from dofkit.expressions.tree import Expr
 class Candidates:
     """``ranks`` and ``bends``: conditions on coordinates under which all largest minors, all curvature, vanish.
 
-    ``poles``: (row, factor of its denominators). ``values``: conditions on parameters alone.
+    ``values``: conditions on parameters alone.
     """
 
     ranks: list[Leaf] = field(default_factory=list)
     bends: list[Leaf] = field(default_factory=list)
-    poles: list[tuple[int, Poly]] = field(default_factory=list)
     values: list[Leaf] = field(default_factory=list)
 
     @property
     def empty(self) -> bool:
-        return not (self.ranks or self.bends or self.poles or self.values)
+        return not (self.ranks or self.bends or self.values)
 
 
-def candidates(table: MinorTable, rank: int | None, curvature: int, curved: bool) -> Candidates:
-    """All that are found; ``rank`` of the rows in the coordinates' columns (None: they contradict each other).
+def candidates(table: MinorTable, rank: int, curvature: int, curved: bool) -> Candidates:
+    """All that are found; ``rank`` of the rows in the coordinates' columns.
 
     ``curvature``: the number of independent directions that [D, D] adds to D at a generic point, 0 where not known.
     Where nothing is ``curved`` and there are no parameters, curvature has nothing to tell.
     """
     search = CandidateSearch(table)
-    if rank is None:
-        search.attempt(search.agreements)
-        return search.found
-    search.attempt(search.poles)
     reduction = EliminatedTable(table)
     size = rank - len(reduction.solved)
     search.attempt(lambda: search.minors(reduction, size))
@@ -52,9 +47,6 @@ def candidates(table: MinorTable, rank: int | None, curvature: int, curved: bool
         search.attempt(lambda: search.curvature(reduction, size, curvature))
     for polys in table.clocks:
         search.attempt(partial(search.values_of, polys))
-    if tells:
-        search.attempt(search.closing)
-    search.inside()
     search.merge()
     return search.found
 
@@ -78,12 +70,6 @@ class CandidateSearch:
         except NoValueError:
             return
 
-    def agreements(self) -> None:
-        """Values for which relations that contradict each other may agree, or rows that do become dependent."""
-        self.places(self.table.relations)
-        reduction = EliminatedTable(self.table)
-        self.values_of([entry for r in reduction.rest for entry in reduction.work[r]])
-
     def minors(self, reduction: EliminatedTable, size: int) -> None:
         if size < 1:
             return
@@ -105,21 +91,10 @@ class CandidateSearch:
         if independent > 1 and comb(len(bent), independent) * comb(len(bent[0]), independent) <= MAX_MINORS:
             self.found.bends += self.places(self._minors_of(bent, independent))
 
-    def closing(self) -> None:
-        """For which parameters a form is closed."""
-        for curl in self.table.curls:
-            self.attempt(partial(self.values_of, list(curl.values())))
-
     def _minors_of(self, matrix: list[list[Poly]], size: int) -> list[Poly]:
         columns = range(len(matrix[0]))
         picked = [(r, c) for r in combinations(matrix, size) for c in combinations(columns, size)]
         return [determinant(self.table.canon, [[row[i] for i in c] for row in r]) for r, c in picked]
-
-    def poles(self) -> None:
-        for r, below in enumerate(self.table.below):
-            if not below.is_constant():
-                moving = [f for f in self.reals.factors(below) if self._of_coordinates([f])]
-                self.found.poles += [(r, f) for f in moving if len(f) <= MAX_READ]
 
     # -- conditions -------------------------------------------------------------------------------
 
@@ -186,17 +161,6 @@ class CandidateSearch:
         """Do the rows' denominators not vanish on a leaf?"""
         below = [self.reals.on(leaf, p) for p in self.table.below]
         return all(p != 0 and not any(divmod(p, c)[1] == 0 for c in leaf.others) for p in below)
-
-    def inside(self) -> None:
-        """Parameters that functions hold together with coordinates may be 0 (sin(k x))."""
-        ring = self.table.canon.ring
-        for var in ring.vars:
-            shown = ring.var_expr[var.index].symbols
-            if var.kind == "symbol" or all(s.args[0] == "parameter" for s in shown):
-                continue
-            free = {i for s in shown if s.args[0] == "parameter" and (i := ring.var_index(s)) is not None}
-            zero = self.table.canon.one * 0
-            self._add_values(Leaf(((i, zero),)) for i in sorted(free - self.reals.never))
 
     def merge(self) -> None:
         """sin u = 1 and sin u = -1 are one condition: cos u = 0."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from dofkit.base.deadline import OutOfTimeError, expired, limited
@@ -12,12 +12,10 @@ from dofkit.base.errors import DofkitError
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.isomorphic_blocks import Likenesses
-from dofkit.classification.special.branch_dimensions import branch_dimensions
+from dofkit.classification.special.branch_dimensions import branch_dimensions, meetings
 from dofkit.classification.special.candidates import Candidates, candidates
-from dofkit.classification.special.common_zeros import Leaf
-from dofkit.classification.special.integrals import undefined_integrals
-from dofkit.classification.special.loci import Locus, place, undefined
-from dofkit.classification.special.meeting_branches import meetings
+from dofkit.classification.special.common_zeros import Leaf, drop, flag, order_of, where
+from dofkit.classification.special.loci import Locus, place
 from dofkit.classification.special.minors import MinorTable, table_of
 from dofkit.classification.special.parameters import (
     ParameterCondition,
@@ -27,16 +25,14 @@ from dofkit.classification.special.parameters import (
     changed,
     differences,
 )
-from dofkit.classification.special.wording import drop, flag, order_of, where
-from dofkit.exact.ring.canonical import Canon, Poly
+from dofkit.exact.ring.canonical import Canon
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, expressions
-from dofkit.relations.normal.pieces import Inequality
+from dofkit.relations.normal.pieces import Inequality, Reduced
 from dofkit.relations.normal.semidefinite import never_holds
-from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import Report, SpecialCase
 from dofkit.system import System
@@ -123,8 +119,6 @@ def special_cases(
         if not found:
             return {"special_cases": cases} if cases else {}
         conditions = [ParameterCondition(leaf, f.table.reals) for f in found for leaf in f.candidates.values]
-        with suppress(*_UNFINISHED):
-            conditions += undefined_integrals(system, report)
         for part in (
             _values(conditions, told, again),
             meetings(system, reduced, setting, outcome),
@@ -174,7 +168,7 @@ def _search(block: Block, a: Answer, told: GenericAnswer) -> SearchedBlock | Non
     if expired():
         return None
     nonzero = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "nonzero")
-    rank = None if a.velocity_dof is None else len(block.coordinates) - a.velocity_dof
+    rank = len(block.coordinates) - (a.velocity_dof or 0)
     curvature = a.growth[1] - a.growth[0] if a.growth and len(a.growth) > 1 else 0
     try:
         table = table_of(block, a.hidden, told.setting, nonzero)
@@ -192,7 +186,7 @@ def _small(block: Block, a: Answer) -> bool:
         and sum(len(e.args) if e.op == "add" else 1 for e in expressions(block)) <= MAX_TERMS
         and not block.nonlinear
         and not a.degenerate
-        and (a.velocity_dof is not None or a.consistent is False)
+        and a.velocity_dof is not None
     )
 
 
@@ -220,7 +214,7 @@ def _places(found: SearchedBlock, told: GenericAnswer) -> Iterator[SpecialCase]:
 
 
 def _located(found: SearchedBlock, told: GenericAnswer) -> Iterator[tuple[Leaf, SpecialCase]]:
-    """Yield ranks that drop, then curvature that vanishes elsewhere, then coefficients without a value."""
+    """Yield ranks that drop, then curvature that vanishes elsewhere."""
     if told.report.velocity_dof is None:
         return
     dropped: list[Leaf] = []
@@ -233,9 +227,6 @@ def _located(found: SearchedBlock, told: GenericAnswer) -> Iterator[tuple[Leaf, 
         seen = None if leaf in dropped else _locus_of(found, told, leaf, found.rank)
         if seen is not None:
             yield from ((leaf, case) for case in _bending(found, told, leaf, seen))
-    for row, below in found.candidates.poles[:MAX_PLACES]:
-        leaf = found.table.reals.leaf(below)
-        yield from ((leaf, case) for case in _pole(found, told, row, below))
 
 
 def _locus_of(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, grows: int) -> Locus | None:
@@ -276,24 +267,8 @@ def _bending(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, seen: Locus)
         return
     forms = tuple(sorted({r.constraint for r in found.block.forms}))
     what, grown = flag(told.report.growth_vector, own, there, vanishes)
-    known = not grown or (len(there) == 3 and seen.least == there and there[2] == len(found.table.symbols))
-    sure: Verdict = "proved" if vanishes and seen.regular and known else "probable"
+    sure: Verdict = "proved" if vanishes and seen.regular and not grown else "probable"
     yield from _locus(found, told, leaf, what, forms, sure)
-
-
-def _pole(found: SearchedBlock, told: GenericAnswer, row: int, below: Poly) -> Iterator[SpecialCase]:
-    """Coefficients of a form that have no value where their denominator is 0."""
-    block, canon = found.block, found.table.canon
-    given = len(block.finite) + len(found.answer.hidden)
-    if row < given:
-        return
-    tops = [canon.to_expr(p) for p in found.table.rows[row] if p != 0]
-    relations = [canon.to_expr(g) for g in found.table.relations]
-    sure = undefined(block, told.setting, relations, canon.to_expr(below), tops)
-    if sure is not None:
-        leaf = found.table.reals.leaf(below)
-        owner = block.forms[row - given].constraint
-        yield from _locus(found, told, leaf, "the coefficients are not defined there", [owner], sure)
 
 
 # -- parameters -----------------------------------------------------------------------------------
@@ -306,8 +281,7 @@ def _values(conditions: Sequence[ParameterCondition], told: GenericAnswer, again
     different: dict[str, ParameterCondition] = {}
     for condition in conditions:
         at = where(condition.reals.canon, condition.leaf, told.order)
-        known = different.get(at, condition)
-        different[at] = replace(known, integrals=tuple(dict.fromkeys((*known.integrals, *condition.integrals))))
+        different.setdefault(at, condition)
     left = MAX_VALUES
     found: dict[frozenset[str], str] = {}
     for at, condition in sorted(different.items(), key=lambda pair: pair[0].count(" and ")):
@@ -332,11 +306,11 @@ def _at_values(
             reports.append(again(at_values(system, way)))
         except (DofkitError, *_UNFINISHED):
             return None
-        becomes = differences(told.report, reports[-1], condition.integrals)
+        becomes = differences(told.report, reports[-1])
         said = said or becomes
         if not becomes or becomes != said:
             return None
-    names = changed(told.report, reports[0]) or list(condition.integrals)
+    names = changed(told.report, reports[0])
     if not names:
         symbols = frozenset().union(*(way.keys() for way in ways))
         names = [c.name for c in system.constraints if any(not symbols.isdisjoint(r.expr.symbols) for r in c.relations)]

@@ -24,8 +24,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import AdmissibleCurve, columns_of
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, uses_time
-from dofkit.relations.chart import Chart
-from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.chart import Chart, make_chart
 from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.relations.setting import Setting
 
@@ -67,7 +66,7 @@ class Locus:
     ``rank`` in the coordinates' columns; ``moves``: False where no velocity satisfies them (dt lies in their
     span); ``dependent``: the constraints whose independent rows depend on each other there; ``regular``: that such
     real configurations exist is proved. ``growth``: dimensions of D, D + [D, D], ..., where they were asked for, as far
-    as they are certain; ``least``: what balls prove them to be at least.
+    as they are certain.
     """
 
     rank: int
@@ -75,7 +74,6 @@ class Locus:
     dependent: tuple[int, ...]
     regular: bool
     growth: tuple[int, ...] = ()
-    least: tuple[int, ...] = ()
 
 
 @raising_no_value
@@ -105,9 +103,7 @@ def place(
     frame = field_frame(matrix, len(rows.columns), point.p)
     if not rank == whole == grows or not frame.rows or not frame.free:
         return Locus(rank, whole == rank, owners, found.regular)
-    return Locus(
-        rank, True, owners, found.regular, _growth(rows, frame, point, a), _least(rows, balls, frame, found.real)
-    )
+    return Locus(rank, True, owners, found.regular, _growth(rows, frame, point, a))
 
 
 def _part(matrix: list[list[Any]], n: int) -> list[list[Any]]:
@@ -179,21 +175,6 @@ def _growth(rows: FormRows, frame: Pivots, point: FieldPoint, a: Answer) -> tupl
     return dimensions[: reached if reached <= certain + 1 else certain]
 
 
-def _least(rows: FormRows, balls: list[list[arb]], frame: Pivots, point: BallPoint) -> tuple[int, ...]:
-    """What D, D + [D, D] and the next have at least, along one curve of balls."""
-    if certified_rank([[balls[r][c] for c in frame.dependent] for r in frame.rows]) < len(frame.rows):
-        return ()
-    try:
-        point.rng.seed("dofkit curve")
-        flow = AdmissibleCurve(rows, frame, point)
-        flow.follow(3)
-        vectors = [v for k in range(3) for v in columns_of(flow.pulled[k])]
-        size = len(frame.free)
-        return tuple(rank_over(vectors[: size * (k + 1)], flow.sample) for k in range(3))
-    except NoValueError:
-        return ()
-
-
 def _dimensions(flows: Sequence[AdmissibleCurve]) -> tuple[int, ...]:
     vectors: list[tuple[Any, ...]] = []
     found = []
@@ -201,26 +182,6 @@ def _dimensions(flows: Sequence[AdmissibleCurve]) -> tuple[int, ...]:
         vectors += [v for flow in flows for v in columns_of(flow.pulled[k])]
         found.append(rank_over(vectors, flows[0].sample))
     return tuple(found)
-
-
-def undefined(
-    block: Block, setting: Setting, relations: Sequence[Expr], below: Expr, tops: Sequence[Expr]
-) -> Verdict | None:
-    """How sure it is that coefficients ``tops`` / ``below`` have no value where ``below`` = 0; None where it is not."""
-    chart = _chart(block, setting, [*relations, below], tops)
-    found = points_of(chart)
-    if found is None:
-        return None
-    try:
-        nodes = [chart.ring.node(e) for e in tops]
-        at = values(chart.ring, found.field)
-        with ctx.workprec(PRECISION):
-            balls = values(chart.ring, found.real)
-    except NoValueError:
-        return None
-    if not any(at[node] != 0 and not balls[node].contains(0) for node in nodes):
-        return None
-    return "proved" if found.regular else "probable"
 
 
 def meeting(coordinates: Sequence[str], setting: Setting, relations: Sequence[Expr]) -> Verdict | None:

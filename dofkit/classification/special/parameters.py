@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product as cartesian
 
-from dofkit.base.wording import many, verb
 from dofkit.classification.special.common_zeros import Leaf, Reals
-from dofkit.classification.special.wording import tuple_of
 from dofkit.exact.ring.canonical import Canon, Poly
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.report import BRANCH_WARNING, ConstraintEntry, Report
+from dofkit.report import Report
 from dofkit.system import Sign, System
 
 Values = Mapping[Expr, Expr]
-#: Labels whose change is told, after the change to holonomic.
+#: Labels whose change is reported.
 _WORDS = (
     ("holonomic", "holonomic", "non-holonomic"),
     ("scleronomic", "scleronomic", "rheonomic"),
-    ("exact", "exact as written", "not exact as written"),
 )
 #: Values of one condition that are looked at, all of which must give one answer.
 MAX_VALUES = 4
@@ -29,11 +26,10 @@ MAX_VALUES = 4
 
 @dataclass(frozen=True)
 class ParameterCondition:
-    """Conditions on parameters alone; ``integrals``: the constraints whose integrals are not defined under them."""
+    """Conditions on parameters alone."""
 
     leaf: Leaf
     reals: Reals
-    integrals: tuple[str, ...] = ()
 
 
 def assignments(condition: ParameterCondition, signs: Mapping[str, Sign]) -> list[dict[Expr, Expr]]:
@@ -124,87 +120,35 @@ def at_values(system: System, values: Values) -> System:
     )
 
 
-def differences(generic: Report, special: Report, integrals: Sequence[str] = ()) -> list[str]:
-    """What the answer becomes, in words: only where both are decided and differ.
-
-    ``integrals``: constraints whose integrals are not defined as they are written.
-    """
+def differences(generic: Report, special: Report) -> list[str]:
+    """Return what the answer becomes, in words, where both are decided and differ."""
     if generic.consistent is None or special.consistent is None:
         return []
-    if generic.consistent != special.consistent:
-        if special.consistent:
-            return [f"{_all(generic.conflicting)} can be satisfied, with {_degrees(special.dof)}"]
-        return [f"{_all(special.conflicting)} cannot be satisfied"]
-    said = [*_branches(generic, special), *_labels(generic, special), *_integrals(special, integrals)]
-    fields = (("the degrees of freedom are", "dof"), ("the velocity freedom is", "velocity_dof"))
-    numbers = {subject: (getattr(generic, f), getattr(special, f)) for subject, f in fields}
-    differ = {subject: pair for subject, pair in numbers.items() if None not in pair and pair[0] != pair[1]}
-    if len(differ) == 2 and len(set(differ.values())) == 1:
-        differ = {"the degrees of freedom and velocity freedom are": next(iter(differ.values()))}
-    said += [f"{subject} {new} instead of {old}" for subject, (old, new) in differ.items()]
-    old, new = generic.growth_vector, special.growth_vector
-    if old and new and old != new and not said:
-        said.append(f"the growth vector is {tuple_of(new)} instead of {tuple_of(old)}")
-    before, now = generic.redundant, special.redundant
-    idle = _idle(generic, special)
-    more = [] if before is None or now is None else [name for name in now if name not in before and name not in idle]
-    if more and generic.dof is not None and special.dof is not None:
-        said.append(f"{', '.join(more)} {_is(more)} redundant")
-    return said
+    if not (generic.consistent and special.consistent):
+        names = " and ".join(special.conflicting) or "the constraints together"
+        return [] if special.consistent == generic.consistent else [f"{names} cannot be satisfied"]
+    changes = [*_labels(generic, special)]
+    numbers = [
+        (subject, getattr(special, name), getattr(generic, name))
+        for subject, name in (("the degrees of freedom are", "dof"), ("the velocity freedom is", "velocity_dof"))
+    ]
+    differ = [row for row in numbers if None not in row and row[1] != row[2]]
+    if len(differ) == 2 and differ[0][1:] == differ[1][1:]:
+        differ = [("the degrees of freedom and velocity freedom are", *differ[0][1:])]
+    changes += [f"{subject} {after} instead of {before}" for subject, after, before in differ]
+    before, after = generic.redundant, special.redundant
+    more = [] if before is None or after is None else [name for name in after if name not in before]
+    return changes + ([f"{', '.join(more)} {_is(more)} redundant"] if more else [])
 
 
-def _branches(generic: Report, special: Report) -> list[str]:
-    """Constraints that fall into branches."""
-    told = [(e.name, BRANCH_WARNING.format(name=e.name)) for e in special.constraints]
-    return [f"{name} has several branches" for name, w in told if w in special.warnings and w not in generic.warnings]
-
-
-def _integrals(special: Report, names: Sequence[str]) -> list[str]:
-    """The integrals instead of those that are not defined."""
-    said = []
-    for entry in special.constraints:
-        if entry.name in names and entry.holonomic:
-            instead = entry.integral or "not found in closed form"
-            said.append(f"the integral of {entry.name} is {instead}")
-    return said
-
-
-def _all(names: Sequence[str]) -> str:
-    if len(names) == 1:
-        return names[0]
-    return f"{', '.join(names[:-1])} and {names[-1]} together" if names else "the constraints together"
-
-
-def _degrees(number: int | None) -> str:
-    return "an undecided number of degrees of freedom" if number is None else f"{many(number, 'degree')} of freedom"
-
-
-def _idle(generic: Report, special: Report) -> list[str]:
-    """Constraints that say nothing any more."""
-    pairs = zip(generic.constraints, special.constraints, strict=True)
-    return [old.name for old, new in pairs if old.independent and new.independent == 0 and new.circuit == []]
-
-
-def _labels(generic: Report, special: Report) -> list[str]:
-    idle = _idle(generic, special)
-    said = [f"{', '.join(idle)} {verb(len(idle))} always satisfied"] if idle else []
-    pairs = [p for p in zip(generic.constraints, special.constraints, strict=True) if p[0].name not in idle]
-    becoming = [old.name for old, new in pairs if _flips(old, new, "holonomic", True)]
-    if becoming and all(new.holonomic for old, new in pairs if old.form == "pfaffian"):
-        said.append("every form is integrable")
-    elif becoming:
-        said.append(f"{', '.join(becoming)} {_is(becoming)} holonomic")
-    pairs = [p for p in pairs if p[0].name not in becoming]
+def _labels(generic: Report, special: Report) -> Iterator[str]:
+    """Yield the constraints whose labels change."""
     for field, yes, no in _WORDS:
         for value, word in ((True, yes), (False, no)):
-            names = [old.name for old, new in pairs if _flips(old, new, field, value)]
+            pairs = zip(generic.constraints, special.constraints, strict=True)
+            names = [a.name for a, b in pairs if (getattr(a, field), getattr(b, field)) == (not value, value)]
             if names:
-                said.append(f"{', '.join(names)} {_is(names)} {word}")
-    return said
-
-
-def _flips(old: ConstraintEntry, new: ConstraintEntry, field: str, to: bool) -> bool:
-    return getattr(old, field) is (not to) and getattr(new, field) is to
+                yield f"{', '.join(names)} {_is(names)} {word}"
 
 
 def _is(names: Sequence[str]) -> str:
@@ -212,10 +156,7 @@ def _is(names: Sequence[str]) -> str:
 
 
 def changed(generic: Report, special: Report) -> list[str]:
-    """The constraints whose labels or independence change."""
+    """Return the constraints whose labels or independence change."""
     fields = ("holonomic", "scleronomic", "exact", "independent", "form")
-    return [
-        old.name
-        for old, new in zip(generic.constraints, special.constraints, strict=True)
-        if any(getattr(old, f) != getattr(new, f) for f in fields)
-    ]
+    pairs = zip(generic.constraints, special.constraints, strict=True)
+    return [a.name for a, b in pairs if any(getattr(a, f) != getattr(b, f) for f in fields)]

@@ -22,7 +22,7 @@ from dofkit.exact.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.pfaffian_system import Codistribution
-from dofkit.relations.ambient import free_point
+from dofkit.relations.chart import free_point
 
 #: Products of up to so many functions, and so many products at most.
 MAX_DEGREE, MAX_PRODUCTS = 3, 170
