@@ -123,21 +123,9 @@ def _numbers(point: Vec) -> tuple[float, ...] | None:
 
 
 def _diameter(points: list[tuple[float, ...]]) -> float:
-    """Return the largest distance of two points.
-
-    Among many points only the pairs are measured that a first estimate does not exclude: |p - q| <= |p - c| + |q - c|.
-    If those are still too many, as on a sphere, the estimate is returned: the extremes of a few dozen directions.
-    """
-    best = 0.0
-    if len(points) > EVERY_PAIR:
-        best = _diameter(_extremes(points))
-        centre = tuple((min(column) + max(column)) / 2 for column in zip(*points, strict=True))
-        reach = [dist(point, centre) for point in points]
-        furthest = max(reach)
-        points = [p for p, far in zip(points, reach, strict=True) if far + furthest > best * (1 + 1e-9)]
-        if len(points) > EVERY_PAIR:
-            return best
-    return max(best, max((dist(p, q) for p, q in combinations(points, 2)), default=0.0))
+    """Return the largest distance of two points; of many points, of those that reach furthest in some directions."""
+    few = points if len(points) <= EVERY_PAIR else _extremes(points)
+    return max((dist(p, q) for p, q in combinations(few, 2)), default=0.0)
 
 
 def _extremes(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:

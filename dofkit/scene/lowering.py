@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any
+from typing import Any, TypeAlias
 
 from dofkit.base.deadline import check as out_of_time
 from dofkit.base.deadline import gc_rarely
@@ -43,6 +43,8 @@ from dofkit.scene.scene import Scene
 from dofkit.scene.world import World, within
 from dofkit.system import GROUND, Connection, Constraint, Distance, ListedForce, Rotation, System
 
+#: Values of coordinates.
+Pose: TypeAlias = dict[Expr, Expr]
 #: Types to use instead of one that is not defined in a dimension.
 _INSTEAD = {
     1: "on a line use coincident, fixed, link or an equation",
@@ -276,21 +278,7 @@ def system_of(scene: Scene, found: Survey) -> System:
     """Return the mathematics of a scene that was surveyed without faults."""
     drawing, vocabulary = found.drawing, found.drawing.vocabulary
     pose = pose_of(drawing)
-    reference, singular, warnings = None, None, list(found.warnings)
-    if found.special:
-        warnings.append(SPECIAL)
-    elif not found.generic:
-        touched = cache(lambda: frozenset[str]().union(*(c.mentioned for c in found.constraints)))
-        reference = reference_of(drawing, found.drawn, pose, touched)
-        level = [] if reference is None else _level(drawing, touched)
-        if level:
-            reference, singular = None, reference
-            warnings.append(LEVEL.format(", ".join(level)))
-        elif reference is None and found.drawn:
-            missing = undrawn(drawing, found.drawn, pose, touched())
-            listed = ", ".join(missing[:8]) + (", ..." if len(missing) > 8 else "")
-            if missing:
-                warnings.append(f"There is no reference configuration: the position of {listed} is not given.")
+    reference, singular, warning = _reference(found, pose)
     names = names_by_position("f", [force.name for force in scene.forces])
     return System(
         name=scene.name,
@@ -313,10 +301,26 @@ def system_of(scene: Scene, found: Survey) -> System:
         arms=_arms(drawing, found.centre),
         tolerance=scene.tolerance or None,
         size=found.size,
-        warnings=tuple(warnings),
+        warnings=(*found.warnings, *warning),
         left_out=scene.left_out,
         drawn=singular,
     )
+
+
+def _reference(found: Survey, pose: Pose) -> tuple[Pose | None, Pose | None, list[str]]:
+    """Return the reference configuration, one that is singular for Euler angles in texts, and why there is none."""
+    if found.special or found.generic:
+        return None, None, [SPECIAL] if found.special else []
+    drawing = found.drawing
+    touched = cache(lambda: frozenset[str]().union(*(c.mentioned for c in found.constraints)))
+    reference = reference_of(drawing, found.drawn, pose, touched)
+    if reference is not None:
+        level = _level(drawing, touched)
+        return (None, reference, [LEVEL.format(", ".join(level))]) if level else (reference, None, [])
+    missing = undrawn(drawing, found.drawn, pose, touched()) if found.drawn else ()
+    listed = ", ".join(missing[:8]) + (", ..." if len(missing) > 8 else "")
+    message = f"There is no reference configuration: the position of {listed} is not given."
+    return None, None, [message] if missing else []
 
 
 def _level(drawing: Drawing, touched: Callable[[], frozenset[str]]) -> list[str]:
