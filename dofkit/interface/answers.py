@@ -74,7 +74,7 @@ def answer_lines(request: Request, answer: Callable[[Scene, Request], Iterator[J
         try:
             yield from answer(scene, request)
         except SceneError as error:
-            raise read.with_places(error) from None
+            raise read.error(error.faults) from None
     except MemoryError:
         raise
     except Exception as error:
