@@ -28,6 +28,7 @@ from dofkit.relations.blocks import Block
 from dofkit.report import ConstraintEntry, Count, FieldVerdict, ForceEntry, Report
 from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.lowering import lower
+from dofkit.scene.names import names_by_position
 from dofkit.scene.scene import Scene
 from dofkit.system import BODY_ROLES, Constraint, System
 

@@ -21,7 +21,7 @@ from dofkit.scene.frames import Placed
 from dofkit.scene.ledger import MOVING
 from dofkit.scene.parts import Force
 from dofkit.scene.scene import Scene
-from dofkit.scene.world import Before, World
+from dofkit.scene.world import World
 from dofkit.system import GROUND
 
 Part = Literal["potential", "dissipation", "applied"]
@@ -193,7 +193,7 @@ class EntryWorlds:
 
     def at(self, *here: str | int) -> World:
         """The world of the entry at a path."""
-        self._worlds.append(World(self.drawing, here, Before(len(self.faults))))
+        self._worlds.append(World(self.drawing, here))
         return self._worlds[-1]
 
     @property
