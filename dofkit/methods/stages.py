@@ -26,7 +26,6 @@ from dofkit.methods.table import METHODS, Knobs, MethodName, MethodReply, Questi
 from dofkit.relations.answer import BITS, GAP, Answer
 from dofkit.relations.blocks import Block
 from dofkit.report import ConstraintEntry, Count, FieldVerdict, ForceEntry, Report
-from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.lowering import lower
 from dofkit.scene.names import names_by_position
 from dofkit.scene.scene import Scene
