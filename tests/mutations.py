@@ -68,7 +68,7 @@ JOINED: Mapping[type[ast.AST], tuple[str, str]] = {
 #: The file, the line as it is and as it is changed: why no answer is another one.
 SAME: Mapping[tuple[str, str, str], str] = {
     (
-        "dofkit/classification/dependence/equation_count.py",
+        "dofkit/classification/dependence/removal.py",
         "bent = False",
         "bent = True",
     ): "that one such row takes freedom follows from the count at the end",
@@ -98,7 +98,7 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "if float(np.max(np.abs(step))) <= 1e-12:",
     ): "a floating point number does not meet a bound exactly",
     (
-        "dofkit/relations/normal/extremes.py",
+        "dofkit/relations/normal/polynomial_zeros.py",
         "return [(index, -1 if (weight > 0) == (constant > 0) else 1) for index, weight in weights.items()]",
         "return [(index, -1 if (weight > 0) == (constant >= 0) else 1) for index, weight in weights.items()]",
     ): "the constant is not 0: its absolute value is a sum of weights that are not",

@@ -25,17 +25,19 @@ TREES = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in SOU
 #: The chapters of the book: the rooms, the site and two contracts.
 TOP = {
     "base", "expressions", "exact", "scene", "relations", "mobility", "configuration", "integrability",
-    "classification", "models", "motion", "methods", "benchmark", "homework", "interface", "checker", "motion_checker",
+    "classification", "models", "motion", "methods", "benchmark", "homework", "interface", "checker",
     "pictures", "site", "system.py", "report.py", "__init__.py", "__main__.py", "py.typed", "THEOREMS.md",
 }  # fmt: skip
 
 LONGEST_FUNCTION, MOST_PARAMETERS, LONGEST_CLASS, LONGEST_FILE, MOST_METHODS = 40, 6, 200, 400, 20
 #: Heavy, optional, or what nothing but this needs: imported where they are used.
-LATE_IMPORTS = frozenset({"sympy", "rich", "matplotlib", "distributed", "jinja2", "flint", "mujoco", "typst"})
+LATE_IMPORTS = frozenset(
+    {"sympy", "rich", "matplotlib", "distributed", "jinja2", "flint", "mujoco", "typst", "latex2mathml"}
+)
 #: Where one bad file or answer must not stop the others, whatever it does.
 CATCH_ALL = frozenset(
-    {"base/workers.py", "homework/assignment.py", "homework/grading.py", "homework/echo.py",
-     "interface/one_file.py", "benchmark/runner.py"}
+    {"base/workers.py", "homework/assignment.py", "homework/grading.py", "interface/answers.py",
+     "benchmark/runner.py"}
 )  # fmt: skip
 
 
@@ -224,7 +226,7 @@ def unknown_jobs() -> Iterator[str]:
 
 
 #: Rooms so small, or so clear from the names in them, that a list of modules would say nothing.
-UNLISTED = {"motion_checker"}
+UNLISTED: set[str] = set()
 
 
 def unlisted_modules() -> Iterator[str]:

@@ -6,7 +6,7 @@ import os
 import platform
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
@@ -19,17 +19,15 @@ from rich.table import Table
 
 from dofkit.base import __version__
 from dofkit.base.runs import cores
-from dofkit.base.workers import Job, function_named
+from dofkit.base.workers import function_named
 from dofkit.benchmark import record, runner, tasks
-from dofkit.benchmark.record import ALL, AUTO, ChartError, ChartRun, Data, Ran, ReductionCost, Score
+from dofkit.benchmark.record import ALL, AUTO, ChartError, ChartRun, Data, Ran, Score
 from dofkit.benchmark.sentences import TWICE, summary
 from dofkit.benchmark.tasks import Selection
 from dofkit.benchmark.trials import FAMILIES
 
 #: Seconds of processor time for a trial, and in a quick run.
 LIMIT, LIMIT_QUICK = 2.0, 0.5
-#: Seconds that measuring one reduction on one scene may take.
-REDUCTION_SECONDS = 120.0
 #: What draws the figures, and so needs matplotlib.
 FIGURES = "dofkit.benchmark.figures.table:write"
 NO_MATPLOTLIB = "nothing is drawn without matplotlib: pip install 'dofkit[chart]'"
@@ -132,24 +130,13 @@ def writable(out: Path) -> None:
 def _gather(
     options: ChartOptions, work: Sequence[tasks.TrialTask], swept: Sequence[tasks.TrialTask], data: Data
 ) -> None:
-    """Fill the data. Reductions are measured beside the trials: each of their runs needs the one before."""
+    """Fill the data."""
     with _bench(options) as bench, _bar() as bar:
-        job = Job(runner.ablation_rows, options.selection.quick, REDUCTION_SECONDS)
-        reduced = bench.crew.submit(bench.ask, job) if _reduces(options.selection) else None
         for name, members, lines in (("trials", work, data.lines), ("sweeps", swept, data.sweeps)):
             progress = bar.add_task(name, total=len(members))
             for line in runner.run(members, bench):
                 lines.append(line)
                 bar.update(progress, advance=1)
-        if reduced is not None:
-            progress = bar.add_task("reductions", total=None)
-            data.reductions.extend(ReductionCost.model_validate(row) for row in reduced.result().value or ())
-            bar.update(progress, total=1, completed=1)
-
-
-def _reduces(selection: Selection) -> bool:
-    """Return whether reductions are measured: where everything is, as they are about `auto` on scenes of their own."""
-    return not (selection.questions or selection.families or selection.methods)
 
 
 def _bench(options: ChartOptions) -> AbstractContextManager[runner.Bench]:
@@ -186,7 +173,7 @@ def show(chart: ChartRun, data: Data, out: Path, drawn: Sequence[Path]) -> None:
         console.print(table(chart))
         for sentence in auto_sentences(chart):
             console.print(sentence, soft_wrap=True)
-    console.print(f"data: {out}/ (trials.csv, sweeps.csv, reductions.csv, chart.json)", soft_wrap=True)
+    console.print(f"data: {out}/ (trials.csv, sweeps.csv, chart.json)", soft_wrap=True)
     if drawn:
         names = ", ".join(path.stem for path in drawn)
         console.print(f"figures, as .png and .svg: {names}", soft_wrap=True)
@@ -219,26 +206,10 @@ def _cells(score: Score) -> tuple[str, ...]:
     return (score.method, *(str(count) if count else "-" for count in counts), median)
 
 
-def auto_sentences(chart: ChartRun) -> list[str]:
-    """Return how many answers of ``auto`` are wrong, and where it is slower than the fastest method that is right."""
-    auto = [score for score in chart.scores if score.method == AUTO and score.family == ALL]
-    if not auto:
-        return []
-    trials, wrong = sum(score.trials for score in auto), sum(score.wrong for score in auto)
-    open_ = sum(score.undecided + score.timed_out + score.cannot for score in auto)
-    sentences = [f"auto: {trials} trials, {wrong} wrong, {open_} without an answer"]
-    if not chart.against:
-        return sentences
-    sound = [row for row in chart.against if row.sound_ratio is not None]
-    slow = [row for row in sound if row.sound_ratio is not None and row.sound_ratio > TWICE]
-    sentences.append(
-        f"auto: at most twice the time of the fastest method that is right on a family and never wrong: "
-        f"{len(sound) - len(slow)} of {len(sound)} families"
-    )
-    for row in sorted(slow, key=lambda row: -(row.sound_ratio or 0))[:5]:
-        sentences.append(f"  {row.question}, {row.family}: {row.sound_ratio:.1f} times {row.sound}")
-    within = sum(row.ratio <= TWICE for row in chart.against)
-    sentences.append(
-        f"auto: the same, with methods that are wrong elsewhere: {within} of {len(chart.against)} families"
-    )
-    return sentences
+def auto_sentences(chart: ChartRun) -> Iterator[str]:
+    """Yield how ``auto`` did, and the families on which it is slower than the fastest method that is never wrong."""
+    yield from (chart.sentences[key] for key in ("trials", "time") if key in chart.sentences)
+    slow = [(row.sound_ratio or 0, row) for row in chart.against]
+    for ratio, row in sorted(slow, key=lambda pair: -pair[0])[:5]:
+        if ratio > TWICE:
+            yield f"  {row.question}, {row.family}: {ratio:.1f} times {row.sound}"

@@ -8,12 +8,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from importlib import resources
 from typing import NamedTuple
 
+import yaml
+
 from dofkit.benchmark import statistics
-from dofkit.benchmark.record import ALL, AUTO, ChartRun, Data, Ran, ReductionCost, Score
+from dofkit.benchmark.record import ALL, AUTO, ChartRun, Data, Ran, Score
 from dofkit.benchmark.statistics import grouped
-from dofkit.relations.reductions import REDUCTIONS
 
 #: `auto` should take no more than so many times the fastest method that is right.
 TWICE = 2
@@ -24,6 +26,7 @@ _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight"
 
 def summary(data: Data) -> ChartRun:
     """Return all that is drawn and printed."""
+    captions = yaml.safe_load((resources.files(__package__) / "captions.yaml").read_text(encoding="utf-8"))
     scores, points = statistics.scores(data.lines), statistics.points(data.lines)
     chart = ChartRun(
         ran=data.ran,
@@ -33,8 +36,7 @@ def summary(data: Data) -> ChartRun:
         fits=statistics.fits(points),
         steps=statistics.steps(data.sweeps),
         against=statistics.against(data.lines),
-        reductions=data.reductions,
-        captions={name: f"{text} {provenance(data.ran)}" for name, text in _CAPTIONS.items()},
+        captions={name: f"{text} {provenance(data.ran)}" for name, text in captions.items()},
     )
     return chart.model_copy(update={"sentences": sentences(chart)})
 
@@ -48,49 +50,10 @@ def provenance(ran: Ran) -> str:
     )
 
 
-_CAPTIONS = {
-    "fronts": (
-        "Each square is a method at the median time of the trials that it can answer, the whisker goes from the 10th "
-        "to the 90th of 100 of them (one that timed out counts with the limit). Upwards, logarithmically, the share "
-        "of trials without the right answer; wrong answers are listed in red, and separately trials without an answer "
-        "(undecided, timed out or not applicable). The grey steps are the Pareto front of the methods that were never "
-        "wrong."
-    ),
-    "matrix": (
-        "Every cell shows the shares of the outcomes of a method on the trials of a family (their number stands next "
-        "to it). A red number is the percentage of wrong answers; a grey one, where none is wrong, that of trials "
-        "without an answer; no number means that all are right. Under each heading the hardest families stand last, "
-        "by the share that all methods together do not get right."
-    ),
-    "cost": (
-        "Medians over the trials of a size. A cross marks a trial that timed out (dotted line); larger sizes are not "
-        "run. The exponents are fitted by least squares on logarithms over the largest decade of sizes, and given "
-        "where a power law fits (standard error below a tenth of the exponent). The other methods are grey; all "
-        "families are in chart.json."
-    ),
-    "tolerance": (
-        "Singular configurations with coordinates rounded to the given number of digits; the right answer is that of "
-        "the unrounded geometry. Each bar shows the shares of ten trials. Left: ranks by singular values, where "
-        "values below that fraction of the largest count as 0. Right: dofkit, with that tolerance written in the "
-        "scene. The triangle marks the tolerance equal to the rounding; a smaller one is not true of the rounded "
-        "geometry."
-    ),
-    "bits": (
-        "Ball arithmetic of one precision on its own, on scenes that miss a special case by a gap: with too few bits "
-        "no ball distinguishes the gap from 0, and taking it for 0 is wrong."
-    ),
-    "reductions": (
-        "Each dot compares a scene answered with one reduction switched off with the same scene and all of them on, "
-        "both after a first run. Blue: scenes made for the reduction, of growing size; grey: scenes of the catalog. "
-        "The bar is the median of the blue dots."
-    ),
-}
-
-
 def sentences(chart: ChartRun) -> dict[str, str]:
     """Return the sentences by what they are about; those that the run has no data of are left out."""
     texts = {"trials": _trials(chart), "time": _time(chart), "tolerance": _tolerance(chart), "bits": _bits(chart)}
-    texts |= {"primes": _primes(chart), "cost": _cost(chart), "reductions": _reductions(chart)}
+    texts |= {"primes": _primes(chart), "cost": _cost(chart)}
     texts |= {method: _method(chart, method) for method in dict.fromkeys(score.method for score in chart.scores)}
     return {key: text for key, text in texts.items() if text}
 
@@ -219,26 +182,6 @@ def _cost(chart: ChartRun) -> str:
     return (
         f"A framework of {first.size} joints takes `auto` {_milliseconds(first.seconds)}, one of {last.size} joints "
         f"{_milliseconds(last.seconds)}."
-    )
-
-
-def compared(chart: ChartRun) -> list[tuple[ReductionCost, ReductionCost]]:
-    """Return each scene without a reduction beside the same with all of them."""
-    full = {row.scene: row for row in chart.reductions if not row.off}
-    return [(row, full[row.scene]) for row in chart.reductions if row.off and row.scene in full]
-
-
-def _reductions(chart: ChartRun) -> str:
-    pairs = compared(chart)
-    if not pairs:
-        return ""
-    titles = {str(key): reduction.title for key, reduction in REDUCTIONS.items()}
-    changed = sum(not row.unchanged for row, _ in pairs)
-    off, on = max(((o, w) for o, w in pairs if o.family == o.off), key=lambda pair: pair[0].seconds / pair[1].seconds)
-    return (
-        f"Left out one by one in {_spaced(len(pairs))} cases, the reductions change {changed or 'no'} "
-        f"answer{'s' * (changed > 1)}; on scenes made for it, one reduction saves at most a factor of "
-        f"{off.seconds / on.seconds:.2g} of the time ({titles.get(off.off, off.off)})."
     )
 
 

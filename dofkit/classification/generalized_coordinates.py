@@ -2,32 +2,234 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 
-from dofkit.base.deadline import expired
+from dofkit.base.deadline import expired, unless_late
+from dofkit.base.verdicts import ArgumentKey, Claim, together
 from dofkit.classification import tangent_spaces
-from dofkit.classification.explicit_coordinates import MOST, PLAIN, QUADRATIC, explicit
 from dofkit.classification.freedom.bridged_blocks import with_still_parts
-from dofkit.classification.turned_coordinates import TurnedGroup, chosen_at_drawing, partly_turned, rows_at_drawing
+from dofkit.classification.study import Study
+from dofkit.classification.turned_coordinates import (
+    TurnedGroup,
+    are_coordinates,
+    chosen_at_drawing,
+    partly_turned,
+    rows_at_drawing,
+    turned_together,
+)
 from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.configuration.rigid_motions import RigidOrbit
-from dofkit.exact.engines import BOTH
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import last_columns, rank_of_rows
+from dofkit.exact.zero import BOTH
 from dofkit.expressions import tree as ex
-from dofkit.relations.answer import Answer
+from dofkit.expressions.renaming import shape_of
+from dofkit.expressions.tree import Expr
+from dofkit.mobility import tree_pose
+from dofkit.relations.answer import BITS, Answer
 from dofkit.relations.blocks import Block
-from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.chart import make_chart
 from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 from dofkit.system import Rotation
 
+#: Relations and coordinates up to so many are looked at.
+MOST = 120
+#: How a coordinate occurs: once, times a number; in the first degree; in the second; in no such way.
+PLAIN, LINEAR, QUADRATIC, OTHER = 0, 1, 2, 9
+
+
+def explicit(relations: Sequence[Expr], names: Sequence[str], count: int, most: int = LINEAR) -> list[str] | None:
+    """The coordinates that are left when ``count`` of the relations are solved for one each, one after another.
+
+    None where that does not go on until the end. What is solved most plainly goes first, then the last of ``names``;
+    ``most``: how a coordinate may occur that is solved for, only once in the second degree.
+    """
+    if len(relations) > MOST or len(names) > MOST:
+        return None
+    left = _readings(relations)
+    solved: set[str] = set()
+    while len(solved) < count:
+        open_ = [n for n in reversed(names) if n not in solved]
+        found = min(((r.of[n], k, i) for i, r in enumerate(left) for k, n in enumerate(open_) if n in r.of),
+                    default=(OTHER, 0, 0))  # fmt: skip
+        if found[0] > most:
+            return None
+        most = LINEAR if found[0] == QUADRATIC else most
+        relation = left.pop(found[2])
+        solved.add(open_[found[1]])
+        left = [r.without(open_[found[1]], relation) for r in left]
+    return [n for n in names if n not in solved]
+
+
+@dataclass(frozen=True)
+class _Reading:
+    """How each coordinate of a relation occurs in it."""
+
+    of: dict[str, int]
+
+    def without(self, name: str, by: _Reading) -> _Reading:
+        """After ``name`` was replaced by what the relation ``by`` gives."""
+        if name not in self.of:
+            return self
+        return _Reading({**{n: k for n, k in self.of.items() if n != name}, **{n: OTHER for n in by.of if n != name}})
+
+
+def _readings(relations: Iterable[Expr]) -> list[_Reading]:
+    """How coordinates occur in every relation; looked at once in those that are the same up to names."""
+    known: dict[Expr, list[tuple[int, int]]] = {}
+    found = []
+    for g in relations:
+        shape = shape_of(g)
+        if shape.skeleton not in known:
+            place = {name: k for k, name in enumerate(shape.names)}
+            known[shape.skeleton] = [(place[name], degree) for name, degree in _degrees(g).items()]
+        found.append(_Reading({shape.names[k]: degree for k, degree in known[shape.skeleton]}))
+    return found
+
+
+def _degrees(g: Expr) -> dict[str, int]:
+    """Every coordinate of ``g`` with how it occurs."""
+    memo: dict[int, dict[str, int]] = {}
+    stack = [g]
+    while stack:
+        node = stack.pop()
+        parts = ex.children(node)
+        waiting = [part for part in parts if id(part) not in memo]
+        if waiting:
+            stack += [node, *waiting]
+        else:
+            memo[id(node)] = _joined(node, [memo[id(part)] for part in parts])
+    return memo[id(g)]
+
+
+def _joined(e: Expr, parts: Sequence[dict[str, int]]) -> dict[str, int]:
+    """How coordinates occur in a node, by how they occur in its parts."""
+    if e.op == "sym":
+        return {str(e.args[1]): PLAIN} if e.args[0] == "coordinate" else {}
+    if e.op == "pow" and e.args[1] == ex.TWO:
+        return {n: QUADRATIC if k <= LINEAR else OTHER for n, k in parts[0].items()}
+    if e.op not in ("add", "mul"):
+        return {n: OTHER for part in parts for n in part}
+    single = e.op == "mul" and sum(p.op not in ("num", "const") for p in e.args) == 1
+    found: dict[str, int] = {}
+    for part in parts:
+        for name, k in part.items():
+            own = k if single or e.op == "add" else max(k, LINEAR)
+            found[name] = own if name not in found else _both(e.op, found[name], own)
+    return found
+
+
+def _both(op: str, first: int, second: int) -> int:
+    """Of a coordinate in two terms, or in two factors."""
+    if op == "add":
+        return max(first, second, LINEAR)
+    return QUADRATIC if max(first, second) == LINEAR else OTHER
+
+
+#: Arguments by which every part of the set is as good as every other.
+ALIKE: frozenset[ArgumentKey | None] = frozenset(
+    {
+        "nothing constrains",
+        "one relation",
+        "graph",
+        "links in general position",
+        "Lie algebra, certified",
+        "states of motion",
+        "exact elimination",
+    }
+)
 #: Coordinates up to so many are looked for on a tangent space.
 MAX_COLUMNS = 120
 
 
-def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rotation]) -> list[str] | None:
+def generalized_coordinates(study: Study) -> list[str] | None:
+    """An independent choice of ``dof`` coordinates: those that are not pivots of what integrates.
+
+    Of an open tree where that is not known at the drawing, by the rows of its joints at another pose.
+    """
+    found = unless_late(partial(_of_system, study), None)
+    return unless_late(partial(_on_tree, study), None) if found is None else found
+
+
+def _on_tree(study: Study) -> list[str] | None:
+    found = None if not study.outcome.dof else tree_pose.free_coordinates(study.system, study.setting.positive)
+    return found if found is not None and len(found) == study.outcome.dof else None
+
+
+def _of_system(study: Study) -> list[str] | None:
+    system, outcome = study.system, study.outcome
+    if outcome.dof is None:
+        return None
+    chosen = set(outcome.untouched)
+    known: dict[int, list[int]] = {}
+    for block, a in zip(outcome.blocks, outcome.answers, strict=True):
+        places = None if a.kind is None else known.get(a.kind)
+        if places is None:
+            own = _of_block(block, a, study.setting, system.rotations)
+        else:
+            own = [block.coordinates[k] for k in places]
+        if own is None:
+            return None
+        if a.kind is not None and not system.rotations:
+            known[a.kind] = [block.coordinates.index(name) for name in own]
+        chosen.update(own)
+    for group in _turned_groups(study, chosen):
+        if group.places == 1:
+            continue
+        free = chosen.intersection(group.block.coordinates)
+        whole = Answer(dof=len(free), dependent=group.block.coordinates, hidden=[*group.hidden])
+        own = _of_block(group.block, whole, study.setting, system.rotations)
+        if own is None:
+            return None
+        chosen = chosen - free | set(own)
+    return [c.name for c in system.coordinates if c.name in chosen]
+
+
+def _turned_groups(study: Study, chosen: Collection[str]) -> Iterable[TurnedGroup]:
+    """Return the groups of blocks that hold the angles of bodies of which some angles are chosen and some are not."""
+    turning = partly_turned(chosen, study.system.rotations) if study.system.rotations else ()
+    outcome = study.outcome
+    return turned_together(outcome.blocks, outcome.answers, outcome.untouched, turning) if turning else ()
+
+
+def claim_of_choice(study: Study, free: Claim, chosen: Sequence[str]) -> Claim:
+    """Of the generalized coordinates: the others have independent rows, at the reference or at a generic point.
+
+    Where the set may have several parts the point may lie on another one. At a singular reference the set is known
+    where it is the orbit of the whole as one body; elsewhere it may be no graph over any coordinates. Where
+    some angles of a body that turns are chosen, at a certified configuration.
+    """
+    parts = []
+    for block, a in zip(study.outcome.blocks, study.outcome.answers, strict=True):
+        if a.argument in ALIKE or not a.dof or (a.about == "reference" and a.instantaneous == a.velocity_dof):
+            parts.append(counted(a.claim))
+        elif a.argument == "joints that close no loop":
+            parts.append(replace(counted(a.claim), about="component"))
+        elif a.about == "reference":
+            orbit = orbit_at_reference(block, a, study.setting)
+            sure = orbit is not None and orbit.rank(chosen) == a.dof
+            near = Claim("probable", "generic points", bits=BITS, about="component")
+            parts.append(counted(a.claim) if sure else together(a.claim, near))
+        elif regular_at_witness(block.coordinates, a, chosen):
+            parts.append(replace(a.claim, about="component"))
+        else:
+            parts.append(together(a.claim, Claim("probable", "generic points", bits=BITS)))
+    for group in _turned_groups(study, chosen):
+        if not are_coordinates(group, chosen, study.setting, study.system.rotations):
+            parts.append(Claim("probable", "generic points", bits=BITS, about="component"))
+    return together(*parts) if parts else counted(free)
+
+
+def counted(claim: Claim) -> Claim:
+    """A number that is counted from another: a proof of it is a proof by counting."""
+    return Claim("proved", "count", claim.bits, claim.gap, claim.about) if claim.verdict == "proved" else claim
+
+
+def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rotation]) -> list[str] | None:
     """The free coordinates of a block; None where none could be told."""
     if a.dof is None:
         return None
@@ -42,7 +244,7 @@ def generalized(block: Block, a: Answer, setting: Setting, rotations: Sequence[R
         return direct if chosen is None or not _is_regular(block, a, chosen, setting) else chosen
     if setting.engines != BOTH:
         return direct if len(direct) == a.dof and not turning else None
-    whole = direct if len(direct) == a.dof and not partly_turned(direct, turning) else None
+    whole = direct if len(direct) == a.dof and not (turning and partly_turned(direct, turning)) else None
     drawn = None if whole or not turning else chosen_at_drawing(TurnedGroup(block, tuple(a.hidden)), setting, turning)
     if drawn is not None and len(drawn) == a.dof:
         return drawn

@@ -1,163 +1,224 @@
-"""The passes, in their order, as a table: what fills which field of the report. Only this module orders them."""
+"""The passes that fill a report, in their order."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import DEFAULT_SECONDS, gc_rarely, limited, part, unless_late
-from dofkit.base.verdicts import weakest
+from dofkit.base.verdicts import OPEN, Claim, weakest
 from dofkit.classification import report as fields
-from dofkit.classification.agreements import agreed
-from dofkit.classification.claims import claims, freedom
 from dofkit.classification.counts import counts_beside
-from dofkit.classification.feasibility.feasibility_fields import inequalities_together
+from dofkit.classification.feasibility.feasibility import inequalities_together
 from dofkit.classification.freedom.branches import Outcome
+from dofkit.classification.freedom.preparation import all_of
+from dofkit.classification.generalized_coordinates import generalized_coordinates
+from dofkit.classification.report import claims, freedom
 from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
-from dofkit.exact.engines import BOTH, Engines
 from dofkit.exact.points.balls import precise_for
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.mobility.counts import without_drives
-from dofkit.relations.reductions import ALL, Reductions
-from dofkit.relations.setting import Setting
-from dofkit.report import FieldVerdict, Mobility, Report
+from dofkit.relations.answer import DEFECTS
+from dofkit.relations.setting import ALL, Reductions, Setting
+from dofkit.report import ConstraintEntry, FieldVerdict, Mobility, Report
 from dofkit.system import System
+
+#: Fields that are an empty list where they have no value.
+LISTS = ("redundancies",)
+#: Fields of the entries that are withheld together with the redundancy of the report.
+OF_ENTRIES = ("independent", "circuit", "redundant_equations")
+UNDECIDED = FieldVerdict.of(OPEN)
+CONTRADICTION = "These fields are withheld because they contradict each other ({law}): {fields}."
+
+Values = Mapping[str, Any]
+
+
+def _freedoms_agree(values: Values) -> bool:
+    """Return whether 0 <= velocity freedom <= freedom <= coordinates, with equality in a holonomic system."""
+    dof, velocities, at_reference = (values[k] for k in ("dof", "velocity_dof", "instantaneous_dof"))
+    if dof is None or velocities is None:
+        return True
+    if not 0 <= velocities <= dof <= values["count"].coordinates or (values["holonomic"] and velocities < dof):
+        return False
+    return at_reference is None or bool(velocities <= at_reference)
+
+
+def _dependences_agree(values: Values) -> bool:
+    """Return whether as many equations are redundant by rank, by implication and in the groups.
+
+    An equation that states several things removes more freedom than one: then more equations are implied. At a singular
+    configuration the groups may hold fewer.
+    """
+    redundant, surplus = values["redundant"], values["redundant_equations"]
+    if redundant is None or surplus is None or values["consistent"] is not True:
+        return True
+    entries: list[ConstraintEntry] = values["constraints"]
+    nullity = sum(group.nullity for group in values["redundancies"])
+    members = {name for group in values["redundancies"] for name in group.members}
+    removed = sum(e.equations for e in entries if e.name in redundant)
+    if not members.issuperset(redundant) or removed > nullity:
+        return False
+    bilateral = [e for e in entries if e.bilateral]
+    if any(e.independent is None for e in bilateral):
+        return True
+    implied = sum(e.equations - (e.independent or 0) for e in bilateral)
+    return implied >= surplus and nullity >= surplus and (bool(values["singular"]) or nullity >= implied)
+
+
+def _circuits_agree(values: Values) -> bool:
+    """Return whether circuits belong to redundant constraints and hold only constraints written before them."""
+    before = set[str]()
+    for e in values["constraints"]:
+        if e.circuit is not None and (e.name not in (values["redundant"] or ()) or not before.issuperset(e.circuit)):
+            return values["redundant"] is None
+        before.add(e.name)
+    return True
+
+
+def _growth_agrees(values: Values) -> bool:
+    """Return whether the growth vector begins with the velocity freedom and ends with the freedom, time apart."""
+    growth, dof, velocities = (values[k] for k in ("growth_vector", "dof", "velocity_dof"))
+    if None in (growth, dof, velocities):
+        return True
+    time = growth[0] - velocities
+    return growth == sorted(growth) and time == growth[-1] - dof and time in (0, 1)
+
+
+def _choice_agrees(values: Values) -> bool:
+    chosen, dof = values["generalized_coordinates"], values["dof"]
+    return chosen is None or dof is None or len(chosen) == dof
+
+
+class Agreement(NamedTuple):
+    """A law in words, the fields that are withheld where it is broken, and the function that checks it."""
+
+    law: str
+    fields: tuple[str, ...]
+    holds: Callable[[Values], bool]
+
+
+_REDUNDANCY = ("redundant", "redundancies", "redundant_equations")
+AGREEMENTS: tuple[Agreement, ...] = (
+    Agreement(
+        "the velocity freedom exceeds neither the degrees of freedom nor the instantaneous freedom",
+        ("dof", "velocity_dof", "instantaneous_dof", "singular"),
+        _freedoms_agree,
+    ),
+    Agreement(
+        "as many equations are redundant by rank, by implication and in the groups", _REDUNDANCY, _dependences_agree
+    ),
+    Agreement("a circuit belongs to a redundant constraint and was written before it", _REDUNDANCY, _circuits_agree),
+    Agreement(
+        "the growth vector begins with the velocity freedom and ends with the degrees of freedom",
+        ("growth_vector",),
+        _growth_agrees,
+    ),
+    Agreement("there are as many generalized coordinates as freedoms", ("generalized_coordinates",), _choice_agrees),
+)
+
+
+def agreed(values: Values) -> dict[str, Any]:
+    """Return the fields of a report without those that contradict each other."""
+    kept = dict(values)
+    for row in AGREEMENTS:
+        if not row.holds(values):
+            DEFECTS.error("defect in the report of %r: %s is not so", values["scene"], row.law)
+            kept = _without(kept, row)
+    return kept
+
+
+def _without(values: dict[str, Any], row: Agreement) -> dict[str, Any]:
+    withheld: dict[str, Any] = {name: [] if name in LISTS else None for name in row.fields}
+    verdicts = values["verdicts"] | {name: UNDECIDED for name in row.fields if name in values["verdicts"]}
+    warnings = [*values["warnings"], CONTRADICTION.format(law=row.law, fields=", ".join(row.fields))]
+    entries = values["constraints"]
+    if row.fields == _REDUNDANCY:
+        entries = [_undecided_entry(e) for e in entries]
+    changed = {"constraints": entries, "warnings": warnings, "verdict": "undecided", "verdicts": verdicts}
+    return {**values, **withheld, **changed}
+
+
+def _undecided_entry(e: ConstraintEntry) -> ConstraintEntry:
+    verdicts = e.verdicts | {name: UNDECIDED for name in OF_ENTRIES if name in e.verdicts}
+    return e.model_copy(update={**dict.fromkeys(OF_ENTRIES), "verdict": "undecided", "verdicts": verdicts})
+
 
 #: Of the time, for the blocks of a scene.
 SOLVING = 0.75
 NO_SPECIAL_CASES = "There was no time to look for special cases."
 
-Values = Mapping[str, Any]
-#: What fills fields: from what is known of the system, and what the passes before told.
+#: What fills fields: from the study of a system, and the values of the passes before.
 Fill = Callable[[Study, Values], Values]
 
 
-@dataclass(frozen=True)
-class Pass:
-    """One pass: the ``fields`` that it fills, the one function that does, and fields that it only ``adds`` to.
-
-    An ``optional`` pass is left out where only the generic answer is asked for.
-    """
-
-    fields: str
-    fill: Fill
-    adds: str = ""
-    optional: bool = False
-
-
-def _scene(study: Study, told: Values) -> Values:
-    del told
-    return {"scene": study.system.name, "forces": fields.forces(study)}
-
-
-def _conflicts(study: Study, told: Values) -> Values:
-    del told
-    names = study.names
-    conflicting = [names[i] for i in study.dependence.conflicting.members]
-    return {"consistent": study.outcome.consistent, "conflicting": conflicting}
-
-
-def _freedom(study: Study, told: Values) -> Values:
-    del told
-    return {"dof": study.outcome.dof, "velocity_dof": study.outcome.velocity_dof}
-
-
-def _first_order(study: Study, told: Values) -> Values:
-    del told
-    return {"instantaneous_dof": fields.instantaneous_dof(study), "singular": fields.singular(study)}
-
-
-def _redundancy(study: Study, told: Values) -> Values:
-    del told
-    return {
+def _generic_fields(study: Study, values: Values) -> Values:
+    """Return the generic answer: every field that needs no second look at the scene, with the claim of each."""
+    del values
+    entries, outcome, dependence = study.entries, study.outcome, study.dependence
+    answer: dict[str, Any] = {
+        "scene": study.system.name,
+        "forces": fields.forces(study),
+        "consistent": outcome.consistent,
+        "conflicting": [study.names[i] for i in dependence.conflicting.members],
+        "dof": outcome.dof,
+        "velocity_dof": outcome.velocity_dof,
+        "instantaneous_dof": fields.instantaneous_dof(study),
+        "singular": fields.singular(study),
         "redundant_equations": study.redundant_equations,
         "redundant": fields.redundant(study),
         "redundancies": fields.redundancies(study),
-    }
-
-
-def _entries(study: Study, told: Values) -> Values:
-    del told
-    entries = study.entries
-    return {
         "constraints": entries,
-        "holonomic": fields.of_all([e.holonomic for e in entries]),
-        "scleronomic": fields.of_all([e.scleronomic for e in entries]),
-    }
-
-
-def _count(study: Study, told: Values) -> Values:
-    del told
-    return {"count": fields.lecture_count(study)}
-
-
-def _choice(study: Study, told: Values) -> Values:
-    del told
-    return {
-        "generalized_coordinates": fields.generalized_coordinates(study),
+        "holonomic": all_of(e.holonomic for e in entries),
+        "scleronomic": all_of(e.scleronomic for e in entries),
+        "count": fields.lecture_count(study),
+        "generalized_coordinates": generalized_coordinates(study),
         "joint_coordinates": fields.joint_coordinates(study),
-    }
-
-
-def _growth(study: Study, told: Values) -> Values:
-    return {"growth_vector": fields.growth_vector(study.outcome, told["constraints"])}
-
-
-def _integrable(study: Study, told: Values) -> Values:
-    del told
-    return {"integrable_part": fields.largest_integrable_part(study)}
-
-
-def _sureness(study: Study, told: Values) -> Values:
-    """How sure it is: every field by itself, and the weakest of all."""
-    found = claims(study, told)
-    of_entries = {id(e.verdicts): e.verdicts for e in told["constraints"]}.values()
-    entries = {v.verdict for verdicts in of_entries for v in verdicts.values()} | {
-        e.verdict for e in told["constraints"]
-    }
-    weak = weakest(*(c.verdict for c in found.values()), *entries)
-    return {"verdicts": {name: FieldVerdict.of(c) for name, c in found.items()}, "verdict": weak}
-
-
-def _witness(study: Study, told: Values) -> Values:
-    del told
-    return {"witness": fields.witness(study)}
-
-
-def _account(study: Study, told: Values) -> Values:
-    """What ran."""
-    del told
-    return {
+        "growth_vector": fields.growth_vector(outcome, entries),
+        "integrable_part": fields.largest_integrable_part(study),
+        "witness": fields.witness(study),
         "method": fields.method(study),
-        "modelled": fields.modelled(study.system, study.outcome),
+        "modelled": fields.modelled(study.system, outcome),
         "warnings": fields.warnings(study),
+        "special_cases": [],
     }
+    return {**answer, **_verdicts(claims(study, answer), entries)}
 
 
-def _feasibility(study: Study, told: Values) -> Values:
-    return inequalities_together(study, told)
+def _verdicts(of_fields: Mapping[str, Claim], entries: Sequence[ConstraintEntry]) -> Values:
+    """Return how certain every field is, and the weakest verdict of all, those of the entries included."""
+    shared = {id(e.verdicts): e.verdicts for e in entries}.values()
+    of_entries = {v.verdict for verdicts in shared for v in verdicts.values()} | {e.verdict for e in entries}
+    weak = weakest(*(c.verdict for c in of_fields.values()), *of_entries)
+    return {"verdicts": {name: FieldVerdict.of(c) for name, c in of_fields.items()}, "verdict": weak}
 
 
-def _counts(study: Study, told: Values) -> Values:
-    found, near = counts_beside(study, told["instantaneous_dof"])
-    mobility, released = found["mobility"], without_drives(study.system)
-    if isinstance(mobility, Mobility) and released is not None and told["consistent"] is True:
+def _feasibility(study: Study, values: Values) -> Values:
+    """Return whether the inequalities can be satisfied together with the constraints; nothing where there are none."""
+    return inequalities_together(study, values) if any(r.inequalities for r in study.reduced) else {}
+
+
+def _counts(study: Study, values: Values) -> Values:
+    """Return the counts that stand beside the report's own, and a warning of a near-dependence."""
+    counts, near = counts_beside(study, values["instantaneous_dof"])
+    mobility, released = counts["mobility"], without_drives(study.system)
+    if isinstance(mobility, Mobility) and released is not None and values["consistent"] is True:
         nothing: Values = {}
         undriven = unless_late(partial(_velocity_freedom, study.setting.reductions, released), nothing)
-        found = {**found, "mobility": mobility.model_copy(update=dict(undriven))}
-    return {**found, **({} if near is None else {"warnings": [*told["warnings"], near]})}
+        counts = {**counts, "mobility": mobility.model_copy(update=dict(undriven))}
+    return {**counts, **({} if near is None else {"warnings": [*values["warnings"], near]})}
 
 
-def _special(study: Study, told: Values) -> Values:
+def _special(study: Study, values: Values) -> Values:
+    """Return the special cases, and a warning where only one of several branches has the report's freedom."""
     again = partial(_generic, study.setting.reductions)
-    report = _report(told)
-    look = partial(special_cases, study.system, study.reduced, study.setting, study.outcome, report, again)
-    found: Values = unless_late(look, {"warnings": [*told["warnings"], NO_SPECIAL_CASES]})
-    branches = [case.where for case in found.get("special_cases", ()) if case.kind == "branch"]
-    warnings = [*found.get("warnings", told["warnings"]), *fields.about_branches(study.system, branches)]
-    return {**found, "warnings": warnings}
+    search = partial(special_cases, study.system, study.reduced, study.setting, study.outcome, Report(**values), again)
+    late: Values = {"warnings": [*values["warnings"], NO_SPECIAL_CASES]}
+    special = unless_late(search, late)
+    branches = [case.where for case in special.get("special_cases", ()) if case.kind == "branch"]
+    warnings = [*special.get("warnings", values["warnings"]), *fields.about_branches(study.system, branches)]
+    return {**special, "warnings": warnings}
 
 
 def _velocity_freedom(reductions: Reductions, released: System) -> Values:
@@ -167,40 +228,18 @@ def _velocity_freedom(reductions: Reductions, released: System) -> Values:
     return {} if number is None or verdict == "undecided" else {"undriven": number, "undriven_verdict": verdict}
 
 
-PASSES: tuple[Pass, ...] = (
-    Pass("scene forces", _scene),
-    Pass("consistent conflicting", _conflicts),
-    Pass("dof velocity_dof", _freedom),
-    Pass("instantaneous_dof singular", _first_order),
-    Pass("redundant_equations redundant redundancies", _redundancy),
-    Pass("constraints holonomic scleronomic", _entries),
-    Pass("count", _count),
-    Pass("generalized_coordinates joint_coordinates", _choice),
-    Pass("growth_vector", _growth),
-    Pass("integrable_part", _integrable),
-    Pass("verdict verdicts", _sureness),
-    Pass("witness", _witness),
-    Pass("method modelled warnings", _account),
-    Pass("feasible infeasible feasible_at", _feasibility, adds="verdict verdicts witness warnings", optional=True),
-    Pass("generic mobility", _counts, adds="warnings", optional=True),
-    Pass("special_cases", _special, adds="method warnings", optional=True),
-)
-#: The generic answer.
-GENERIC: tuple[Pass, ...] = tuple(row for row in PASSES if not row.optional)
-#: All that needs no special cases.
-PLAIN: tuple[Pass, ...] = tuple(row for row in PASSES if row.fields != "special_cases")
+#: All passes, in their order: each fills fields of the report, or adds to those that the passes before it filled.
+PASSES: tuple[Fill, ...] = (_generic_fields, _feasibility, _counts, _special)
+#: The generic answer, and all that needs no special cases.
+GENERIC, PLAIN = PASSES[:1], PASSES[:-1]
 
 
-def report_of(study: Study, passes: Iterable[Pass] = PASSES) -> Report:
-    """The report that some passes, in their order, fill."""
-    told: dict[str, Any] = {}
-    for row in passes:
-        told.update(row.fill(study, told))
-    return _report(agreed(told))
-
-
-def _report(told: Values) -> Report:
-    return Report(**{"special_cases": [], **told})
+def report_of(study: Study, passes: Sequence[Fill] = PASSES) -> Report:
+    """Return the report that some passes fill, in their order."""
+    values: dict[str, Any] = {}
+    for fill in passes:
+        values.update(fill(study, values))
+    return Report(**agreed(values))
 
 
 def _generic(reductions: Reductions, system: System) -> Report:
@@ -235,7 +274,7 @@ def examined(
     seconds: float = DEFAULT_SECONDS,
     engines: Engines = BOTH,
     reductions: Reductions = ALL,
-    passes: Iterable[Pass] = PASSES,
+    passes: Sequence[Fill] = PASSES,
 ) -> Examined:
     """All that some engines find of a system in so many seconds, with some ``reductions``. Raises OutOfTimeError."""
     with limited(seconds), precise_for(system.longest), gc_rarely():

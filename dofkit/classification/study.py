@@ -10,17 +10,15 @@ from typing import NamedTuple
 from dofkit.base.deadline import part, unless_late
 from dofkit.base.verdicts import About, least
 from dofkit.classification.dependence.circuits import Redundancies, undecided_dependence
-from dofkit.classification.dependence.conflicts import Conflict, conflict
+from dofkit.classification.dependence.implied_constraints import Conflict, conflict
 from dofkit.classification.dependence.redundancy import all_needed, redundancies
 from dofkit.classification.freedom.branches import Outcome, solve
-from dofkit.classification.freedom.parts import AnsweredParts
 from dofkit.classification.freedom.preparation import prepared
-from dofkit.classification.labels.companions import Companionship
+from dofkit.classification.labels.companions import AnsweredParts, Companionship
 from dofkit.classification.labels.entries import entries_of
-from dofkit.exact.engines import BOTH, Engines
-from dofkit.relations.reduced import Reduced
-from dofkit.relations.reductions import ALL, Reductions
-from dofkit.relations.setting import Setting
+from dofkit.exact.zero import BOTH, Engines
+from dofkit.relations.normal.pieces import Reduced
+from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.report import ConstraintEntry
 from dofkit.system import System
 

@@ -20,8 +20,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block
-from dofkit.relations.chart import Chart
-from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.chart import Chart, make_chart
 from dofkit.relations.setting import Setting
 from dofkit.system import Rotation
 
@@ -154,7 +153,8 @@ def _tangent(chart: Chart, symbols: dict[Expr, float], turning: Sequence[Rotatio
     point = FloatPoint(symbols, 0)
     at = values(chart.ring, point)
     columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
-    j = np.array(jacobian(chart.ring, at, point, chart.nodes, columns, 0.0), dtype=float).reshape(-1, len(columns))
+    rows = jacobian(chart.ring, at, point, chart.nodes, columns, 0.0)
+    j = np.array(rows, dtype=float).reshape(len(chart.nodes), len(columns))
     norms = np.linalg.norm(j, axis=1, keepdims=True)
     j = j / np.where(norms > ZERO, norms, 1.0)
     for group in _groups(chart, setting):

@@ -18,7 +18,7 @@ from dofkit.base.libraries import nx
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.modular import without_time
+from dofkit.exact.matrices.sparse import without_time
 from dofkit.exact.points.frames import sparse_frame
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.expressions import tree as ex
@@ -26,10 +26,8 @@ from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block
-from dofkit.relations.chart import Chart
-from dofkit.relations.chart_of_block import make_chart
-from dofkit.relations.joint_equations import JointEquation
-from dofkit.relations.normal.pieces import Finite
+from dofkit.relations.chart import Chart, make_chart
+from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import NamedRows, Setting
 from dofkit.system import Rotation
 

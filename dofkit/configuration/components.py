@@ -26,17 +26,17 @@ from dofkit.configuration import cases as all_cases
 from dofkit.configuration.generic_dimension import most_near
 from dofkit.configuration.generic_points import field_jacobian, on_variety
 from dofkit.configuration.variety import Variety
+from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.analyticity import is_analytic
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
 from dofkit.relations.normal.zero_set import never_vanishes
-from dofkit.relations.reductions import ReductionName
+from dofkit.relations.setting import ReductionName
 
 #: Relations that are looked at; nodes of an expression past which no coordinate is put into it; cases of all parts
 #: together that are looked at, and that are listed.

@@ -25,7 +25,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.mobility.graph.linkage import linkage
 from dofkit.relations.chart import Chart
 from dofkit.relations.linear import linear
-from dofkit.relations.reductions import ReductionName
+from dofkit.relations.setting import ReductionName
 
 #: Coordinates are not replaced by longer sums than this: what they stand in would fill up.
 TERMS = 5

@@ -15,19 +15,17 @@ from dofkit.configuration.measured.equations import is_measured, is_tree, pose_o
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety, of_real_point, of_reference
 from dofkit.exact.matrices.certified import ball_part, dependencies
-from dofkit.exact.matrices.modular import without_time
-from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse
-from dofkit.exact.points.exact import rational_values, vanish_exactly
+from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse, without_time
+from dofkit.exact.points.balls import rational_values, vanish_exactly
 from dofkit.exact.points.frames import sparse_frame
 from dofkit.exact.points.real_search import RealPoint, RealSearch
-from dofkit.exact.ring.degree import error_bits
-from dofkit.exact.zero.independence import doubt
+from dofkit.exact.ring.canonical import error_bits
+from dofkit.exact.zero import doubt
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer, RealRows
 from dofkit.relations.blocks import Block
-from dofkit.relations.chart import Chart
-from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.chart import Chart, make_chart
 from dofkit.relations.setting import Setting
 
 OFF_REFERENCE = (

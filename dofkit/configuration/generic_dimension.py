@@ -18,14 +18,13 @@ from dofkit.configuration.local import criteria
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.modular import rank_of
-from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.exact.matrices.sparse import rank_of, rank_of_rows
 from dofkit.exact.points.balls import jacobian
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
 from dofkit.exact.ring.program import gradient, values
-from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.zero.independence import independent_on_set
+from dofkit.exact.triangular import TriangularSolver
+from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart

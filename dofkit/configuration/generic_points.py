@@ -7,13 +7,11 @@ from hashlib import sha256
 
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError, PoleError
-from dofkit.exact.matrices.modular import without_time
-from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
+from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, without_time
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.frames import Pivots, sparse_frame
 from dofkit.exact.points.real_search import RealPoint
-from dofkit.exact.ring.instructions import VAR, reachable
-from dofkit.exact.ring.program import gradient, value_of, values
+from dofkit.exact.ring.program import VAR, gradient, reachable, value_of, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute

@@ -17,12 +17,9 @@ from typing import Any
 from flint import fmpq
 
 from dofkit.configuration.generic_dimension import BALL_COLUMNS
-from dofkit.exact.engines import BOTH
-from dofkit.exact.matrices.modular import without_time
-from dofkit.exact.matrices.rational_rows import RationalRow, dependences
-from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns
+from dofkit.exact.matrices.sparse import RationalRow, SparseRow, dependences, echelon, last_columns, without_time
 from dofkit.exact.points.field import prime_for
-from dofkit.exact.zero.identity import certainly_nonzero, zero_and_verdict
+from dofkit.exact.zero import BOTH, certainly_nonzero, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.terms import linear_terms, number_and_rest

@@ -8,14 +8,13 @@ from typing import Any, NamedTuple
 from dofkit.base.libraries import np
 from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import gradient, values
 from dofkit.expressions import tree as ex
-from dofkit.relations.ambient import free_point
-from dofkit.relations.chart import Chart, Displacement, displacement_fields
+from dofkit.relations.chart import Chart, Displacement, displacement_fields, free_point
 from dofkit.relations.setting import Setting
 
 #: Random real points that are tried.

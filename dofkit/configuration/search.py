@@ -22,18 +22,16 @@ from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of_rows
-from dofkit.exact.ring.instructions import VAR, reachable
+from dofkit.exact.ring.program import VAR, reachable
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.zero.identity import excludes_zero, is_proved_zero
-from dofkit.exact.zero.independence import independent_on_set
+from dofkit.exact.triangular import TriangularSolver
+from dofkit.exact.zero import excludes_zero, independent_on_set, is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import differs_from_zero, interval_of
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.relations.ambient import free_point
-from dofkit.relations.chart import Chart
+from dofkit.relations.chart import Chart, free_point
 from dofkit.relations.linear import presolve
 from dofkit.relations.normal.exact_zeros import candidates, is_analytic_in_coordinates
 from dofkit.relations.normal.no_solution import no_solution

@@ -13,7 +13,7 @@ from dofkit.configuration.local.criteria import numeric_dimension
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_motions_real
 from dofkit.exact.errors import NoValueError, raising_no_value
-from dofkit.exact.matrices.singular_values import independent_part
+from dofkit.exact.matrices.certified import independent_part
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.frames import Pivots
 from dofkit.exact.points.real_search import RealPoint

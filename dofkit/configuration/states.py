@@ -14,21 +14,20 @@ from flint import arb
 
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
-from dofkit.exact.ring.instructions import Scalar
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import Scalar, values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.solving.unknowns import Unit, unit_of
-from dofkit.exact.zero.independence import independent_on_set
+from dofkit.exact.triangular import TriangularSolver
+from dofkit.exact.unknowns import Unit, unit_of
+from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row
-from dofkit.relations.chart_of_block import aliases
+from dofkit.relations.chart import aliases
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting

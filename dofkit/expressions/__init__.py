@@ -4,21 +4,20 @@ An expression is an immutable tree of exact numbers, symbols (coordinates, veloc
 products, powers and functions. Numbers are rational from the first character on; nothing here is ever a float.
 
 Types
-    `tree` has `Expr` and its constructors; `vectors` has vectors and matrices of them; `unwritten` a sequence of
-    expressions that is written out only when one of them is needed (the equations of a joint).
+    `tree` has `Expr` and its constructors; `vectors` has vectors and matrices of them.
 
 Mechanisms, in the order in which an equation meets them
     1. `text` reads the grammar (ASCII, Unicode, LaTeX, primes, Leibniz) into a tree, and prints a tree in it. Every
        error has a column and a hint. The grammar is bounded in length, depth and in the size of what a text may stand
        for.
-    2. `differentials` relates differentials and velocities: dq = qdot dt. `calculus` substitutes and differentiates.
-    3. `domains` lists the conditions under which powers and functions, as they were written, have a real value.
-    4. `terms` and `combinations` take sums apart: linear terms, and symbols that occur in one linear combination
-       only.
-    5. `roots` and `turns` know the rational values of roots and of trigonometric functions; `enclosures` gives every
+    2. `calculus` substitutes and differentiates, relates differentials and velocities (dq = qdot dt), and lists the
+       conditions under which powers and functions, as they were written, have a real value.
+    3. `terms` takes sums apart: linear terms, and symbols that occur in one linear combination only.
+    4. `rational_values` knows the rational values of roots and of trigonometric functions; `enclosures` gives every
        other constant as a certified interval.
-    6. `renaming` finds expressions that are equal up to the names in them, so that work is done once for many copies.
-    7. `sympy_bridge` converts to and from SymPy, node by node and never through text.
+    5. `renaming` finds expressions that are equal up to the names in them, so that work is done once for many copies,
+       and has sequences of them that are written out only when one is needed (the equations of a joint).
+    6. `sympy_bridge` converts to and from SymPy, node by node and never through text.
 
 A zero is never decided here: `dofkit.exact` does that. The rooms above receive trees, and no text.
 """

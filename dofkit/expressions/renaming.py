@@ -6,8 +6,9 @@ was left out, whose parameters begin with ``_``. All other names are kept: param
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cached_property
+from typing import Any, NamedTuple, TypeVar, overload
 
 from dofkit.expressions.tree import Expr, children, nodes, sym
 
@@ -250,3 +251,41 @@ class _Renamed(Expr):
         written = self._template.written(self._own)
         self.args, self._hash = written.args, hash(written)
         return getattr(self, name)
+
+
+T = TypeVar("T")
+
+
+class Unwritten(Sequence[T]):
+    """``number`` of things that hold expressions, of which no two parts mention coordinates that are all different.
+
+    ``mentioned``: the coordinates that they mention; ``longest``: no number in them has more bits; ``write`` makes
+    them. It is equal to the sequence that it stands for, and a tuple in another process.
+    """
+
+    def __init__(self, number: int, mentioned: frozenset[str], longest: int, write: Callable[[], Iterable[T]]) -> None:
+        self.number, self.mentioned, self.longest, self._write = number, mentioned, longest, write
+
+    @cached_property
+    def written(self) -> tuple[T, ...]:
+        """All of them."""
+        return tuple(self._write())
+
+    def __len__(self) -> int:
+        return self.number
+
+    @overload
+    def __getitem__(self, index: int) -> T: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[T]: ...
+    def __getitem__(self, index: int | slice) -> T | Sequence[T]:
+        return self.written[index]
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sequence) and self.written == tuple(other)
+
+    def __hash__(self) -> int:
+        return hash(self.written)
+
+    def __reduce__(self) -> tuple[type[tuple[T, ...]], tuple[tuple[T, ...]]]:
+        return tuple, (self.written,)

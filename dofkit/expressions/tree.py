@@ -28,8 +28,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any, Literal, get_args
 
-from dofkit.expressions.roots import exact_power
-from dofkit.expressions.turns import TURNING, value_at, value_at_turn
+from dofkit.expressions.rational_values import TURNING, exact_power, value_at, value_at_turn
 
 Kind = Literal["coordinate", "velocity", "acceleration", "differential", "parameter", "time", "dt"]
 KINDS: tuple[str, ...] = get_args(Kind)

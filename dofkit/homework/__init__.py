@@ -3,23 +3,27 @@
 Types
     An `Assignment` (`assignment`) has problems (`problem`, with its text in `statement`) over scenes; a question is
     one of the kinds of `questions`. The `Key` of a problem (in `key`) is what the report says of its scene. A
-    `Judgement` (`judgement`) is what was found of one answer; a `Result` (`result`) has the points, the feedback
+    `Judgement` (`judgement`) is what was decided of one answer; a `Result` (`result`) has the points, the feedback
     codes and how every answer was read.
 
 From a submission to points
-    1. `answers` reads files, tables, rosters and exports of course platforms, and the words, notations and formulas
-       in them.
-    2. `readings` says whether and how an answer can be read, `repairs` finds what an unreadable one may mean, and
-       `echo` shows students how their answers are understood, without grading them.
-    3. `grading` is a pure function of assignment and submission: each question judges its answer against the key, by
-       equivalence in the system and not as text; `key` also has the misconceptions with the numbers that they give.
+    1. `answers` reads files, tables, rosters and downloads of course platforms, and turns the text of an answer into a
+       small set of readings, by the question's kind and the declared names alone: never by the key. `repairs` proposes
+       what an unreadable one may mean.
+    2. Each question judges each reading against the key, by equivalence in the system and not as text (`key`, which
+       also has the misconceptions with the numbers that they give), and `judgement` makes one verdict of them.
+    3. `grading` is a pure function of assignment and submission; `runs` grades many in workers that can be killed and
+       decides whose each submission is.
     4. `sentences` has the feedback in four languages. `review` collects what a person must decide, once for equal
-       answers.
-    5. `runs` grades many submissions in workers; `formats` writes results; `item_analysis` says how each question
-       did.
+       answers. `formats` writes results for gradebooks and platforms.
 
-Variants: `variants` makes sheets of equal difficulty from a seed, `own_sheets` the one of a student, `class_sheets`
-those of a roster, `sheet_owners` and `earlier_sheets` keep them stable. Writing: `starting` proposes an assignment,
-`handout` typesets it, `schemas` describes the files. Platforms: `export`, `autograder`, `nbgrader`, `otter` and
-`notebooks`, which both share; `stand_ins` lists answers where a platform takes numbers only.
+`variants` gives each student a combination of the lecturer's lists of values. `starting` proposes an assignment,
+`handout` typesets it, `schemas` describes the files. `export` and `autograder` are for platforms that grade by
+themselves. A notebook submits with `hand_in`: nothing is ever judged in a student's own process.
 """
+
+from __future__ import annotations
+
+from dofkit.homework.answers.submission import hand_in
+
+__all__ = ["hand_in"]

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import BeforeValidator, Field, ValidationError
 
@@ -16,14 +16,22 @@ from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import ArgumentError, DofkitError, Fault, SceneError
 from dofkit.homework.key.key import Convention, Key
 from dofkit.homework.key.own_coordinates import faults_of_own
-from dofkit.homework.problem import Problem, Variants, faults_of_names, weighted
+from dofkit.homework.problem import (
+    Pick,
+    Problem,
+    Variants,
+    combinations_of,
+    faults_of_names,
+    pick_text,
+    weighted,
+    with_values,
+)
 from dofkit.homework.questions import QuestionBase
-from dofkit.homework.review.rows import Decisions
+from dofkit.homework.review.queue import Decisions
 from dofkit.homework.sentences.translations import Language
 from dofkit.homework.statement import faults_of_places
-from dofkit.homework.variants.structure import Structure, structures
+from dofkit.scene.catalog import find
 from dofkit.scene.fields import WrittenModel, exact, fault_error, faults_of
-from dofkit.scene.found_files import find
 from dofkit.scene.hints import with_hint, without_echoes
 from dofkit.scene.reading import load
 from dofkit.scene.scene import Scene
@@ -84,7 +92,7 @@ class Assignment(WrittenModel):
     )
     problems: Annotated[tuple[Problem, ...], Field(min_length=1)] = Field(description="the problems")
     variants: Variants | None = Field(
-        None, description="written by `dofkit assignment vary`: a variant for each student"
+        None, description="written by `dofkit assignment vary`: the variant of each student"
     )
 
     @property
@@ -93,20 +101,30 @@ class Assignment(WrittenModel):
         return self.visibility or ("after_due_date" if self.attempts is None else "visible")
 
 
+class Combination(NamedTuple):
+    """One variant of a problem, with its key."""
+
+    pick: Pick
+    problem: Problem
+    key: Key
+
+
 @dataclass(frozen=True)
 class Prepared:
     """An assignment with its scenes: everything that grading needs. ``keys`` by problem; ``base``: its folder.
 
-    ``decisions``: what a person decided of answers, which goes before all that dofkit finds. ``structures``: of a sheet
-    with variants what each problem's may be; ``marks``: of one student's sheet what tells each problem from others'.
+    ``decisions``: what a person decided of answers, which goes before all that dofkit finds. ``combinations``: the
+    variants of the problems that vary; ``marks``: of one student's sheet the variant of each question whose right
+    answer depends on it; ``variant``: what distinguishes the sheet from others.
     """
 
     assignment: Assignment
     keys: Mapping[str, Key]
     base: Path = Path()
     decisions: Decisions = field(default_factory=dict)
-    structures: Mapping[str, Sequence[Structure]] = field(default_factory=dict)
-    marks: Mapping[str, str] = field(default_factory=dict)
+    combinations: Mapping[str, Sequence[Combination]] = field(default_factory=dict)
+    marks: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    variant: str = ""
 
     def questions(self) -> Iterator[tuple[Problem, QuestionBase]]:
         """Every question with its problem, in order."""
@@ -185,28 +203,55 @@ def _prepared(value: Mapping[str, Any], base: Path, document: Document | None) -
         raise _error(_without_shortness(without_echoes(faults_of(error), value)), document) from None
     faults: list[Fault] = list(_repeats(assignment))
     keys: dict[str, Key] = {}
+    combinations: dict[str, list[Combination]] = {}
     for i, problem in enumerate(assignment.problems):
-        try:
-            key = Key(_scene(problem, base), assignment.convention, problem.also, problem.other_names)
-        except SceneError as error:
-            faults += [_within(fault, i, problem) for fault in error.faults]
-            continue
-        keys.setdefault(problem.id, key)
-        try:
-            faults += _scene_faults(i, problem, key)
-        except (DofkitError, MemoryError):
-            raise
-        except Exception:  # It fails again at every answer to this problem, which then needs a review.
-            continue
+        for pick, variant in _variants(problem, base, faults, i):
+            try:
+                scene = _scene(variant, base)
+                key = Key(scene, assignment.convention, variant.also, variant.other_names)
+            except SceneError as error:
+                faults += [_within(fault, i, problem, pick) for fault in error.faults]
+                break
+            keys.setdefault(problem.id, key)
+            if problem.vary:
+                combinations.setdefault(problem.id, []).append(Combination(pick, variant, key))
+            try:
+                faults += [_of_variant(fault, problem, pick) for fault in _scene_faults(i, variant, key)]
+            except (DofkitError, MemoryError):
+                raise
+            except Exception:  # It fails again at every answer to this problem, which then needs a review.
+                continue
     if faults:
         raise _error(tuple(faults), document)
-    return Prepared(assignment, keys, base, structures=_structures(assignment, keys))
+    return Prepared(assignment, keys, base, combinations=combinations)
 
 
-def _structures(assignment: Assignment, keys: Mapping[str, Key]) -> dict[str, list[Structure]]:
-    if assignment.variants is None:
-        return {}
-    return {problem.id: structures(problem, keys[problem.id]) for problem in assignment.problems}
+def _variants(problem: Problem, base: Path, faults: list[Fault], i: int) -> Iterator[tuple[Pick, Problem]]:
+    """Yield the variants of a problem, the first values first; the problem itself if it does not vary."""
+    if not problem.vary:
+        yield {}, problem
+        return
+    written = problem.scene if isinstance(problem.scene, dict) else _written_scene(problem.scene, base)
+    if not isinstance(written, dict):
+        hint = "`vary` needs a scene in place, or the file of one"
+        faults.append(Fault(f"'{problem.scene}' is not the file of a scene", ("problems", i, "scene"), hint=hint))
+        return
+    for pick in combinations_of(problem.vary):
+        value = {"scene": written, "text": problem.text, "title": problem.title, "also": problem.also}
+        yield pick, problem.model_copy(update=with_values(value, problem.vary, pick))
+
+
+def _written_scene(source: str, base: Path) -> object:
+    """Return what the file of a scene, or of one in the catalog, says."""
+    found = find(base / source if (base / source).is_file() else source)
+    return read_document(found.data, found.name).value
+
+
+def _of_variant(fault: Fault, problem: Problem, pick: Pick) -> Fault:
+    """Return a fault that says of which variant it is one."""
+    if not problem.vary:
+        return fault
+    return replace(fault, message=f"for {pick_text(problem.vary, pick)}: {fault.message}")
 
 
 def _without_shortness(faults: Sequence[Fault]) -> tuple[Fault, ...]:
@@ -235,9 +280,10 @@ def _bounded(constraints: object) -> None:
         raise SceneError((Fault(message, ("constraints",), hint="ask about a part of it; `dofkit classify` takes it"),))
 
 
-def _within(fault: Fault, i: int, problem: Problem) -> Fault:
-    """A fault of a scene as a fault of the assignment; one of a file says which."""
+def _within(fault: Fault, i: int, problem: Problem, pick: Pick) -> Fault:
+    """Return a fault of a scene as a fault of the assignment; one of a file says which."""
     where = ("problems", i, "scene")
+    fault = _of_variant(fault, problem, pick)
     if isinstance(problem.scene, dict):
         return replace(fault, where=(*where, *fault.where), line=None, column=fault.column)
     place = "" if fault.line is None else f" (line {fault.line}, column {fault.column} of {problem.scene})"
@@ -249,6 +295,9 @@ def _scene_faults(i: int, problem: Problem, key: Key) -> Iterator[Fault]:
         message = f"the scene of problem '{problem.id}' is inconsistent: {', '.join(key.report.conflicting)}"
         yield Fault(message, ("problems", i, "scene"), hint="no motion satisfies its constraints; correct the scene")
         return
+    if problem.vary and (unproved := [name for name, v in key.report.verdicts.items() if v.verdict != "proved"]):
+        hint = "choose values for which everything is proved, or ask `dofkit classify --how` why it is not"
+        yield Fault(f"the key is not proved ({', '.join(unproved)})", ("problems", i, "vary"), hint=hint)
     for fault in faults_of_own(key):
         yield replace(fault, where=("problems", i, "also", *fault.where))
     for fault in faults_of_places(problem.text or "", key.scene):

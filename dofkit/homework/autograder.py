@@ -22,22 +22,18 @@ from typing import Any
 
 from dofkit.base.errors import DofkitError
 from dofkit.base.runs import Pool, StoppedError
-from dofkit.homework.answers.attribution import by_platform
-from dofkit.homework.answers.prairielearn import answers_of
-from dofkit.homework.answers.roster import Participant
+from dofkit.homework.answers.roster import Participant, doubt_of_platform
 from dofkit.homework.answers.sources import DOCUMENTS, LINES, TABLES, Handed, hand_ins
 from dofkit.homework.answers.submission import FilePlace, clean
 from dofkit.homework.assignment import Prepared, Visibility, load_assignment
-from dofkit.homework.formats import coursera, gradescope, prairielearn
-from dofkit.homework.formats.documents import text
+from dofkit.homework.formats import gradescope, prairielearn
+from dofkit.homework.formats.base import text
+from dofkit.homework.formats.review import TABLE, RunReview
 from dofkit.homework.judgement import needs_review
-from dofkit.homework.own_sheets import NobodysSheetError, own_of
 from dofkit.homework.result import Item, Result
-from dofkit.homework.runs.batch import Orders
-from dofkit.homework.runs.keeper import MODULES, Keeper
-from dofkit.homework.runs.review_files import TABLE, RunReview
+from dofkit.homework.runs.batch import MODULES, Keeper, Orders
 from dofkit.homework.sentences.translations import Language
-from dofkit.homework.stand_ins import list_open
+from dofkit.homework.variants import NobodysVariantError, own
 
 #: A longer file of a platform is not read.
 MOST_BYTES = 8_000_000
@@ -51,9 +47,7 @@ BROKEN = "the assignment of this autograder cannot be read. This is not your fau
 class Site:
     """A platform: where things are, below ``root``, and what its result looks like.
 
-    ``seconds``: after which a submission needs a review, within what the platform gives. ``excuses``: a result may say
-    that there is none, so that a grader that cannot work costs nobody points. ``listed``: the table of answers that
-    count by a stand-in, where the platform takes nothing but a number.
+    ``seconds``: after which a submission needs a review, within what the platform gives.
     """
 
     root: Path
@@ -63,8 +57,6 @@ class Site:
     document: Callable[[Result, Prepared | None, Path], dict[str, Any]]
     users: Callable[[Path], list[Participant]] = lambda root: []
     form: Callable[[Path, Prepared], Handed | None] = lambda root, prepared: None
-    excuses: bool = True
-    listed: str | None = None
 
 
 def _gradescope_users(root: Path) -> list[Participant]:
@@ -92,7 +84,14 @@ def _prairielearn_form(root: Path, prepared: Prepared) -> Handed | None:
     given = _object(_json(root / "data" / "data.json")).get("submitted_answers")
     if not isinstance(given, dict):
         return None
-    return Handed("student", FilePlace("data.json"), {"answers": answers_of(given, prepared.columns())})
+    answers: dict[str, dict[str, Any]] = {}
+    for problem, question in prepared.columns().values():
+        name = next((name for sign in ".-_" if (name := f"{problem}{sign}{question}") in given), None)
+        if name is not None:
+            value = given[name]
+            symbolic = isinstance(value, dict) and value.get("_type") == "sympy"
+            answers.setdefault(problem, {})[question] = value.get("_value") if symbolic else value
+    return Handed("student", FilePlace("data.json"), {"answers": answers})
 
 
 def _language(prepared: Prepared | None) -> Language:
@@ -111,11 +110,6 @@ SITES: dict[str, Site] = {
         Path("/grade"), "student", "results/results.json", 25.0,
         lambda result, prepared, _: prairielearn.document(result, _language(prepared)),
         form=_prairielearn_form,
-    ),
-    "coursera": Site(
-        Path("/shared"), "submission", "feedback.json", 120.0,
-        lambda result, prepared, _: coursera.document(result, _language(prepared)),
-        excuses=False, listed="open.csv",
     ),
 }  # fmt: skip
 
@@ -143,17 +137,15 @@ def grade_at(site: Site, assignment: Path, memory: int, reviewed: Path | None = 
     prepared = _prepared(site, assignment, student, reviewed)
     _write(site, undecided(prepared, student, "grading was interrupted."), prepared)
     try:
-        prepared = own_of(prepared, [name for user in users for name in (user.student, *user.called())])
+        prepared = own(prepared, [name for user in users for name in (user.student, *user.called())])
         one = _only_hand_in(site, prepared)
-    except NobodysSheetError as error:
+    except NobodysVariantError as error:
         one = Result(student=student, score=None, max_score=Orders.of(prepared).max_score, items=[], error=str(error))
     result = one if isinstance(one, Result) else _result(one, prepared, site.seconds, memory, student)
     named = isinstance(one, Handed) and result.student not in ("", student, *one.claims)
-    doubt = by_platform(users, result.student) if named else None
+    doubt = doubt_of_platform(users, result.student) if named else None
     result = result.model_copy(update={"student": student, "doubt": doubt})
     _write(site, result, prepared)
-    if site.listed is not None:
-        list_open(result.items, site.root / site.listed, "")
     return result
 
 
@@ -164,8 +156,7 @@ def _prepared(site: Site, assignment: Path, student: str, reviewed: Path | None)
         table = reviewed or (beside if beside.is_file() else None)
         return RunReview.read(prepared, table, None).applied(prepared)
     except (DofkitError, OSError):
-        if site.excuses:
-            _write(site, Result(student=student, score=None, max_score=0.0, items=[], error=BROKEN), None)
+        _write(site, Result(student=student, score=None, max_score=0.0, items=[], error=BROKEN), None)
         raise
 
 

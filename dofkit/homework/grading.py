@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Generator, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, Literal, cast
 
 from flint import ctx
 
@@ -20,7 +20,7 @@ from dofkit.exact.points.balls import PRECISION
 from dofkit.homework.answers.prose import says_nothing
 from dofkit.homework.answers.sources import read_submission
 from dofkit.homework.answers.submission import Submission
-from dofkit.homework.answers.typed import in_whole, shown_text
+from dofkit.homework.answers.words import in_whole, shown_text
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.judgement import (
     FULL,
@@ -31,18 +31,20 @@ from dofkit.homework.judgement import (
     Judgement,
     needs_review,
     partly,
+    shown_text_of,
     unreadable,
+    verdict,
 )
 from dofkit.homework.key.key import Key
-from dofkit.homework.own_sheets import NobodysSheetError, SheetDrawer
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import NumberQuestion, QuestionBase
 from dofkit.homework.repairs import nearest_reading, parts_read
 from dofkit.homework.result import Item, PossibleReading, Result
 from dofkit.homework.review.filled_table import read_table
-from dofkit.homework.review.identity import answer_id
-from dofkit.homework.review.rows import Decision
+from dofkit.homework.review.queue import Decision, answer_id
 from dofkit.homework.sentences.translations import Said, in_language, say
+from dofkit.homework.variants import NobodysVariantError, own
+from dofkit.report import ReportModel
 
 #: Seconds of processor time for one answer; what is not decided then needs a review.
 ANSWER_SECONDS = 5.0
@@ -69,7 +71,7 @@ class Grader:
         self.condemned = {} if condemned is None else condemned
         self.max_score = sum((q.points for _, q in prepared.questions()), Fraction(0))
         self._known: dict[Spot, tuple[Judgement, Fraction | None]] = {}
-        self._drawer = SheetDrawer(prepared)
+        self._variants: dict[str, Grader] = {}
 
     def grade(self, submission: Submission) -> Result:
         """Every question with what the student answered, in the assignment's order; then what was not asked."""
@@ -95,12 +97,14 @@ class Grader:
     def _steps(self, submission: Submission) -> Generator[Spot, None, Result]:
         if submission.error is not None:
             return self.refused(submission.student, submission.error)
-        try:
-            sheet = yield from self._drawer.own_steps(submission.student)
-        except NobodysSheetError as error:
-            return self.refused(submission.student, str(error))
-        if sheet is not self.prepared:
-            return (yield from Grader(sheet, self.seconds, self.condemned).steps(submission))
+        if self.prepared.assignment.variants is not None:
+            try:
+                sheet = own(self.prepared, submission.student)
+            except NobodysVariantError as error:
+                return self.refused(submission.student, str(error))
+            grader = self._variants.setdefault(sheet.variant, Grader(sheet, self.seconds))
+            grader.condemned = self.condemned
+            return (yield from grader.steps(submission))
         items: list[Item] = []
         for problem in self.prepared.assignment.problems:
             items += yield from self._problem(problem, submission.answers.get(problem.id, {}))
@@ -132,7 +136,7 @@ class Grader:
                 if (number := _number(question, answer)) is not None:
                     earlier.setdefault(question.kind(), number)
                 continue
-            spot = _spot(problem, question, answer, earlier) + self.prepared.marks.get(problem.id, "")
+            spot = _spot(problem, question, answer, earlier) + self.prepared.marks.get((problem.id, question.id), "")
             if spot not in self._known and spot not in self.condemned:
                 yield spot
             found, number = self.judge(spot, problem, question, answer, earlier)
@@ -145,7 +149,7 @@ class Grader:
         """What a person decided of this answer, whoever gave it."""
         if not self.prepared.decisions:
             return None
-        variant = self.prepared.marks.get(problem.id, "")
+        variant = self.prepared.marks.get((problem.id, question.id), "")
         return self.prepared.decisions.get(answer_id(problem.id, question.id, shown_text(answer), variant))
 
     def _decided(self, problem: Problem, question: QuestionBase, decision: Decision, answer: Given) -> Item:
@@ -186,26 +190,45 @@ class Grader:
             return needs_review("", say("an internal error occurred ({error}).", error=type(error).__name__))
 
     def _read(self, question: QuestionBase, answer: Given, key: Key, earlier: Mapping[str, Fraction]) -> Judgement:
-        """What an answer is worth, or why it is open where it cannot be read in one way."""
+        """Return what an answer is worth, or why it is open if it cannot be read in one way."""
         try:
-            return question.judge(answer, key, earlier)
+            readings = question.readings(answer, key.declared)
         except DoubtError as error:
-            found = needs_review("", error.message)
-            with suppress(DofkitError):
-                found = replace(found, ways=_parts(question, answer, key))
-            return found
+            return replace(needs_review("", error.message), ways=self._parts(question, answer, key), certain=False)
         except TextError as error:
             return self._unread(error, question, answer, key)
+        shown, certain = shown_text_of(readings), all(one.certain for one in readings)
+        try:
+            found = verdict(readings, lambda reading: question.judged(reading, key, earlier))
+        except DoubtError as error:
+            found = needs_review(shown, error.message)
+        except TextError as error:  # no scene can hold what it says
+            return self._unread(error, question, answer, key)
+        several = len({one.shown for one in readings}) > 1
+        return replace(found, read_as=shown, certain=certain and not several)
 
     def _unread(self, error: TextError, question: QuestionBase, answer: Given, key: Key) -> Judgement:
-        """What could not be read, with what would be."""
-        error, nearest = in_whole(answer, error, lambda part: question.read(part, key)), None
-        parts: tuple[JudgedReading, ...] = ()
+        """Return that an answer could not be read, with what would be."""
+        error = in_whole(answer, error, lambda part: question.read(part, key.declared))
+        nearest: JudgedReading | None = None
         with suppress(DofkitError):
-            nearest = nearest_reading(answer, error, lambda text: question.judge(text, key, {}))
-            parts = _parts(question, answer, key) if nearest is None else ()
-        found = unreadable(error, (nearest,) if nearest is not None else parts)
+            nearest = nearest_reading(answer, error, self._judge_of(question, key))
+        ways = (nearest,) if nearest is not None else self._parts(question, answer, key)
+        found = unreadable(error, ways)
         return found if self.prepared.assignment.unreadable == "review" else replace(found, share=NOTHING)
+
+    def _judge_of(self, question: QuestionBase, key: Key) -> Callable[[str], Judgement]:
+        def judge(text: str) -> Judgement:
+            shown = question.read(text, key.declared)
+            return replace(question.judge(text, key, {}), read_as=shown)
+
+        return judge
+
+    def _parts(self, question: QuestionBase, answer: Given, key: Key) -> tuple[JudgedReading, ...]:
+        """Return what an answer in doubt may mean."""
+        with suppress(DofkitError):
+            return parts_read(answer, isinstance(question, NumberQuestion), self._judge_of(question, key))
+        return ()
 
     def _item(self, problem: Problem, question: QuestionBase, found: Judgement, answer: Given | None = None) -> Item:
         return Item(
@@ -220,15 +243,10 @@ class Grader:
             column=found.column,
             answer=None if answer is None else shown_text(answer),
             would_read=found.ways[0].read_as if found.status == "unreadable" and len(found.ways) == 1 else None,
-            variant=self.prepared.marks.get(problem.id),
+            variant=self.prepared.marks.get((problem.id, question.id)),
+            certain=found.certain,
             readings=[PossibleReading(read_as=way.read_as, score=_points(way.share, question)) for way in found.ways],
         )
-
-
-def _parts(question: QuestionBase, answer: Given, key: Key) -> tuple[JudgedReading, ...]:
-    """What an answer in doubt may mean."""
-    numbers = isinstance(question, NumberQuestion)
-    return parts_read(answer, numbers, lambda text: question.judge(text, key, {}))
 
 
 def _points(share: Fraction | None, question: QuestionBase) -> float | None:
@@ -316,3 +334,60 @@ def grade(assignment: Any, submission: Any, reviewed: str | os.PathLike[str] | N
         prepared = replace(prepared, decisions={**prepared.decisions, **decided})
     given = submission if isinstance(submission, Submission) else read_submission(submission, prepared.columns())
     return Grader(prepared).grade(given)
+
+
+class EchoedAnswer(ReportModel):
+    """One answer as it was understood; ``column`` is where one that is not understood could not be read further."""
+
+    problem: str
+    question: str
+    status: Literal["read", "unreadable", "missing"]
+    read_as: str
+    feedback: str = ""
+    column: int | None = None
+
+
+class Echo(ReportModel):
+    """One student's answers as they were understood. ``error``: why the submission could not be read."""
+
+    student: str
+    items: list[EchoedAnswer]
+    error: str | None = None
+
+
+def echo(prepared: Prepared, submission: Submission) -> Echo:
+    """Read every answer, in the assignment's order; then those that were not asked for."""
+    if submission.error is not None:
+        return Echo(student=submission.student, items=[], error=submission.error)
+    try:
+        prepared = own(prepared, submission.student)
+    except NobodysVariantError as error:
+        return Echo(student=submission.student, items=[], error=str(error))
+    items = [
+        _echoed(
+            problem.id, question, prepared.keys[problem.id], submission.answers.get(problem.id, {}).get(question.id)
+        )
+        for problem, question in prepared.questions()
+    ]
+    for item in unasked(prepared, submission):
+        told = {"status": "unreadable", "read_as": "", "feedback": item.feedback}
+        items.append(EchoedAnswer.model_validate({"problem": item.problem, "question": item.question, **told}))
+    return Echo(student=submission.student, items=items)
+
+
+def _echoed(problem: str, question: QuestionBase, key: Key, answer: Given | None) -> EchoedAnswer:
+    if answer is None or says_nothing(answer):
+        return EchoedAnswer(problem=problem, question=question.id, status="missing", read_as="")
+    try:
+        with by_processor(ANSWER_SECONDS):
+            shown = question.read(answer, key.declared)
+    except MemoryError:
+        raise
+    except Exception as error:
+        found = error if isinstance(error, TextError) else TextError(f"it could not be read ({type(error).__name__})")
+        hint = f" ({found.hint})" if found.hint else ""
+        return EchoedAnswer(
+            problem=problem, question=question.id, status="unreadable", read_as="",
+            feedback=f"{found.message}{hint}", column=found.column or 1,
+        )  # fmt: skip
+    return EchoedAnswer(problem=problem, question=question.id, status="read", read_as=shown)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.homework.result import Status
@@ -31,11 +31,25 @@ class JudgedReading(NamedTuple):
     share: Fraction | None
 
 
+class Reading(NamedTuple):
+    """One way to understand an answer, by its text, the question's kind and the declared names alone.
+
+    ``value``: what the question judges; ``shown``: the same in words or in the grammar of scenes. ``rank``: 0 for a
+    plain reading, larger for one that supposes more. ``certain``: False if it has names that nobody declared.
+    """
+
+    value: Any
+    shown: str
+    rank: int = 0
+    certain: bool = True
+
+
 @dataclass(frozen=True)
 class Judgement:
     """``share``: of the question's points; None where it could not be decided. ``said``: the feedback.
 
-    ``ways``: of what is open the readings that it may have; of what is unreadable the nearest one.
+    ``ways``: of what is open the readings that it may have; of what is unreadable the nearest one. ``certain``: it
+    reads in one way, in declared names.
     """
 
     status: Status
@@ -45,6 +59,7 @@ class Judgement:
     said: tuple[Said, ...] = ()
     column: int | None = None
     ways: tuple[JudgedReading, ...] = ()
+    certain: bool = True
 
     def saying(self, *sentences: Sentence) -> Judgement:
         """The same with more feedback."""
@@ -90,11 +105,40 @@ def unreadable(error: TextError, ways: tuple[JudgedReading, ...] = ()) -> Judgem
     return Judgement("unreadable", None, "", (), (told,), error.column or 1, ways)
 
 
-def agreed(found: Sequence[Judgement]) -> Judgement:
-    """What all readings of an answer come to; where they are judged differently a person has to look."""
-    first = found[0]
-    shown = " or ".join(dict.fromkeys(one.read_as for one in found))
-    if all((one.status, one.share) == (first.status, first.share) for one in found):
+def verdict(readings: Sequence[Reading], judge: Callable[[Reading], Judgement]) -> Judgement:
+    """Return the one judgement of all readings of an answer.
+
+    It is right if a plausible reading is right and none as plausible is worth less; it is wrong only if every reading
+    is wrong. Otherwise a person has to look, who sees what each reading would earn. A reading that the scene cannot
+    hold counts only if there is no other. Raises its TextError then.
+    """
+    judged: list[tuple[int, Judgement]] = []
+    failure: TextError | None = None
+    for reading in sorted(readings, key=lambda one: one.rank):
+        try:
+            found = judge(reading)
+        except TextError as error:
+            failure = failure or error
+            continue
+        judged.append((reading.rank, found if found.read_as else replace(found, read_as=reading.shown)))
+        if reading.rank > judged[0][0] and found.share != judged[0][1].share:
+            break
+    if not judged:
+        raise failure or TextError("there is nothing to judge", 1)
+    first = judged[0][1]
+    plausible = [found for rank, found in judged if rank == judged[0][0]]
+    shown = " or ".join(dict.fromkeys(one.read_as for one in plausible))
+    same = all((one.status, one.share) == (first.status, first.share) for one in plausible)
+    if same and (first.status == "right" or all(found.share == first.share for _, found in judged)):
         return replace(first, read_as=shown)
-    ways = tuple(dict.fromkeys(JudgedReading(one.read_as, one.share) for one in found))
+    full = [one for one in plausible if one.status == "right"]
+    if full and all(one.share in (FULL, None) for one in plausible):
+        return replace(full[0], read_as=shown)
+    ways = tuple(dict.fromkeys(JudgedReading(found.read_as, found.share) for _, found in judged))
     return replace(needs_review(shown, "it can be read in more than one way."), ways=ways)
+
+
+def shown_text_of(readings: Sequence[Reading]) -> str:
+    """Return how an answer is understood: its plainest readings, with "or" between them."""
+    least = min((one.rank for one in readings), default=0)
+    return " or ".join(dict.fromkeys(one.shown for one in readings if one.rank == least))

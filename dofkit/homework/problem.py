@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
-from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from typing import Annotated, Any, Literal, get_args
+from itertools import product
+from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field, WrapValidator
 
@@ -14,17 +15,16 @@ from dofkit.base.errors import Fault
 from dofkit.expressions.text import valid_name
 from dofkit.homework.key.key import Key
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
-from dofkit.homework.questions.base import Points, identifier
-from dofkit.scene.constraints import AnyConstraint
-from dofkit.scene.constraints.equations import as_equation
-from dofkit.scene.fields import Listed, Text, WrittenModel, suggestion
-from dofkit.scene.tagged_union import TaggedUnion
+from dofkit.homework.questions.base import Points
+from dofkit.scene.fields import Listed, TaggedUnion, Text, WrittenModel, as_written, fault_error, suggestion
 
-#: What may differ between the sheets of students.
-Aspect = Literal["geometry", "names", "constraints", "supports", "rolling"]
-ASPECTS: tuple[Aspect, ...] = get_args(Aspect)
+#: Which value of each varying name a variant has, by its index.
+Pick = dict[str, int]
+#: Variants of one problem, and values of one list.
+MOST_COMBINATIONS = 64
 #: A figure that is drawn from the scene, and none at all.
 DRAWN, UNDRAWN = "scene", "none"
+_PLACE = re.compile(r"\[\[\s*([\w.-]+)\s*\]\]")
 
 _QUESTION = TaggedUnion(
     base=QuestionBase,
@@ -39,23 +39,66 @@ _QUESTION = TaggedUnion(
 
 
 def _varying(value: object) -> object:
-    """A list of aspects, or false for none."""
-    if value is False or isinstance(value, (list, tuple)):
-        return {"what": value or ()}
-    return {} if value is True else value
+    """Check ``{NAME: [VALUE, ...]}``; no lists at all are none."""
+    if value is False or value is None:
+        return None
+    shape = "write `vary: {n: [2, 3, 5]}`, and `[[n]]` where a value stands in the scene and the text"
+    if not isinstance(value, Mapping) or not value:
+        raise fault_error("`vary` lists the values of each name", shape)
+    count = 1
+    for name, options in value.items():
+        if not isinstance(options, list | tuple) or not options:
+            raise fault_error(f"`vary` needs a list of values for '{name}'", shape)
+        kinds = {frozenset(option) if isinstance(option, Mapping) else None for option in options}
+        if len(kinds) > 1:
+            raise fault_error(f"the values of '{name}' in `vary` do not all have the same fields", shape)
+        count *= len(options)
+    if count > MOST_COMBINATIONS:
+        raise fault_error(f"`vary` has {count} combinations", f"at most {MOST_COMBINATIONS} can be proved")
+    return {str(name): tuple(options) for name, options in value.items()}
 
 
-class Varying(WrittenModel):
-    """What may differ between the sheets of students."""
+def combinations_of(vary: Mapping[str, Sequence[Any]]) -> list[Pick]:
+    """Return every combination of the values of a problem that varies, the first values first."""
+    return [dict(zip(vary, chosen, strict=True)) for chosen in product(*(range(len(o)) for o in vary.values()))]
 
-    what: Annotated[tuple[Aspect, ...], Listed] = Field(
-        ASPECTS, description="any of geometry, names, constraints, supports, rolling"
-    )
-    drop: Annotated[tuple[str, ...], Listed] = Field((), description="constraints of which one is omitted")
-    add: Annotated[
-        tuple[Annotated[AnyConstraint, BeforeValidator(as_equation, json_schema_input_type=str | AnyConstraint)], ...],
-        Listed,
-    ] = Field((), description="constraints of which one is added")
+
+def pick_text(vary: Mapping[str, Sequence[Any]], pick: Pick) -> str:
+    """Return a combination in words, as `n = 3, support = driven`."""
+    parts = []
+    for name, options in vary.items():
+        value = options[pick.get(name, 0)]
+        shown = next(iter(value.values()), "") if isinstance(value, Mapping) else value
+        parts.append(f"{name} = {shown if isinstance(shown, str) else as_written(shown)}")
+    return ", ".join(parts)
+
+
+def with_values(value: Any, vary: Mapping[str, Sequence[Any]], pick: Pick) -> Any:
+    """Return what is written with the values of a combination in the places ``[[NAME]]`` and ``[[NAME.FIELD]]``."""
+    table: dict[str, Any] = {}
+    for name, options in vary.items():
+        option = options[pick[name]]
+        table |= (
+            {f"{name}.{key}": one for key, one in option.items()} if isinstance(option, Mapping) else {name: option}
+        )
+    return _with_values(value, table)
+
+
+def _with_values(value: Any, table: Mapping[str, Any]) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _with_values(part, table) for key, part in value.items()}
+    if isinstance(value, list | tuple):
+        return [_with_values(part, table) for part in value]
+    if not isinstance(value, str):
+        return value
+    whole = _PLACE.fullmatch(value.strip())
+    if whole is not None and whole[1] in table:
+        return table[whole[1]]
+    return _PLACE.sub(lambda m: _as_text(table[m[1]]) if m[1] in table else m[0], value)
+
+
+def _as_text(value: Any) -> str:
+    return value if isinstance(value, str) else as_written(value)
 
 
 def _aliases(value: object) -> object:
@@ -86,8 +129,8 @@ class Problem(WrittenModel):
         dict[str, tuple[str, ...]],
         BeforeValidator(_aliases, json_schema_input_type=dict[str, str | list[str]]),
     ] = Field(default_factory=dict, description="other names that answers may use: `theta_A: [theta, phi]`")
-    vary: Annotated[Varying, BeforeValidator(_varying)] | None = Field(
-        None, description="what may differ between students: a list of aspects, or false for nothing; by default all"
+    vary: Annotated[dict[str, tuple[Any, ...]] | None, BeforeValidator(_varying)] = Field(
+        None, description="what differs between students: lists of values, `n: [2, 3, 5]`, put in where `[[n]]` stands"
     )
     questions: Annotated[
         tuple[Annotated[AnyQuestion, WrapValidator(_QUESTION.validated)], ...], Field(min_length=1)
@@ -99,27 +142,24 @@ class Problem(WrittenModel):
         return {other: name for name, others in self.names.items() for other in others}
 
 
-class StudentSheet(WrittenModel):
-    """Whose sheet is which."""
+class StudentVariant(WrittenModel):
+    """Who has which variant."""
 
     student: str = Field(min_length=1, description="the name of the student in results")
     known_as: Annotated[tuple[str, ...], Listed] = Field(
         (), description="other names, addresses and numbers of the student"
     )
-    draw: int = Field(
-        0, ge=0, description="which draw of the seed it is; 0 unless that gives another student's variant"
+    picks: dict[str, Pick] = Field(
+        default_factory=dict, description="by problem: the index of the value of each varying name, from 0"
     )
-    sheet: str = Field("", description="a mark that tells whether the variant is reproduced exactly")
 
 
 class Variants(WrittenModel):
-    """That every student has a sheet of their own, made from a seed."""
+    """That students have variants, and which."""
 
-    seed: Annotated[str, BeforeValidator(identifier)] = Field(min_length=1, description="the seed of the variants")
-    version: str = Field("", description="the version of dofkit that made them")
-    students: tuple[StudentSheet, ...] = Field((), description="the students")
+    students: tuple[StudentVariant, ...] = Field((), description="the students")
 
-    def find(self, text: str) -> StudentSheet | None:
+    def find(self, text: str) -> StudentVariant | None:
         """Whose name, address or number it is; None for nobody's, and for that of two."""
         found = [one for one in self.students if plain_name(text) in map(plain_name, (one.student, *one.known_as))]
         return found[0] if len(found) == 1 else None
@@ -152,13 +192,3 @@ def faults_of_names(problem: Problem, key: Key) -> Iterator[Fault]:
                 why = f"'{other}' already has a meaning" if other in taken else str(wrong)
                 yield Fault(why, ("names", name, n), hint="choose a name that the scene does not use")
             taken.add(other)
-    if problem.vary is not None:
-        for fault in _faults_of_dropped(problem.vary, key):
-            yield replace(fault, where=("vary", *fault.where))
-
-
-def _faults_of_dropped(varying: Varying, key: Key) -> Iterator[Fault]:
-    for n, name in enumerate(varying.drop):
-        if name not in key.constraints:
-            hint = suggestion(name, list(key.constraints), "constraints")
-            yield Fault(f"the scene has no constraint '{name}'", ("drop", n), hint=hint)

@@ -7,25 +7,31 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from dofkit.base.display import Displayed
-from dofkit.report import ToldModel
+from dofkit.report import ReportModel
 
 Status = Literal["right", "partly", "wrong", "unreadable", "missing", "needs_review"]
 
 
-class PossibleReading(ToldModel):
+def one_line(text: str) -> str:
+    """Return JSON with the characters escaped that some readers take for the end of a line."""
+    return text.replace("\u2028", "\\u2028").replace("\u2029", "\\u2029").replace("\x85", "\\u0085")
+
+
+class PossibleReading(ReportModel):
     """A way to read an answer that is open, and what it would earn; None where that is open too."""
 
     read_as: str
     score: float | None
 
 
-class Item(ToldModel):
+class Item(ReportModel):
     """One answer. ``score`` is None where it waits for a person: never zero then, never full marks.
 
     ``codes`` are stable names of what went wrong, the most likely first; ``answer`` is the answer as typed, at most
     2 000 characters of it, and ``read_as`` the answer as it was understood. ``column`` is where an unreadable answer
     could not be read further, from 1, and ``would_read`` what would be read, where that is known. ``readings``: the
-    ways to read an open answer, and what each would earn. ``decided_by``: the person who gave the points.
+    ways to read an open answer, and what each would earn. ``certain``: its text reads in one way, in declared names
+    alone; that does not depend on the key. ``decided_by``: the person who gave the points.
     ``variant``: of the problem, where every student has another: its structure and a mark.
     """
 
@@ -41,11 +47,12 @@ class Item(ToldModel):
     answer: str | None = None
     would_read: str | None = None
     readings: list[PossibleReading] = Field(default_factory=list)
+    certain: bool = True
     decided_by: str | None = None
     variant: str | None = None
 
 
-class Result(Displayed, ToldModel):
+class Result(Displayed, ReportModel):
     """One student's submission. ``score`` is the sum of what is decided; ``needs_review`` answers are open beside it:
     those that could not be decided, and those that could not be read unless the assignment gives them zero points.
 
@@ -62,3 +69,7 @@ class Result(Displayed, ToldModel):
     needs_review: int = 0
     error: str | None = None
     doubt: str | None = None
+
+    def json_line(self) -> str:
+        """Return the result as one line of JSON, also for readers that end a line at U+2028."""
+        return one_line(self.model_dump_json())

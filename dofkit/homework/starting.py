@@ -12,7 +12,7 @@ import yaml
 from pydantic import TypeAdapter
 
 from dofkit.homework.key.key import Key
-from dofkit.homework.key.polar_angles import polar_angles
+from dofkit.homework.key.own_coordinates import polar_angles
 from dofkit.homework.questions import AnyQuestion
 from dofkit.scene.reading import load
 

@@ -14,15 +14,21 @@ from itertools import product as cartesian
 
 from dofkit.base.errors import TextError
 from dofkit.exact.errors import raising_no_value
-from dofkit.exact.zero.identity import certainly_nonzero, zero_and_verdict
+from dofkit.exact.zero import certainly_nonzero, zero_and_verdict
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff, substitute
-from dofkit.expressions.differentials import NOT_LINEAR, SOLVE_FOR_IT, accelerations_of, in_velocities
-from dofkit.expressions.text import to_text
-from dofkit.expressions.text.derivatives import by_time
+from dofkit.expressions.calculus import (
+    NOT_LINEAR,
+    SOLVE_FOR_IT,
+    accelerations_of,
+    by_time,
+    diff,
+    in_velocities,
+    substitute,
+)
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, GivenUpError
-from dofkit.integrability.integrals.antiderivative import potential
+from dofkit.integrability.integrals.potentials import potential
 from dofkit.relations.normal.normal_form import linear_form, normalise
 from dofkit.relations.normal.pieces import Normal, Piece
 from dofkit.relations.normal.zero_set import zero_set

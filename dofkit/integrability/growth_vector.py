@@ -17,8 +17,7 @@ from flint import fmpz
 
 from dofkit.exact.points.frames import FormRows, Pivots, rank_over
 from dofkit.exact.points.series import Series, SeriesPoint
-from dofkit.exact.ring.instructions import Scalar, Var
-from dofkit.exact.ring.program import gradient, partials, values
+from dofkit.exact.ring.program import Scalar, Var, gradient, partials, values
 from dofkit.integrability.lie_algebra import (
     AdmissibleCurve,
     Matrix,

@@ -23,14 +23,12 @@ from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.ring.instructions import VAR, Scalar, reachable
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import VAR, Scalar, reachable, values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.independence import independent_on_set
+from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.lie_algebra import Span
-from dofkit.integrability.lie_algebra_at_points import ball_span, span_at
+from dofkit.integrability.lie_algebra import Span, ball_span, span_at
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, coordinates_of

@@ -11,16 +11,17 @@ from dataclasses import replace
 
 from flint import arb
 
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.configuration.states import States, rows_at, state_relations
-from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots, certified_rank, kernel
 from dofkit.exact.points.real_search import RealPoint
-from dofkit.exact.zero.identity import is_zero
+from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.relations.answer import Answer, HolonomyLabel

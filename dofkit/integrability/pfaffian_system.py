@@ -8,19 +8,18 @@ from dataclasses import dataclass
 
 from flint import arb
 
+from dofkit.base.errors import NoValueError
 from dofkit.configuration.at_reference import CLEAR, ball_matrix, ball_point
 from dofkit.configuration.generic_points import on_variety, pose_point
-from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.frames import FormRows
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, uses_time
-from dofkit.relations.chart import Chart
-from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.chart import Chart, make_chart
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
 

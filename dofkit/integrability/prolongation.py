@@ -17,15 +17,14 @@ from typing import Any
 from flint import arb
 
 from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError
 from dofkit.configuration.variety import Variety
-from dofkit.exact.errors import NoValueError
+from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.frames import FormRows
 from dofkit.exact.ring.canonical import Canon, determinant, divided, polynomials
-from dofkit.exact.ring.instructions import Point, Scalar
-from dofkit.exact.ring.program import values
-from dofkit.exact.zero.analyticity import is_analytic
+from dofkit.exact.ring.program import Point, Scalar, values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.pfaffian_system import Codistribution

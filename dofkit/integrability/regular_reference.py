@@ -12,19 +12,19 @@ from collections.abc import Mapping
 
 from flint import arb, ctx, nmod_mat
 
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict
 from dofkit.configuration.at_reference import ball_matrix, ball_point
 from dofkit.configuration.generic_points import SAMPLES, on_variety, pose_point
 from dofkit.configuration.variety import Variety
-from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import precision
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import field_frame
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.program import values
-from dofkit.exact.zero.identity import zero_and_verdict
+from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr

@@ -1,4 +1,4 @@
-"""The commands about assignments: a first assignment, the handout for students, and a variant per student."""
+"""The commands `assignment` and `export`: first assignments, handouts, variants, and files for course platforms."""
 
 from __future__ import annotations
 
@@ -10,15 +10,17 @@ import typer
 
 from dofkit.base.arguments import format_of_path
 from dofkit.interface import options
-from dofkit.interface.failures import failures_of
-from dofkit.interface.help_panels import PanelCommand
+from dofkit.interface.output import failures_of
 
 assignment_app = typer.Typer(
-    help="Write assignments, handouts and a variant per student.", no_args_is_help=True, rich_markup_mode=None
+    help="Write assignments, handouts and a variant per student.", no_args_is_help=True, rich_markup_mode="rich"
+)
+export_app = typer.Typer(
+    help="Export assignments and grades for course platforms.", no_args_is_help=True, rich_markup_mode="rich"
 )
 
 
-@assignment_app.command("new", cls=PanelCommand)
+@assignment_app.command("new")
 def new(
     scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Scenes: paths or catalog names.")],
     every: Annotated[bool, typer.Option("--all", help="Include every question that fits the scenes.")] = False,
@@ -30,12 +32,10 @@ def new(
         typer.echo(starting(scenes, every), nl=False)
 
 
-@assignment_app.command("handout", cls=PanelCommand)
+@assignment_app.command("handout")
 def handout(
     assignment: options.Assignment,
-    form: Annotated[
-        str | None, typer.Option("--format", metavar="NAME", help="html (default), pdf, tex or md.")
-    ] = None,
+    form: Annotated[str | None, typer.Option("--format", metavar="NAME", help="html (default), pdf or md.")] = None,
     out: Annotated[
         Path | None,
         typer.Option("--out", metavar="PATH", help="The file, whose ending decides the format."),
@@ -50,7 +50,7 @@ def handout(
     """
     from dofkit.homework.assignment import load_assignment
     from dofkit.homework.handout.sheets import HANDOUTS, remarks, write_sheet, written_sheet
-    from dofkit.homework.own_sheets import own
+    from dofkit.homework.variants import own
 
     with failures_of(assignment):
         form = form or "html" if out is None else format_of_path(out, HANDOUTS, form)
@@ -66,40 +66,88 @@ def handout(
     typer.echo(target)
 
 
-@assignment_app.command("vary", cls=PanelCommand)
+@assignment_app.command("vary")
 def vary(
     assignment: options.Assignment,
     roster: Annotated[Path, typer.Option("--roster", metavar="TABLE.csv", help="The students of the course.")],
     seed: Annotated[str, typer.Option("--seed", metavar="TEXT", help="The seed of the variants: keep it.")],
     out: Annotated[Path, typer.Option("--out", metavar="FOLDER", callback=options.folder, help="The folder to write.")],
     form: Annotated[
-        str, typer.Option("--format", metavar="NAME", help="The format of the handouts: html, pdf, tex or md.")
+        str, typer.Option("--format", metavar="NAME", help="The format of the handouts: html, pdf or md.")
     ] = "html",
     anew: Annotated[bool, typer.Option("--anew", help="Replace the variants that the folder holds already.")] = False,
 ) -> None:
-    """Write an equally hard variant for every student.
+    """Write a variant for every student.
 
-    The folder gets a handout per student, one assignment that grades all of them (`dofkit grade FOLDER/assignment.yaml
-    ...`), and a table of the differences. The same seed gives a student the same variant everywhere, and every key is
-    proved. Students who have a variant in the folder keep it when the roster changes.
+    A problem lists what varies (`vary: {n: [2, 3, 5]}`); every combination is proved, and a keyed hash picks one for
+    each student. The folder gets a handout per student, one assignment that grades all of them (`dofkit grade
+    FOLDER/assignment.yaml ...`), and a table of the variants. Students who have one there keep it when the roster
+    changes.
     """
     from dofkit.homework.answers.roster import load_roster
-    from dofkit.homework.class_sheets import class_sheets, write_class
+    from dofkit.homework.handout.class_sheets import class_sheets, write_class
 
     with failures_of(assignment):
         made = class_sheets(assignment, load_roster(roster), seed, out, anew)
         write_class(made, form, drawing(), out)
     for remark in made.remarks():
         typer.echo(f"{assignment}: {remark}", err=True)
-    typer.echo(f"{out}: {len(made.sheets)} sheets")
+    typer.echo(f"{out}: {len(made.variants.students)} sheets")
 
 
 def drawing() -> Callable[[Any, Any, str], str | None]:
     """Return the function that draws a scene for a handout."""
-    from dofkit.pictures.unanswered import unanswered
+    from dofkit.pictures.still import unanswered
 
     def draw(scene: Any, report: Any, title: str) -> str | None:
         picture = unanswered(scene, report, title)
         return None if picture is None else picture.svg()
 
     return draw
+
+
+@export_app.command("gradescope")
+def export_gradescope(
+    assignment: options.Assignment,
+    out: Annotated[
+        Path, typer.Option("--out", metavar="PATH", callback=options.file_of("zip"), help="The zip to upload.")
+    ] = Path("autograder.zip"),
+    python: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--python",
+            metavar="VERSION",
+            help="A Python version on the platform; may be repeated. Default: 3.11 to 3.13.",
+        ),
+    ] = None,
+    wheels: Annotated[
+        bool, typer.Option(help="Include dofkit and its dependencies, so that no network is needed.")
+    ] = True,
+    reviewed: options.ReviewTable = None,
+) -> None:
+    """Write a Gradescope autograder as one zip to upload."""
+    from dofkit.homework import export
+
+    with failures_of(assignment):
+        pythons = python or export.PYTHONS
+        notes = export.export_gradescope(assignment, out, pythons, wheels=wheels, reviewed=reviewed)
+    for note in notes:
+        typer.echo(f"{out}: {note}", err=True)
+
+
+@export_app.command("grades")
+def export_grades(
+    assignment: options.Assignment,
+    results: Annotated[
+        Path, typer.Argument(metavar="RESULTS", help="The results.jsonl of `dofkit grade`, or its folder.")
+    ],
+    form: Annotated[str, typer.Option("--format", metavar="NAME", help="The format of a gradebook or platform.")],
+    out: Annotated[Path, typer.Option("--out", metavar="PATH", help="The file or folder to write.")],
+    roster: options.RosterPath = None,
+) -> None:
+    """Write existing results in another format, without regrading."""
+    from dofkit.homework.runs.run import GradingOptions, convert
+
+    with failures_of(assignment):
+        count = convert(assignment, results, GradingOptions(form, out, roster=roster))
+    typer.echo(f"{out}: {count} results")

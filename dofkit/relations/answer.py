@@ -11,7 +11,7 @@ from flint import arb
 
 from dofkit.base.verdicts import OPEN, About, ArgumentKey, Claim, Verdict
 from dofkit.exact.matrices.sparse import SparseRow, Supports
-from dofkit.exact.zero.independence import Doubt
+from dofkit.exact.zero import Doubt
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block
 

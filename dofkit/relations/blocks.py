@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
 
 from dofkit.base.components import components
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
-from dofkit.relations.joint_equations import JointEquation
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.normal_form import linear_form
-from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Pfaffian
-from dofkit.relations.reductions import Reductions
+from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Pfaffian
+from dofkit.relations.setting import Reductions
 
 
 class Row(NamedTuple):
@@ -145,3 +145,38 @@ def uses_time(block: Block) -> bool:
     rows = tuple(row for row in block.rows if not isinstance(row.piece, JointEquation))
     dt = any(isinstance(r.piece, Pfaffian) and not r.piece.dt.is_zero for r in rows)
     return dt or any(ex.TIME in e.symbols for e in expressions(Block(block.coordinates, rows)))
+
+
+def with_rows(rows: Sequence[Row], constants: Mapping[str, Row]) -> list[Row]:
+    """The rows and, for every constant of integration C that they mention, dC = 0."""
+    mentioned = frozenset().union(*(coordinates_of(r.piece) for r in rows)) if constants else frozenset[str]()
+    return [*rows, *(row for c, row in constants.items() if c in mentioned)]
+
+
+def names_in(rows: Sequence[Row], constants: Mapping[str, Row]) -> list[str]:
+    """The constants of integration whose dC = 0 is among the rows."""
+    kept = {id(row.piece) for row in rows} if constants else set()
+    return [c for c, row in constants.items() if id(row.piece) in kept]
+
+
+def about_constants(g: Expr, constants: Sequence[str]) -> bool:
+    """Does a relation hold between constants of integration only?"""
+    return all(s.args[0] == "parameter" or s.args[1] in constants for s in g.symbols)
+
+
+def fixed_constants(hidden: Sequence[Expr], constants: Sequence[str]) -> dict[str, Expr]:
+    """The constants that linear relations among them give in terms of parameters and the other constants."""
+    found: dict[str, Expr] = {}
+    for g in hidden if constants else ():
+        if not about_constants(g, constants):
+            continue
+        left = substitute(g, {ex.coordinate(c): value for c, value in found.items()})
+        terms = linear_terms(left)
+        for c in reversed(constants):
+            s = ex.coordinate(c)
+            if s in terms and not any(s in u.symbols for u in terms if u != s):
+                value = ex.ZERO - (left - ex.mul(ex.num(terms[s]), s)) / ex.num(terms[s])
+                found = {k: substitute(v, {s: value}) for k, v in found.items()} | {c: value}
+                break
+    named = {ex.coordinate(c): ex.parameter(c) for c in constants}
+    return {c: substitute(value, named) for c, value in found.items()}

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from dofkit.expressions.renaming import Template, order_of, shape_of
+from dofkit.expressions.renaming import Template, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Pfaffian, Piece
@@ -16,11 +16,10 @@ _SHAPE = "_shape"
 
 
 class PieceShape(NamedTuple):
-    """A piece without its names (``key``), these in the order in which they first occur, and those that are kept."""
+    """A piece without its names (``key``), and these in the order in which they first occur."""
 
     key: Hashable
     names: tuple[str, ...]
-    kept: tuple[str, ...]
 
 
 def piece_shape(piece: Piece) -> PieceShape:
@@ -34,7 +33,7 @@ def piece_shape(piece: Piece) -> PieceShape:
 
 def _shape(piece: Finite | Nonlinear | Inequality | DomainCondition) -> PieceShape:
     shape = shape_of(piece.expr)
-    return PieceShape((type(piece).__name__, _sense(piece), shape.skeleton), shape.names, shape.kept)
+    return PieceShape((type(piece).__name__, _sense(piece), shape.skeleton), shape.names)
 
 
 def _sense(piece: Finite | Nonlinear | Inequality | DomainCondition) -> str | bool | None:
@@ -45,30 +44,17 @@ def _sense(piece: Finite | Nonlinear | Inequality | DomainCondition) -> str | bo
 
 def _form_shape(form: Pfaffian) -> PieceShape:
     places: dict[str, int] = {}
-    kept: set[str] = set()
     parts: list[Hashable] = [type(form).__name__]
     for name, e in _coefficients(form):
-        skeleton, names, others, _ = shape_of(e)
+        shape = shape_of(e)
         own = -1 if name is None else places.setdefault(name, len(places))
-        parts.append((own, skeleton, tuple(places.setdefault(n, len(places)) for n in names)))
-        kept.update(others)
-    return PieceShape(tuple(parts), tuple(places), tuple(sorted(kept)))
+        parts.append((own, shape.skeleton, tuple(places.setdefault(n, len(places)) for n in shape.names)))
+    return PieceShape(tuple(parts), tuple(places))
 
 
 def _coefficients(form: Pfaffian) -> Iterator[tuple[str | None, Expr]]:
     yield from form.coefficients.items()
     yield None, form.dt
-
-
-def shape_together(pieces: Iterable[Piece]) -> Hashable:
-    """Equal for pieces that are each other's, renamed all at once, whose names are sorted in the same order."""
-    places: dict[str, int] = {}
-    kept: set[str] = set()
-    parts = []
-    for shape in map(piece_shape, pieces):
-        parts.append((shape.key, tuple([places.setdefault(n, len(places)) for n in shape.names])))
-        kept.update(shape.kept)
-    return tuple(parts), order_of(tuple(places), tuple(kept))
 
 
 class NormalTemplate:
@@ -107,5 +93,5 @@ class _PieceTemplate:
             made = Finite(found[0][1])
         else:
             made = replace(self._piece, expr=found[0][1])
-        vars(made)[_SHAPE] = PieceShape(self._shape.key, tuple([names[k] for k in self._own]), self._shape.kept)
+        vars(made)[_SHAPE] = PieceShape(self._shape.key, tuple([names[k] for k in self._own]))
         return made

@@ -11,20 +11,19 @@ from typing import NamedTuple
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import is_zero
+from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
-from dofkit.relations.normal.elimination import combinations_of
 from dofkit.relations.normal.normal_form import normalise, velocities_of
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes
 
-#: Ways to split the nonlinear relations that are looked at, rounds of reduction, and relations that are combined.
-MAX_WAYS, MAX_ROUNDS, MAX_COMBINED = 16, 6, 8
+#: Ways to split the nonlinear relations that are looked at, and rounds of reduction.
+MAX_WAYS, MAX_ROUNDS = 16, 6
 
 
 def rate(g: Expr) -> Expr:
@@ -74,11 +73,10 @@ class Way:
 
 
 def ways_of(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Way]:
-    """The rows with nonlinear ones reduced by the linear ones that share coordinates with them, and by each other.
+    """Return the rows with nonlinear ones reduced by the linear ones that share coordinates with them.
 
     Velocities that the linear rows give are put into the nonlinear ones, which may then split into linear ones:
-    xdot^2 + ydot^2 = zdot^2 with y = 2 x is zdot = +-sqrt(5) xdot. Where combinations of nonlinear rows are linear,
-    they take their place: xdot^2 + ydot^2 = 1 and xdot^2 + ydot^2 = zdot give zdot = 1. And so on with what is new.
+    xdot^2 + ydot^2 = zdot^2 with y = 2 x is zdot = +-sqrt(5) xdot. What is new is used in the next round.
     """
     ways, done = [Way(tuple(RewrittenRow(r, (r,)) for r in rows))], list[Way]()
     for _ in range(MAX_ROUNDS):
@@ -103,9 +101,7 @@ def _step(way: Way, positive: frozenset[Expr]) -> list[Way] | None:
     told = {id(r): _ways(r, rows, positive) for r in rows if isinstance(r.piece, Nonlinear)}
     by_linear, divided = {i: one.ways for i, one in told.items()}, any(one.divided for one in told.values())
     if all(len(found) == 1 and len(found[0]) == 1 and id(found[0][0]) in by_linear for found in by_linear.values()):
-        by_linear = _combined([r for r in rows if isinstance(r.piece, Nonlinear)], positive)
-        if not by_linear:
-            return None
+        return None
     options: list[list[RewrittenRow]] = []
     for slot in way.slots:
         choices = cartesian(*(by_linear.get(id(r), [(r,)]) for r in slot.rows))
@@ -187,16 +183,6 @@ def _divides(g: Expr, divisors: Sequence[Expr]) -> bool:
         return any(not own.gcd(canon.quotient(n)[0]).is_constant() for n in nodes[1:])
     except NoValueError:
         return False
-
-
-def _combined(rows: Sequence[Row], positive: frozenset[Expr]) -> dict[int, list[tuple[Row, ...]]]:
-    """Those of some nonlinear rows that a combination with earlier ones makes linear, by identity."""
-    if not 1 < len(rows) <= MAX_COMBINED:
-        return {}
-    expressions = [r.piece.expr for r in rows if isinstance(r.piece, Nonlinear)]
-    found = combinations_of(expressions, positive)
-    said = {id(rows[i]): _one_that_holds(_branches(rows[i], e, (), positive)) for i, e in found.items()}
-    return {i: ways for i, ways in said.items() if not any(isinstance(r.piece, Nonlinear) for w in ways for r in w)}
 
 
 def _rows_near(row: Row, rows: Sequence[Row]) -> list[Row]:

@@ -17,13 +17,13 @@ from typer.testing import CliRunner
 from dofkit.base.runs import Pool
 from dofkit.benchmark import command, record, runner, statistics, tasks
 from dofkit.benchmark.figures import table as figures_table
-from dofkit.benchmark.record import AUTO, Data, Outcome, Ran, ReductionCost, Score, TrialLine
+from dofkit.benchmark.record import AUTO, Data, Outcome, Ran, Score, TrialLine
 from dofkit.benchmark.runner import outcome_of
 from dofkit.benchmark.sentences import summary
 from dofkit.benchmark.tasks import Selection
 from dofkit.benchmark.trials.construction import Trial
 from dofkit.interface.cli import app
-from dofkit.methods.reply import Knobs
+from dofkit.methods.table import Knobs
 
 RAN = Ran(
     version="0",
@@ -234,25 +234,7 @@ SWEEPS = [
     for group in ("3", "9")
     for value, outcome in _STEPS
 ]
-REDUCTIONS = [
-    ReductionCost(
-        scene="s",
-        family="blocks",
-        size=3,
-        off=off,
-        seconds=seconds,
-        coordinates=9,
-        relations=3,
-        forms=0,
-        largest=largest,
-        written=9,
-        unchanged=True,
-        undecided=False,
-        differs=["a, b"] if off else [],
-    )
-    for off, seconds, largest in (("", 0.01, 3), ("blocks", 0.05, 9))
-]
-DATA = Data(RAN, LINES, SWEEPS, REDUCTIONS)
+DATA = Data(RAN, LINES, SWEEPS)
 
 
 def test_scores_points_and_auto_against_the_fastest() -> None:
@@ -284,11 +266,11 @@ def test_scores_points_and_auto_against_the_fastest() -> None:
         ("3", 1e-3, 1, 0, 0),
         ("3", 1e-1, 0, 0, 1),
     ]
-    assert command.auto_sentences(chart)[0] == "auto: 4 trials, 0 wrong, 0 without an answer"
-    assert command.auto_sentences(chart)[1:] == [
-        "auto: at most twice the time of the fastest method that is right on a family and never wrong: 0 of 1 families",
+    assert list(command.auto_sentences(chart)) == [
+        "8 trials by four methods, at most 4 s each: of the answers of `auto` none is wrong and 0 % are undecided.",
+        "On 0 of 1 families `auto` takes at most twice the time of the fastest method that is right there and wrong "
+        "nowhere; with those that are right there by luck it does on 0 of 1.",
         "  dof, boxes: 4.0 times graph",
-        "auto: the same, with methods that are wrong elsewhere: 0 of 1 families",
     ]
     assert all(text.endswith("Made by: dofkit chart --quick") for text in chart.captions.values())
 
@@ -346,7 +328,7 @@ def test_the_command_runs_tells_and_redraws(tmp_path: Path) -> None:
     out = tmp_path / "new" / "folder"
     done = CliRunner().invoke(app, [*arguments, "--out", str(out)])
     assert done.exit_code == 0, done.output
-    assert "auto: 2 trials, 0 wrong, 0 without an answer" in done.output
+    assert "of the answers of `auto` none is wrong and 0 % are undecided." in " ".join(done.output.split())
     assert "nothing is drawn without matplotlib: pip install 'dofkit[chart]'" in done.output
     data = record.read(out)
     assert len(data.lines) == 2 * 2

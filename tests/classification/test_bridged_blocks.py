@@ -9,8 +9,8 @@ from shared.trees import tree_with_loops
 
 import dofkit
 from dofkit.classification.passes import GENERIC, examined
-from dofkit.expressions.unwritten import Unwritten
-from dofkit.relations.reductions import ALL
+from dofkit.expressions.renaming import Unwritten
+from dofkit.relations.setting import ALL
 from dofkit.scene.lowering import lower
 
 PINS = {("h", "p"): (0, 0), ("p", "q"): (1, 2), ("q", "r"): (5, 3), ("r", "h"): (4, 0)}

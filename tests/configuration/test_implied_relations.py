@@ -11,7 +11,7 @@ from dofkit.classification.freedom.preparation import prepared
 from dofkit.configuration import implied_relations
 from dofkit.configuration.implied_relations import BESIDE, ImpliedRelations
 from dofkit.relations.blocks import Block, Row
-from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.chart import make_chart
 from dofkit.scene.lowering import lower
 
 

@@ -17,7 +17,7 @@ import dofkit
 from dofkit.base.errors import TextError
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.exact.errors import PoleError
-from dofkit.exact.matrices.singular_values import independent_part
+from dofkit.exact.matrices.certified import independent_part
 from dofkit.exact.matrices.sparse import sparse
 from dofkit.exact.points.balls import PRECISION, BallPoint
 from dofkit.exact.points.field import field_point
@@ -27,8 +27,8 @@ from dofkit.exact.points.series import Series, SeriesPoint, series_values
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.zero.identity import is_zero
+from dofkit.exact.triangular import TriangularSolver
+from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.terms import expand, linear_terms
 from dofkit.expressions.text import Names, parse_expression, parse_relations, to_text

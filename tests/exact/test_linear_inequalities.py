@@ -8,7 +8,7 @@ from typing import Literal
 import pytest
 from flint import fmpq
 
-from dofkit.exact.solving.linear_inequalities import LinearCondition, solution
+from dofkit.exact.linear_inequalities import LinearCondition, solution
 
 Sense = Literal["=", ">=", ">"]
 Rows = list[tuple[list[int], int, Sense]]

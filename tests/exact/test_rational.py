@@ -6,7 +6,7 @@ import pytest
 from flint import nmod_poly
 
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.rational import LARGEST, LOW, Rational
+from dofkit.exact.unknowns import LARGEST, LOW, Rational
 
 P = 2**61 - 1
 

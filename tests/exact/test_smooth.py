@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from dofkit.exact.points.smooth import SmoothFunction
+from dofkit.exact.points.balls import SmoothFunction
 
 
 def test_a_function_begins_at_its_start_and_rises_by_its_slopes() -> None:

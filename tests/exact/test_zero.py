@@ -8,10 +8,9 @@ from typing import Any
 import pytest
 
 import dofkit
+from dofkit.exact import zero
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero import identity
-from dofkit.exact.zero.identity import is_proved_zero, zero_and_verdict
-from dofkit.exact.zero.independence import doubt, independent_generators
+from dofkit.exact.zero import doubt, independent_generators, is_proved_zero, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import coordinate
@@ -30,11 +29,11 @@ def test_arcs_that_nearly_close_do_not(arcs: str) -> None:
 
 def test_three_points_make_a_zero_probable(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn: list[Any] = []
-    point = identity.field_point
-    monkeypatch.setattr(identity, "field_point", lambda rings, seed: drawn.append(seed) or point(rings, seed))
+    point = zero.field_point
+    monkeypatch.setattr(zero, "field_point", lambda rings, seed: drawn.append(seed) or point(rings, seed))
     x = coordinate("x")
     ring = Ring([x])
-    assert identity._zero_at_points(ring, ring.node(x - x)) is True
+    assert zero._zero_at_points(ring, ring.node(x - x)) is True
     assert len(drawn) == 3
 
 

@@ -10,7 +10,7 @@ import pytest
 from dofkit.base.errors import TextError
 from dofkit.expressions.renaming import Renaming, Template, shape_of
 from dofkit.expressions.text import Names, parse_relations
-from dofkit.expressions.text.patterns import pattern_of
+from dofkit.expressions.text.names import pattern_of
 from dofkit.expressions.tree import Expr, coordinate, fn, parameter, velocity
 
 NAMES = Names(

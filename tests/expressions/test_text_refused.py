@@ -154,6 +154,8 @@ MISTAKEN: dict[str, tuple[int, str, str]] = {
     "1/(x-x)": (3, "zero", "denominator"),
     "0^-1": (2, "zero", ""),
     "0^0": (2, "`0^0`", ""),
+    "0^x": (2, "no real value", "positive base"),
+    "(-2)^pi": (5, "no real value", "positive base"),
     "sqrt(-1)": (1, "no real root", ""),
     "log(0)": (1, "no real value", ""),
     "asin(2)": (1, "no real value", ""),

@@ -25,18 +25,11 @@ import pytest
 from shared.known_scenes import swept
 from typer.testing import CliRunner
 
-from dofkit.homework import export, notebooks, otter, stand_ins
 from dofkit.homework.assignment import AssignmentError, load_assignment
-from dofkit.homework.autograder import SITES, grade_at, main, undecided
-from dofkit.homework.export import ExportError, OtterError, export_gradescope, export_otter, wheels
+from dofkit.homework.autograder import SITES, grade_at, main
+from dofkit.homework.export import PYTHONS as PYTHONS_THERE
+from dofkit.homework.export import ExportError, export_gradescope, wheels
 from dofkit.homework.export.inline import exact_json, inlined
-from dofkit.homework.export.names_only import names_only
-from dofkit.homework.formats.wording import standing
-from dofkit.homework.judgement import needs_review
-from dofkit.homework.nbgrader import points
-from dofkit.homework.notebooks import QuestionError
-from dofkit.homework.questions import QuestionBase
-from dofkit.homework.readings import reading_of
 from dofkit.interface.cli import app
 
 MEMORY = 2 << 30
@@ -62,13 +55,6 @@ constraints:
 """
 #: f = 1 is right; the squared equation is worth half; the disc has f = 4, not 2.
 ANSWERS: dict[str, dict[str, Any]] = {"pendulum": {"f": "f = 1", "rod": "(x_A^2 + y_A^2 - 0.01)^2"}, "disc": {"f": 2}}
-
-
-@pytest.fixture(autouse=True)
-def working_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where lists of open answers go by default."""
-    (tmp_path / "here").mkdir()
-    monkeypatch.chdir(tmp_path / "here")
 
 
 @pytest.fixture
@@ -217,14 +203,6 @@ def test_prairielearn_takes_a_file_before_what_was_typed(sheet: Path, tmp_path: 
     assert grade_at(replace(SITES["prairielearn"], root=root), sheet, MEMORY).score == 6.0
 
 
-def test_coursera(sheet: Path, tmp_path: Path) -> None:
-    root = hand_in(tmp_path / "shared" / "submission", answers__csv="student,pendulum.f,disc.f\nada,1,4\n")
-    assert main(["coursera", str(sheet), "--root", str(root)]) == 0
-    found = written(root, "coursera")
-    assert found["fractionalScore"] == pytest.approx(2.5 / 10.5)
-    assert found["feedback"].startswith("Points: 2.5 of 10.5.")
-
-
 def two(folder: Path) -> None:
     hand_in(folder, a__json=submission(), b__json=submission())
 
@@ -255,7 +233,7 @@ def other(folder: Path) -> None:
     hand_in(folder, essay__pdf="%PDF", script__py="import os")
 
 
-@pytest.mark.parametrize("site", ["gradescope", swept("prairielearn"), swept("coursera")])
+@pytest.mark.parametrize("site", ["gradescope", swept("prairielearn")])
 @pytest.mark.parametrize(
     ("make", "why"),
     [
@@ -308,7 +286,7 @@ def test_where_time_is_up_everything_is_open(sheet: Path, tmp_path: Path, monkey
 def test_a_faulty_assignment_is_nobodys_fault(tmp_path: Path) -> None:
     faulty = tmp_path / "assignment.yaml"
     faulty.write_text("title: x\nproblems: []\n")
-    for site, result in (("gradescope", True), ("prairielearn", True), ("coursera", False)):
+    for site, result in (("gradescope", True), ("prairielearn", True)):
         root = hand_in(tmp_path / site / "submission", answers__json=submission())
         assert main([site, str(faulty), "--root", str(root)]) == 2
         assert (root / SITES[site].results).exists() is result
@@ -415,7 +393,7 @@ def test_our_wheel(tmp_path: Path) -> None:
         record = packed.read("dofkit-0.1.0.dist-info/RECORD").decode()
         listed = dict(line.split(",", 1) for line in record.splitlines())
         assert set(listed) == names
-        for name in ("dofkit/interface/cli.py", "dofkit/homework/formats/html/templates/base.html"):
+        for name in ("dofkit/interface/cli.py", "dofkit/homework/formats/templates/base.html"):
             data = packed.read(name)
             digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
             assert listed[name] == f"sha256={digest},{len(data)}"
@@ -436,246 +414,29 @@ def test_an_assignment_in_one_piece(sheet: Path, tmp_path: Path) -> None:
         assert second.keys[name].report == key.report
 
 
-@pytest.mark.parametrize("module", ["nbgrader", "export.inline"])
+@pytest.mark.parametrize("module", ["export.inline"])
 def test_documentation(module: str) -> None:
     outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.{module}"))
     assert outcome.failed == 0
     assert outcome.attempted > 0
 
 
-@pytest.mark.parametrize(
-    ("question", "answer", "expected"),
-    [("f", 1, 2.0), ("f", "3", 0.0), ("f", "§", 0.0), ("f", None, 0.0), ("rod", ANSWERS["pendulum"]["rod"], 4.0)],
-)
-def test_nbgrader(
-    question: str, answer: object, expected: float, sheet: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
-    found = points(sheet, "pendulum", question, answer)
-    assert type(found) is float
-    assert found == expected
-    printed = capfd.readouterr()
-    assert printed.err == ""
-    assert printed.out.startswith(f"pendulum.{question}: ")
-
-
-def undecided_judge(self: QuestionBase, *rest: object) -> Any:
-    del self, rest
-    return needs_review("x", "the test says so.")
-
-
-def test_an_open_answer_in_a_notebook(sheet: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any) -> None:
-    prepared = load_assignment(sheet)
-    for _, question in prepared.questions():
-        monkeypatch.setattr(type(question), "judge", undecided_judge)
-    assert points(prepared, "pendulum", "rod", "x = 1") == 4.0
-    assert "until a person has reviewed it" in capsys.readouterr().out
-    otter.check(prepared, {"pendulum": {"rod": "x = 1"}}, "pendulum", "rod", 1, 2)
-    with pytest.raises(AssertionError, match="A person will review this answer: the test says so"):
-        otter.check(prepared, {"pendulum": {"rod": "x = 1"}}, "pendulum", "rod", 2, 2)
-
-
-@pytest.mark.parametrize("place", [("pendulum", "g"), ("pendulums", "f")])
-def test_a_question_that_is_not_asked(place: tuple[str, str], sheet: Path) -> None:
-    with pytest.raises(QuestionError, match="has no question"):
-        points(sheet, *place, 1)
-
-
-def test_a_changed_assignment_is_read_again(sheet: Path) -> None:
-    assert points(sheet, "pendulum", "f", 1) == 2.0
-    sheet.write_text(ASSIGNMENT.replace("points: 2", "points: 3"))
-    os.utime(sheet, ns=(1, 1))
-    assert points(sheet, "pendulum", "f", 1) == 3.0
-    notebooks._grader.cache_clear()
-
-
-def otter_tests(notebook: Path) -> dict[str, list[tuple[bool, float, str]]]:
-    """Of every question of a master notebook its tests: hidden?, points, code."""
-    found: dict[str, list[tuple[bool, float, str]]] = {}
-    name = ""
-    for cell in json.loads(notebook.read_text())["cells"]:
-        source = "".join(cell["source"])
-        if source.startswith("# BEGIN QUESTION"):
-            name = source.split("name: ")[1].strip()
-            found[name] = []
-        elif "# BEGIN TEST CONFIG" in source:
-            said, code = source.split('""" # END TEST CONFIG')
-            fields = dict(line.split(": ") for line in said.splitlines() if ": " in line)
-            found[name].append((fields["hidden"] == "true", float(fields["points"]), code))
-    return found
-
-
-def passes(code: str, answers: object) -> str:
-    """Nothing where a test passes, else what it says."""
-    scope: dict[str, Any] = {}
-    exec(compile(code, "test", "exec"), scope)
-    (test,) = (value for name, value in scope.items() if name.startswith("test_"))
-    try:
-        test(answers)
-    except AssertionError as error:
-        return str(error)
-    return ""
-
-
-def test_otter(sheet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    files = export_otter(sheet, tmp_path / "otter")
-    assert [path.name for path in files] == ["assignment.ipynb", "names.json", "assignment.json"]
-    monkeypatch.chdir(tmp_path / "otter")
-    found = otter_tests(files[0])
-    assert list(found) == ["pendulum_f", "pendulum_rod", "disc_f"]
-    given = {}
-    for name, tests in found.items():
-        (public,) = (code for hidden, points, code in tests if not hidden and not points)
-        assert passes(public, ANSWERS) == ""
-        assert "assignment.json" not in public
-        given[name] = sum(points for hidden, points, code in tests if hidden and not passes(code, ANSWERS))
-    assert {name: sum(points for _, points, _ in tests) for name, tests in found.items()} == {
-        "pendulum_f": 2.0, "pendulum_rod": 8.0, "disc_f": 0.5,
-    }  # fmt: skip
-    assert given == {"pendulum_f": 2.0, "pendulum_rod": 4.0, "disc_f": 0.0}
-    assert not (tmp_path / "otter" / stand_ins.NAME).exists()
-
-
-def test_what_students_get_has_no_key(tmp_path: Path) -> None:
-    scene = {
-        "name": "secret", "dimension": 2, "title": "SECRET", "notes": "SECRET", "parameters": {"l": "12345/7"},
-        "functions": {"h": ["s"]}, "particles": [{"name": "A", "at": [0, "-l"], "mass": 777}], "expect": {"dof": 1},
-        "constraints": [{"name": "rod", "type": "link", "between": [[0, 0], "A"], "length": "l"}],
-        "energies": {"kinetic": "9876 x_Adot^2"}, "configuration": {"x_A": 0, "y_A": "-l"},
-    }  # fmt: skip
-    asked = [{"id": "q", "ask": "coordinates"}, {"id": "r", "ask": "redundant"}, {"id": "e", "ask": "motion"}]
-    problem = {"id": "p", "text": "SECRET", "scene": scene, "also": {"phi": "atan2(x_A, -y_A)"}, "questions": asked}
-    prepared = load_assignment({"title": "Sheet", "problems": [problem]})
-    found = names_only(prepared)
-    (given,) = found["problems"]
-    assert sorted(given) == ["id", "names", "questions", "scene"]
-    assert given["scene"] == {
-        "coordinates": ["x_A", "y_A", "phi"], "parameters": ["l"], "functions": {"h": ["s"]},
-        "constraints": [{"name": "rod", "text": "0 = 0"}],
-    }  # fmt: skip
-    for secret in ("SECRET", "12345", "777", "9876", "expect", "link", "atan2"):
-        assert secret not in json.dumps(found)
-
-
-@pytest.mark.parametrize(
-    ("answer", "readable", "told"),
-    [
-        ("f = 3 - 2 = 1", True, "pendulum.f: Read as: 1"),
-        ("7", True, "pendulum.f: Read as: 7"),
-        ("$$((", False, "pendulum.f: Not readable (column "),
-        (..., False, "pendulum.f: No answer was given."),
-        (None, False, "pendulum.f: No answer was given."),
-        (1, True, "pendulum.f: Read as: 1"),
-    ],
-)
-def test_the_public_test_says_how_an_answer_is_read(
-    answer: object, readable: bool, told: str, sheet: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    names = tmp_path / "names.json"
-    names.write_text(json.dumps(names_only(load_assignment(sheet))))
-    found = reading_of(names, "pendulum", "f", answer)
-    assert found.readable is readable
-    assert found.told.startswith(told)
-    if readable:
-        otter.readable(names, {"pendulum": {"f": answer}}, "pendulum", "f")
-        assert capsys.readouterr().out == f"{told}\n"
-    else:
-        with pytest.raises(AssertionError, match=r"pendulum\.f: "):
-            otter.readable(names, {"pendulum": {"f": answer}}, "pendulum", "f")
-    with pytest.raises(QuestionError, match="has no question"):
-        reading_of(names, "pendulum", "g", answer)
-
-
-def test_where_reading_stops_is_shown_with_what_would_be_read(sheet: Path, tmp_path: Path) -> None:
-    names = tmp_path / "names.json"
-    names.write_text(json.dumps(names_only(load_assignment(sheet))))
-    told = reading_of(names, "pendulum", "rod", "x_A = sin(y_A").told.splitlines()
-    assert told[1:3] == ["x_A = sin(y_A", f"{' ' * 9}^"]
-    assert told[-1] == "It would be read as: x_A = sin(y_A)"
-
-
-def test_two_questions_of_one_test(tmp_path: Path) -> None:
-    problems = [{"id": f"a{sign}b", "scene": "disc-rolling-on-plane", "questions": [{"id": "f", "ask": "dof"}]}
-                for sign in "-."]  # fmt: skip
-    (tmp_path / "sheet.json").write_text(json.dumps({"title": "x", "problems": problems}))
-    with pytest.raises(OtterError, match="two questions would have the test 'a_b_f'"):
-        export_otter(tmp_path / "sheet.json", tmp_path / "out")
-
-
-def listed(path: Path) -> list[list[str]]:
-    return [row[1:] for row in csv.reader(io.StringIO(path.read_text(), newline=""))][1:]
-
-
-def test_what_counts_by_a_stand_in_is_listed(
-    sheet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    table = tmp_path / stand_ins.NAME
-    assert points(sheet, "pendulum", "f", "=1+$$") == 0.0
-    printed = capsys.readouterr().out
-    assert "=1+$$\n" in printed
-    assert "^" in printed
-    assert "submit again" in printed
-    assert [row[:5] for row in listed(table)] == [["pendulum", "f", "unreadable", "0", "2"]]
-    assert listed(table)[0][5] == "'=1+$$"
-    with pytest.raises(AssertionError, match="Not readable"):
-        otter.check(sheet, {"pendulum": {"rod": "x_A = ("}}, "pendulum", "rod", 1, 2)
-    assert [row[1] for row in listed(table)] == ["f", "rod"]
-    assert points(sheet, "pendulum", "f", 1) == 2.0
-    assert [row[1] for row in listed(table)] == ["rod"]
-    monkeypatch.setenv(stand_ins.VARIABLE, str(tmp_path / "other.csv"))
-    assert points(sheet, "pendulum", "f", "$$") == 0.0
-    assert [row[1] for row in listed(tmp_path / "other.csv")] == ["f"]
-    monkeypatch.setenv(stand_ins.VARIABLE, str(tmp_path / "none" / "other.csv"))
-    assert points(sheet, "pendulum", "f", "$$") == 0.0
-
-
-def test_coursera_lists_what_counts_by_a_stand_in(sheet: Path, tmp_path: Path) -> None:
-    given = json.dumps({"answers": {"pendulum": {"f": "$$((", "rod": "x_A^2 + y_A^2 = 0.01"}, "disc": {"f": 4}}})
-    root = hand_in(tmp_path / "shared" / "submission", answers__json=given)
-    assert main(["coursera", str(sheet), "--root", str(root)]) == 0
-    found = written(root, "coursera")
-    assert found["fractionalScore"] == pytest.approx(8.5 / 10.5)
-    assert "$$((\n" in found["feedback"]
-    assert [row[:5] for row in listed(root / "open.csv")] == [["pendulum", "f", "unreadable", "0", "2"]]
-
-
 def test_the_commands(sheet: Path, tmp_path: Path) -> None:
     runner = CliRunner()
     zipped = runner.invoke(app, ["export", "gradescope", str(sheet), "--no-wheels", "--out", str(tmp_path / "a.zip")])
     assert (zipped.exit_code, zipfile.is_zipfile(tmp_path / "a.zip")) == (0, True)
-    tests = runner.invoke(app, ["export", "otter", str(sheet), "--out", str(tmp_path / "otter")])
-    names = [Path(line).name for line in tests.stdout.split()]
-    assert names == ["assignment.ipynb", "names.json", "assignment.json"]
-    for command, out in (("gradescope", "no.zip"), ("otter", "no")):
-        refused = runner.invoke(app, ["export", command, str(tmp_path / "none.yaml"), "--out", str(tmp_path / out)])
-        assert refused.exit_code == 2
-        assert "there is no file" in refused.stderr
+    refused = runner.invoke(
+        app, ["export", "gradescope", str(tmp_path / "none.yaml"), "--out", str(tmp_path / "no.zip")]
+    )
+    assert refused.exit_code == 2
+    assert "there is no file" in refused.stderr
     for what in ("scene", "assignment", "submission", "result", "report"):
         printed = runner.invoke(app, ["schema", what] if what != "scene" else ["schema"])
         assert json.loads(printed.stdout)["title"].lower() == what
     assert runner.invoke(app, ["schema", "homework"]).exit_code == 2
 
 
-@pytest.mark.parametrize("answers", [None, 3, {}, {"pendulum": 3}, {"pendulum": {}}])
-def test_otter_without_answers(answers: object, sheet: Path) -> None:
-    with pytest.raises(AssertionError, match="No answer"):
-        otter.check(sheet, answers, "pendulum", "f", 1, 2)
-
-
-def test_parts_of_questions() -> None:
-    asked = [
-        {"id": "a", "ask": "label", "constraint": "rod", "parts": ["holonomic", "scleronomic", "bilateral"]},
-        {"id": "b", "ask": "equation", "constraint": ["rod"]},
-        {"id": "c", "ask": "dof"},
-    ]
-    rod = {"name": "rod", "type": "link", "between": [[0, 0], "A"], "length": 1}
-    scene = {"dimension": 2, "particles": ["A"], "constraints": [rod]}
-    prepared = load_assignment({"title": "x", "problems": [{"id": "p", "scene": scene, "questions": asked}]})
-    assert [otter.parts_of(question) for _, question in prepared.questions()] == [6, 2, 2]
-    assert standing(undecided(prepared, "a", "b")).startswith("Points so far: 0 of 3")
-
-
-PYTHONS = {version: shutil.which(f"python{version}") for version in export.PYTHONS}
+PYTHONS = {version: shutil.which(f"python{version}") for version in PYTHONS_THERE}
 
 
 def runs(python: str | None) -> bool:

@@ -11,11 +11,10 @@ from typing import Any
 
 import pytest
 
-from dofkit.homework.answers.attribution import by_platform, by_roster
-from dofkit.homework.answers.roster import Participant, Roster, RosterError, load_roster
+from dofkit.homework.answers.roster import Participant, Roster, RosterError, attributed, doubt_of_platform, load_roster
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, FormatError
-from dofkit.homework.formats.unplaced_results import apart_path
+from dofkit.homework.formats.gradebooks import apart_path
 from dofkit.homework.formats.wording import standing
 from dofkit.homework.result import Item, Result
 
@@ -59,7 +58,7 @@ def roster(text: str, folder: Path) -> Roster:
 def tables(name: str, prepared: Prepared, folder: Path, *results: Result, known: Roster | None = None) -> Any:
     """The rows of the table, and those of the one beside it."""
     out = folder / "grades.csv"
-    FORMATS[name].written(iter(results), prepared, out, known)
+    FORMATS[name].write(iter(results), prepared, out, known)
     apart = apart_path(out)
     return [list(csv.reader(io.StringIO(path.read_text(encoding="utf-8"), newline=""))) if path.exists() else []
             for path in (out, apart)]  # fmt: skip
@@ -241,22 +240,23 @@ def test_what_two_go_by_names_nobody(tmp_path: Path) -> None:
     ],
 )
 def test_whose_it_is(claims: tuple[str, ...], student: str, expected: str, doubted: bool, tmp_path: Path) -> None:
-    found = by_roster(roster(CANVAS, tmp_path), claims, student)
+    found = attributed(roster(CANVAS, tmp_path), claims, (), student, by_default=False)
     assert (found.student, found.doubt is not None) == (expected, doubted)
 
 
 def test_what_names_nobody_is_its_owners(tmp_path: Path) -> None:
     known = roster(CANVAS, tmp_path)
-    assert by_roster(known, ("ada",), "ada:3", True) == ("S1", None)
-    assert by_roster(known, ("ada",), "ada:3").doubt is not None
-    assert by_roster(known, ("Ada Lovelace_3_assignsubmission_file_",), "Ada Lovelace_3", True) == ("S1", None)
+    moodle = ("Ada Lovelace_3_assignsubmission_file_",)
+    assert attributed(known, ("ada",), (), "ada:3", by_default=True) == ("S1", True, None)
+    assert attributed(known, ("ada",), (), "ada:3", by_default=False).doubt is not None
+    assert attributed(known, moodle, (), "Ada Lovelace_3", by_default=True) == ("S1", True, None)
 
 
 def test_whose_it_is_at_a_platform() -> None:
     ada = Participant("ada@x", name="Ada Lovelace", email="ada@x", other="7")
-    assert [by_platform([ada], name) for name in ("", "Ada", "ADA@x", "7", "Lovelace, Ada")] == [None] * 5
-    assert by_platform([], "bob") is None
-    assert "ada@x's, but names 'bob'" in str(by_platform([ada], "bob"))
+    assert [doubt_of_platform([ada], name) for name in ("", "Ada", "ADA@x", "7", "Lovelace, Ada")] == [None] * 5
+    assert doubt_of_platform([], "bob") is None
+    assert "ada@x's, but names 'bob'" in str(doubt_of_platform([ada], "bob"))
 
 
 def test_canvas_numbers_its_files_by_its_own_ids(tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ from dofkit.base.runs import Pool, in_order
 from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.answers.submission import FilePlace, of_value
 from dofkit.homework.grading import Grader
-from dofkit.homework.runs.keeper import Keeper
+from dofkit.homework.runs.batch import Keeper
 from dofkit.interface import cli
 from dofkit.methods.classify import classify
 
@@ -118,7 +118,12 @@ TABLES: dict[str, tuple[str | bytes, Any]] = {
         "p.f\n1\n2\n",
         [("t", ", line 1: its header has no column 'student', and there is more than one row")],
     ),
-    "no student": ("name,p.f\nana,1\n", [("t", ", line 1: its header has no column 'student' but name, p.f")]),
+    "another name for the student": ("name,p.f\nana,1\n", [("ana", {"p": {"f": "1"}})]),
+    "no student": ("who,p.f\nana,1\n", [("t", ", line 1: its header has no column 'student' but who, p.f")]),
+    "a form": (
+        "Timestamp,Email Address,p.f How many?\n1/2/2026,ana@x,1\n",
+        [("ana@x", {"p": {"f": "1"}})],
+    ),
     "empty": ("", [("t", ", line 1: it is empty")]),
 }
 
@@ -232,15 +237,15 @@ def test_a_result_for_everyone_in_order(assignment: str, tmp_path: Path, capsys:
     table = tmp_path / "t.csv"
     table.write_text("student,p.f,p.label,p.eq,p.zz\nana,1,,x^2 = 1 - y^2,\nbo,2,((,,5\nana,1,,,\ncy,1\n")
     status, told, err = lines_of(capsys, "grade", assignment, str(table), "--workers", "1")
-    assert (status, err) == (2, "")
+    assert (status, err) == (2, "2 of the submissions have a 'doubt': a person has to decide whose they are\n")
     assert [line["student"] for line in told] == ["ana", "bo", "ana", "cy"]
-    assert [line["score"] for line in told] == [3.0, 0.0, None, None]
+    assert [line["score"] for line in told] == [3.0, 0.0, 2.0, None]
     assert {line["max_score"] for line in told} == {4.0}
     assert [item["status"] for item in told[0]["items"]] == ["right", "missing", "right"]
     assert [item["status"] for item in told[1]["items"]] == ["wrong", "unreadable", "missing", "unreadable"]
     assert "There is no question 'zz'" in told[1]["items"][3]["feedback"]
-    second = f"{table}, line 4: 'ana' already submitted in {table}, line 2: only the first is graded"
-    assert told[2]["error"] == second
+    second = f"{table}, line 4: 'ana' also submitted {table}, line 2: a person has to decide which counts"
+    assert (told[2]["doubt"], told[0]["doubt"] is None) == (second, False)
     assert told[3]["error"] == f"{table}, line 5: the row has 2 cells, the header 5"
 
 
@@ -296,7 +301,7 @@ def test_results_within_the_folder_are_no_submissions(
 @pytest.mark.parametrize(
     ("form", "out", "said"),
     [
-        ("native", "g.csv", "choose --format prairielearn or canvas or moodle"),
+        ("native", "g.csv", "choose --format canvas or moodle"),
         ("native", "g.html", "the endings are .jsonl"),
         ("canvas", "g.json", "--format canvas does not write"),
         ("moodle", "grades", "has no ending: name a file that ends in .csv"),

@@ -10,7 +10,7 @@ import pytest
 from dofkit.homework.assignment import AssignmentError, load_assignment
 from dofkit.homework.grading import grade
 from dofkit.homework.key.key import Key
-from dofkit.homework.key.polar_angles import polar_angles
+from dofkit.homework.key.own_coordinates import polar_angles
 from dofkit.homework.starting import starting
 from dofkit.scene.reading import load
 
@@ -55,7 +55,7 @@ def test_own_coordinates(also: dict[str, str], ask: str, answer: str, status: st
 
 def test_a_constant_under_another_name_is_told() -> None:
     found = item(sheet({}, ask="equation", constraint="rod"), "x^2 + y^2 = R^2")
-    assert (found.status, found.read_as) == ("right", "x^2 + y^2 = l^2")
+    assert (found.status, found.read_as) == ("right", "x^2 + y^2 = R^2")
     assert found.feedback == "The names were matched to those of the problem: R = l."
 
 
@@ -127,8 +127,8 @@ def test_the_definition_of_an_answer_goes_before_the_offered_one() -> None:
 
 def test_offered_names_are_listed_with_the_declared_ones() -> None:
     for answer, ask in (
-        ("m ww^2 + 3", {"ask": "lagrangian"}),
-        ("x_A = ww^2", {"ask": "equation", "constraint": "rod"}),
+        ("m wwq^2 + 3", {"ask": "lagrangian"}),
+        ("x_A = wwq^2", {"ask": "equation", "constraint": "rod"}),
     ):
         found = item(pendulum({"theta": "atan2(x_A, -y_A)"}, **ask), answer)
         assert "theta, x_A, y_A" in found.feedback, found.feedback

@@ -19,7 +19,7 @@ from dofkit.homework.sentences.translations import Language, catalogue, stopped
 ROOM = Path(dofkit.homework.__file__).parent
 TOLD = [
     *(ROOM / "questions").glob("*.py"),
-    *(path for path in (ROOM / "key").glob("*.py") if path.name != "codes.py"),
+    *(ROOM / "key").glob("*.py"),
     *(ROOM / "answers").glob("*.py"),
     ROOM / "grading.py",
     ROOM / "handout" / "composition.py",
@@ -28,10 +28,9 @@ TOLD = [
 #: Whose sentences stand among other texts.
 SHOWN = [
     *(ROOM / "formats").glob("*.py"),
-    *(ROOM / "formats" / "html").glob("*.py"),
-    *(ROOM / name for name in ("autograder.py", "grading.py", "nbgrader.py", "readings.py", "runs/keeper.py")),
+    *(ROOM / name for name in ("autograder.py", "grading.py", "runs/batch.py")),
 ]
-STUDENT_PAGE = ROOM / "formats" / "html" / "templates" / "student.html"
+STUDENT_PAGE = ROOM / "formats" / "templates" / "student.html"
 #: Calls whose texts are for lecturers, or are no sentences.
 OTHERS = {"Field", "Fault", "TextError", "compile", "UnknownNameError", "words", "suggestion"}
 SENTENCE = re.compile(r".*\s.*[.:?}]", re.DOTALL)
@@ -41,6 +40,8 @@ def sentences(node: ast.AST) -> Iterator[str]:
     """The texts below a node that are sentences: with a blank, and a stop at the end."""
     if isinstance(node, ast.JoinedStr) or (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
         return
+    if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "").startswith("_OF_"):
+        return  # what codes mean, for lecturers
     if isinstance(node, ast.Call):
         name = getattr(node.func, "id", getattr(node.func, "attr", ""))
         if name in OTHERS:

@@ -8,10 +8,10 @@ import pytest
 
 import dofkit
 from dofkit.base.errors import TextError
-from dofkit.exact.zero.identity import zero_and_verdict
+from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import by_time
 from dofkit.expressions.text import Names, parse_expression
-from dofkit.expressions.text.derivatives import by_time
 from dofkit.integrability.accelerations import integrated_once
 
 NAMES = Names(

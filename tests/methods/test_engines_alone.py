@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 import dofkit
 from dofkit.base.verdicts import VERDICTS
 from dofkit.benchmark.trials.chains import car
-from dofkit.exact.engines import BOTH
+from dofkit.exact.zero import BOTH
 from dofkit.interface.cli import app
 from dofkit.methods.table import METHODS, MethodName
 from dofkit.report import Report

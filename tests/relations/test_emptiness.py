@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable
 from fractions import Fraction
 
-import mpmath
 import pytest
 
 import dofkit
-from dofkit.exact.boxes import functions
-from dofkit.exact.boxes import intervals as iv
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
@@ -34,10 +30,7 @@ def read(text: str) -> list[Expr]:
 #: (relations, why there is no solution)
 EMPTY = [
     ("x^2 + cos(x) = -2", "cos x >= -1"),
-    ("x^4 + y^4 - x^2 y^2 + 1 = 0", "x^4 - x^2 y^2 + y^4 = (x^2 - y^2/2)^2 + 3 y^4/4"),
     ("x^2 + x y + y^2 + 1 = 0", "(x + y/2)^2 + 3 y^2/4 + 1"),
-    ("x^4 + y^4 + 3 = 4 x y", "x^4 + y^4 + 1 + 1 >= 4 x y by the means"),
-    ("x^4 + y^4 + z^4 + 4 = 4 x y z", "the means of x^4, y^4, z^4, 1 give 4 x y z - 1 at most"),
     ("(x^2 - 2)^2 + 1e-20 = 0", "a square and a positive number"),
     ("x^2 + y^2 = 1; (x - 5)^2 + y^2 = 1", "circles of radius 1, centres 5 apart"),
     ("x^2 + y^2 = 9; (x - 1)^2 + y^2 = 1", "one circle inside the other: 1 + 1 < 3"),
@@ -148,44 +141,3 @@ def test_what_holds_at_a_point_is_not_ruled_out(seed: int) -> None:
         if f.symbols and all(interval_of(substitute(n, point)) is not None for n in ex.nodes(f)):
             relations.append(f - at)
     assert not no_solution(relations, frozenset())
-
-
-REFERENCE: dict[str, Callable[[mpmath.mpf], mpmath.mpf]] = {
-    name: getattr(mpmath, name)
-    for name in ("exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh")
-}
-
-
-@pytest.mark.parametrize("seed", range(20))
-def test_intervals_hold_true_values(seed: int) -> None:
-    rng = random.Random(seed)
-    with mpmath.workprec(150):
-        for _ in range(60):
-            a, b = (tuple(sorted(_end(rng) for _ in range(2))) for _ in range(2))
-            x, y = rng.uniform(*a), rng.uniform(*b)
-            _check_arithmetic((a[0], a[1]), (b[0], b[1]), x, y, rng.randint(1, 5))
-            for name, f in REFERENCE.items():
-                if (name == "log" and x <= 0) or (name in ("asin", "acos") and abs(x) > 1):
-                    continue
-                value = f(mpmath.mpf(x))
-                low, high = functions.function(name, (a[0], a[1]))
-                assert low <= value <= high, (name, a, x)
-                near = float(value)
-                low, high = functions.solve_function(name, (a[0], a[1]), (iv.down(iv.down(near)), iv.up(iv.up(near))))
-                assert low <= x <= high, (name, a, x)
-
-
-def _end(rng: random.Random) -> float:
-    if rng.random() < 0.1:
-        return float(rng.randint(-3, 3))
-    return rng.uniform(-4, 4) * 10 ** rng.choice([-3, 0, 0, 1])
-
-
-def _check_arithmetic(a: iv.Interval, b: iv.Interval, x: float, y: float, n: int) -> None:
-    exact_x, exact_y = Fraction(x), Fraction(y)
-    found = [(iv.add(a, b), exact_x + exact_y), (iv.mul(a, b), exact_x * exact_y), (iv.minus(a, b), exact_x - exact_y)]
-    found.append((iv.integer_power(a, n), exact_x**n))
-    for (low, high), value in found:
-        assert Fraction(low) <= value <= Fraction(high)
-    low, high = iv.solve_product(a, b, iv.number(exact_x * exact_y))
-    assert low <= x <= high

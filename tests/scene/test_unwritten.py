@@ -9,7 +9,7 @@ import networkx as nx
 import pytest
 
 import dofkit
-from dofkit.expressions.unwritten import Unwritten
+from dofkit.expressions.renaming import Unwritten
 from dofkit.scene.lowering import lower
 from dofkit.system import Constraint, Relation
 

@@ -32,6 +32,10 @@ def scene(*texts: str) -> dict[str, Any]:
 @example(scene("sin(s)/s = 1"))
 @example(scene("abs(g(s)) = g(s)"))
 @example(scene("(1 - m)/g'(s) <= 0"))
+@example(scene("sec(pi) = sec(x)"))
+@example(scene("sqrt(asin(pi)) = atan2(0, t)"))
+@example(scene("y*ydot = 2 (0^y)^3"))
+@example({**scene("t = a"), "configuration": {"s": "pi/2", "x": "1", "y": "pi/2"}})
 @given(scenes())
 def test_no_text_makes_classify_fail(document: dict[str, Any]) -> None:
     is_answered_or_refused(document)

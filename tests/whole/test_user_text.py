@@ -60,7 +60,7 @@ def test_a_constraint_doubled_under_odd_names(path: Path) -> None:
     texts = [row for row in rows if row["type"] == "equation" and "=" in row["text"] and "<" not in row["text"]]
     copied = {**(texts or rows or [{"type": "equation", "text": "0 = 0"}])[0], "name": f"{ODD} copy"}
     if texts and (latex := typeset(copied["text"])) is not None:
-        copied["text"] = re.sub(r"\\mathrm\{(\w+)\}\s*", r"\1", latex.latex)
+        copied["text"] = re.sub(r"\\mathrm\{(\w+)\}\s*", r"\1", latex)
     report = shown({**written, "title": ODD, "constraints": [*rows, copied]})
     assert (report.consistent, report.dof, report.velocity_dof) == (own.consistent, own.dof, own.velocity_dof)
     assert report.redundant is None or own.redundant is None or len(report.redundant) >= len(own.redundant)

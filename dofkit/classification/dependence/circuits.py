@@ -6,22 +6,20 @@ because only a finite relation fixes the constant. Dependent sets of constraints
 
 from __future__ import annotations
 
-import time
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 from dofkit.base.components import components
-from dofkit.base.deadline import check
 from dofkit.base.verdicts import About, Verdict
-from dofkit.classification.dependence.sufficient_sets import Implication, SufficientSets
+from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets
 from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing
 
 #: Sets of constraints are searched exhaustively up to this many members of a group.
 SEARCHED = 12
-#: Up to this many by giving one back where two can go for it, and seconds for that.
-EXCHANGED, EXCHANGE_SECONDS = 60, 1.0
+#: Up to this many are removed one after the other.
+REMOVED = 60
 
 
 @dataclass(frozen=True)
@@ -82,7 +80,7 @@ class OwnedRows:
     p: int
     equations: Sequence[int] = ()
     supports: Supports | None = None
-    implication: Implication | None = None
+    implication: NearDrawing | Everywhere | None = None
 
     def of(self, owners: frozenset[int] | set[int], finite_only: bool = False) -> list[SparseRow]:
         """The rows that some constraints wrote."""
@@ -232,13 +230,16 @@ def _droppable(parts: Sequence[OwnedRows], members: list[int], bases: Sequence[_
     """
     rows_of = Counter(o for p in parts for o in p.owners)
     unweighted = any(p.p == 2 for p in parts) and len(members) > SEARCHED
-    if unweighted or len(members) > EXCHANGED or all(rows_of[o] == 1 for o in members):
+    if unweighted or len(members) > REMOVED or all(rows_of[o] == 1 for o in members):
         kept_of = set().union(*(b.pivot_owners for b in bases))
         return [o for o in members if o not in kept_of]
-    if len(members) > SEARCHED:
-        return _exchanged(parts, members, rows_of)
     within = _Dispensable(parts, members)
-    dropped = _greedy(within, list(reversed(members)), [])
+    dropped: list[int] = []
+    for owner in reversed(members):
+        if within.can_go([*dropped, owner]):
+            dropped.append(owner)
+    if len(members) > SEARCHED:
+        return dropped
     for size in range(len(members) - 1, len(dropped), -1):
         for choice in combinations(reversed(members), size):
             if within.can_go(choice):
@@ -273,39 +274,6 @@ class _Dispensable:
             if len(rows) > most or rank_of_rows(rows, p) < len(rows):
                 return False
         return True
-
-
-def _greedy(within: _Dispensable, order: Sequence[int], gone: Sequence[int]) -> list[int]:
-    """What can go besides ``gone``, one after the other."""
-    dropped = list(gone)
-    for owner in order:
-        if owner not in dropped and within.can_go([*dropped, owner]):
-            dropped.append(owner)
-    return dropped
-
-
-def _exchanged(parts: Sequence[OwnedRows], members: Sequence[int], rows_of: Mapping[int, int]) -> list[int]:
-    """Many constraints of a group: the last first or the smallest first, then one given back where two can go for it.
-
-    Constraints of several equations are no matroid: what is found cannot be enlarged so, but may not be the most.
-    """
-    within = _Dispensable(parts, members)
-    last_first = list(reversed(members))
-    small_first = sorted(last_first, key=lambda o: rows_of[o])
-    dropped = max((_greedy(within, order, []) for order in (last_first, small_first)), key=len)
-    until = time.process_time() + EXCHANGE_SECONDS
-    better = True
-    while better:
-        better = False
-        for back in dropped:
-            check()
-            found = _greedy(within, [o for o in small_first if o != back], [o for o in dropped if o != back])
-            if len(found) > len(dropped):
-                dropped, better = found, True
-                break
-            if time.process_time() > until:
-                return dropped
-    return dropped
 
 
 def _circuit(

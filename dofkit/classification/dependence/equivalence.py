@@ -14,21 +14,17 @@ from functools import cached_property
 
 from dofkit.base.deadline import part, unless_late
 from dofkit.classification.dependence.implication import follows
-from dofkit.classification.dependence.inequalities import same_side
+from dofkit.classification.dependence.inequalities import bounds, loses_nothing, same_side, unsound
 from dofkit.classification.dependence.multiples import power_of, same_up_to_numbers
-from dofkit.classification.dependence.periods import fails_on_part
 from dofkit.classification.dependence.regularity import Regularity
-from dofkit.classification.dependence.roots import bounds, loses_nothing, unsound
 from dofkit.classification.freedom.branches import Outcome, solve
-from dofkit.classification.freedom.preparation import prepared
-from dofkit.exact.engines import BOTH, Engines
+from dofkit.classification.freedom.preparation import all_of, prepared
 from dofkit.exact.points.balls import precise_for
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.notes import UNDONE_NOTE
-from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.normal.pieces import UNDONE_NOTE, Finite, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System
 
@@ -188,11 +184,7 @@ class Equivalence:
 
     def _follow(self, what: Sequence[Normal], given: Sequence[Normal]) -> bool | None:
         """Do the relations all follow from the others and what is given?"""
-        turning = not any(r.constraint.facts.half_turns for r in self._wanted)
-        if turning and any(fails_on_part(n, self._others, given, self.setting) for n in what):
-            return False
-        told = [follows(n, [*self._others, *given], self.setting) for n in what]
-        return False if False in told else None if None in told else True
+        return all_of(follows(n, [*self._others, *given], self.setting) for n in what)
 
     def _open(self, sound: Sequence[bool | None], met: Sequence[bool | None]) -> Compared:
         """Something was not decided; what was may be enough to say that the answer is none."""

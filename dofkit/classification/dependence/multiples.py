@@ -13,11 +13,10 @@ from flint import fmpq, fmpq_poly
 
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, Poly
-from dofkit.exact.ring.instructions import POW
+from dofkit.exact.ring.program import POW
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import ZERO, Expr
-from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian, Reduced
 
 #: Generators of a ring that have a value everywhere.
 _ENTIRE = frozenset({"symbol", "cos", "sin", "exp", "pi"})
@@ -98,7 +97,7 @@ def _written(r: Reduced) -> list[list[tuple[str, Expr]]]:
 
 def _terms(normal: Normal) -> list[tuple[str, Expr]]:
     """g of g = 0 under no name, or a form's coefficients by coordinate; none of what has branches or conditions."""
-    if len(normal.branches) != 1 or len(normal.branches[0]) != 1 or normal.constants or normal.kinked:
+    if len(normal.branches) != 1 or len(normal.branches[0]) != 1 or normal.constants:
         return []
     (piece,) = normal.branches[0]
     if isinstance(piece, Finite):

@@ -6,29 +6,25 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import Literal
 
 from dofkit.base.components import components
 from dofkit.base.deadline import unless_late
-from dofkit.classification.dependence import constraint_removal, implications
+from dofkit.base.verdicts import About
+from dofkit.classification.dependence import block_implication, removal
 from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse, undecided_dependence
-from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, implied
-from dofkit.classification.dependence.rank_dependence import (
-    analysed,
-    at_a_point,
-    holds_where,
-    joined_parts,
-    without_hidden,
-)
-from dofkit.classification.dependence.regions import is_conditional, is_region, of_regions
+from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.reference_branches import branches_at_reference
+from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
+from dofkit.exact.matrices.sparse import SparseRow
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Reduced
 from dofkit.relations.setting import Setting
 
+#: Functions that may state one branch only.
+BRANCHED = ("abs", "exp", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh")
 #: The blocks that hold rows of a constraint, with their answers, by its number.
 BlocksOf = dict[int, list[tuple[Block, Answer]]]
 
@@ -51,6 +47,16 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
     for numbers in _parts(reduced, outcome, apart):
         found += _or_open(partial(_of_part, reduced, setting, blocks, numbers), numbers)
     return found
+
+
+def _is_region(r: Reduced) -> bool:
+    """Return whether all equations of a constraint only state where they are satisfied."""
+    return bool(r.normals) and all(map(_is_conditional, r.normals))
+
+
+def _is_conditional(n: Normal) -> bool:
+    """Return whether an equation only states where it is satisfied, on all its branches."""
+    return bool(n.branches) and all(b and all(isinstance(p, DomainCondition) for p in b) for b in n.branches)
 
 
 def _or_open(work: Callable[[], list[Redundancies]], numbers: Sequence[int]) -> list[Redundancies]:
@@ -82,7 +88,7 @@ def _parts(reduced: Sequence[Reduced], outcome: Outcome, apart: Collection[int])
         if i in apart:
             continue
         every = [p for n in r.normals for b in n.branches for p in b]
-        pieces = every if is_region(r) else [p for p in every if not isinstance(p, Inequality | DomainCondition)]
+        pieces = every if _is_region(r) else [p for p in every if not isinstance(p, Inequality | DomainCondition)]
         if pieces and i not in outcome.copies:
             used.append(i)
             names.append(frozenset().union(*map(coordinates_of, pieces)))
@@ -93,14 +99,13 @@ def _of_part(
     reduced: Sequence[Reduced], setting: Setting, blocks: BlocksOf, numbers: Sequence[int]
 ) -> list[Redundancies]:
     """Of constraints that share coordinates: those that take freedom away, then those that hold on whole regions."""
-    regions = [i for i in numbers if is_region(reduced[i])]
+    regions = [i for i in numbers if _is_region(reduced[i])]
     if not regions:
         return _of_relations(reduced, setting, blocks, numbers)
     others = [i for i in numbers if i not in regions]
-    found = _of_relations(reduced, setting, blocks, others) if others else []
-    gone = {i for r in found for i in r.redundant}
-    kept = [i for i in others if i not in gone]
-    return [*found, *_or_open(partial(of_regions, reduced, setting, regions, kept), regions)]
+    by_others = _of_relations(reduced, setting, blocks, others) if others else []
+    undecided = [Redundancies({i: 0}, [], [(reduced[i].equations, [i])], {}, (i,)) for i in regions]
+    return [*by_others, *undecided]
 
 
 def _of_relations(
@@ -118,24 +123,54 @@ def _of_relations(
     ]
     settled = [a for a in answered if isinstance(a, Redundancies)]
     needed = set[int]().union(*(r.needed for r in settled))
-    by_rank = [
-        unless_late(partial(analysed, group, needed), undecided_dependence(o for rows in group for o in rows.owners))
-        for group in joined_parts([a for a in answered if isinstance(a, OwnedRows)])
-    ]
-    if any(_conditional(reduced[i]) for r in by_rank for i in r.redundant):
+    by_rank = []
+    for group in _joined([a for a in answered if isinstance(a, OwnedRows)]):
+        undecided = undecided_dependence(o for rows in group for o in rows.owners)
+        by_rank.append(unless_late(partial(analyse, group, needed), undecided))
+    if any(_is_restricted(reduced[i]) for r in by_rank for i in r.redundant):
         return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
-    straight = all(a.linear for _, a in blocks)
-    where = "everywhere" if straight else unless_late(partial(holds_where, reduced, setting, numbers, by_rank), None)
-    if where is False:
+    is_linear = all(a.linear for _, a in blocks)
+    scope = "everywhere" if is_linear else unless_late(partial(_scope, reduced, setting, numbers, by_rank), None)
+    if scope is False:
         return [*settled, _as_free(implied(reduced, setting, numbers), reduced, blocks)]
-    if where is None:
-        known = partial(at_a_point, reduced=reduced, setting=setting, numbers=numbers)
-        return _agreed([*settled, *map(known, by_rank)])
-    return [replace(r, about=where) for r in _agreed([*settled, *by_rank])]
+    if scope is None:
+        return _agreed([*settled, *(_undecided_redundancy(r) for r in by_rank)])
+    return [replace(r, about=scope) for r in _agreed([*settled, *by_rank])]
 
 
-def _conditional(r: Reduced) -> bool:
-    """Does a constraint hold within a part of the space only? Its rows alone do not tell whether it follows."""
+def _undecided_redundancy(r: Redundancies) -> Redundancies:
+    """Return what remains where constraints are redundant by rank at one point, and may be needed elsewhere."""
+    independent = {i: k for i, k in r.independent.items() if i not in r.redundant}
+    return Redundancies(independent, [], [], {}, tuple(r.redundant))
+
+
+def _scope(
+    reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], by_rank: Sequence[Redundancies]
+) -> About | Literal[False] | None:
+    """Return for which points the redundancy by rank is valid; False where it fails on some component.
+
+    x^2 + y^2 = 1, x = 1, y = 0: the first two have one gradient at the solution, but without x = 1 there is x = -1.
+    Only few algebraic equations are examined on all components; otherwise the answer is about the point at which the
+    rank was taken. Finite equations beside forms are compared with each other: of sin(z) = 0 and z = 0 the first is
+    redundant. None: undecided.
+    """
+    dropped = {i for r in by_rank for i in r.redundant}
+    if setting.reference is not None:
+        return "reference"
+    if not dropped or len(numbers) > MAX_CHOICES:
+        return "component"
+    finite = [i for i in numbers if all(isinstance(p, Finite) for n in reduced[i].normals for p in n.pieces)]
+    pieces = [p for i in finite for n in reduced[i].normals for p in n.pieces]
+    written = all(reduced[i].constraint.facts.written for i in numbers)
+    if not written or not all(isinstance(p, Finite) and algebraic(p.expr, *BRANCHED) for p in pieces):
+        return "component"
+    kept = [i for i in finite if i not in dropped]
+    follow = all_of(constraint_follows(reduced, i, kept, setting) for i in dropped if i in finite)
+    return "component" if follow or (follow is None and len(finite) < len(numbers)) else follow
+
+
+def _is_restricted(r: Reduced) -> bool:
+    """Return whether a constraint has domain conditions: its rows alone do not show whether it is implied."""
     return any(isinstance(p, DomainCondition) for n in r.normals for b in n.branches for p in b)
 
 
@@ -152,7 +187,7 @@ def _as_free(found: Redundancies, reduced: Sequence[Reduced], blocks: Sequence[t
     equations = sum(reduced[i].equations for i in found.independent)
     if sum(found.independent.values()) <= taken and _hold_the_others(found, equations):
         return found
-    parts = [OwnedRows(a.matrix, constraint_removal.owners_of(b), _finite_rows(b), a.modulus) for b, a in blocks]
+    parts = [OwnedRows(a.matrix, removal.owners_of(b), _finite_rows(b), a.modulus) for b, a in blocks]
     known = all(len(part.matrix) == len(part.owners) for part in parts)
     by_rank = analyse(parts) if known else Redundancies({}, [], [], {})
     with_rows = {owner for part in parts for owner in part.owners}
@@ -196,21 +231,34 @@ def _of_block(
 ) -> Iterator[Redundancies | OwnedRows]:
     """What is settled of a block at once, or its rows where their rank tells."""
     nullity = len(block.rows) - (len(block.coordinates) - (a.velocity_dof or 0))
-    owners = constraint_removal.owners_of(block)
+    owners = removal.owners_of(block)
     equations = [numbered.get(id(r.piece), -1) for r in block.rows]
-    matrix = without_hidden(block, a)
+    matrix = _without_hidden(block, a)
     if nullity <= 0 and a.hidden and not a.degenerate:
         yield _independent(dict(Counter(owners)))
-    elif a.degenerate and "balls" not in setting.engines:
-        yield undecided_dependence(owners)
     elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
-        yield unless_late(
-            partial(constraint_removal.by_removal, block, setting, a, nullity, equations), undecided_dependence(owners)
-        )
+        undecided = undecided_dependence(owners)
+        is_finite = "balls" in setting.engines and len(block.finite) == len(block.rows)
+        removed = partial(removal.by_removal, block, setting, a, nullity, equations)
+        yield unless_late(removed, undecided) if is_finite else undecided
     else:
         finite = _finite_rows(block)
-        implied = None if a.supports is not None or nullity <= 0 else implications.implication_of(block, a, setting)
+        implied = (
+            None if a.supports is not None or nullity <= 0 else block_implication.implication_of(block, a, setting)
+        )
         yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied)
+
+
+def _joined(parts: Sequence[OwnedRows]) -> list[list[OwnedRows]]:
+    """Return the rows in groups: blocks that share a constraint are examined together."""
+    owned = [part for part in parts if part.owners]
+    return [[owned[k] for k in numbers] for numbers in components(part.owners for part in owned)]
+
+
+def _without_hidden(block: Block, a: Answer) -> list[SparseRow]:
+    """Return the matrix without the rows of hidden equations."""
+    first = len(block.finite)
+    return a.matrix[:first] + a.matrix[first + len(a.hidden) :]
 
 
 def _independent(counted: Mapping[int, int]) -> Redundancies:
@@ -270,7 +318,7 @@ def _void(reduced: Sequence[Reduced]) -> list[Redundancies]:
     found = []
     for i, r in enumerate(reduced):
         void = tuple(k for k, normal in enumerate(r.normals) if normal.branches == ((),))
-        partly = () if is_region(r) else tuple(k for k, normal in enumerate(r.normals) if is_conditional(normal))
+        partly = () if _is_region(r) else tuple(k for k, normal in enumerate(r.normals) if _is_conditional(normal))
         if void or partly:
             idle = len(void) + len(partly)
             redundant = [i] if len(void) == r.equations else []

@@ -16,16 +16,14 @@ from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.balls import jacobian
 from dofkit.exact.ring.program import values
-from dofkit.exact.zero.identity import is_proved_zero
-from dofkit.expressions.calculus import diff
-from dofkit.expressions.differentials import in_velocities
+from dofkit.exact.zero import is_proved_zero
+from dofkit.expressions.calculus import diff, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, split
-from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.chart import make_chart
 from dofkit.relations.normal.normal_form import velocities_of
-from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian, Piece
+from dofkit.relations.normal.pieces import Finite, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.normal.polynomial_zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
-from dofkit.relations.reduced import Reduced
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import eliminated, form_rate
 

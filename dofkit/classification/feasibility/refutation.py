@@ -1,8 +1,7 @@
 """Equations and inequalities that no real point satisfies: proofs only, never a search that failed.
 
-Four are tried. Taken as linear in their terms, with what is known of the signs of terms, they contradict each other
-(exact linear programming); so do their products by pairs; a sum of some of them is negative everywhere; or every box
-of space is excluded by certified bounds.
+Three are tried. Taken as linear in their terms, with what is known of the signs of terms, they contradict each other
+(exact linear programming); so do their products by pairs; or every box of space is excluded by certified bounds.
 """
 
 from __future__ import annotations
@@ -15,15 +14,14 @@ from typing import Literal, NamedTuple
 
 from flint import fmpq
 
-from dofkit.exact.solving.linear_inequalities import LinearCondition, solution
+from dofkit.exact.linear_inequalities import LinearCondition, solution
 from dofkit.expressions import tree as ex
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.one_sided import holds_somewhere
 
-#: Inequalities of which products, and sums, are taken; equations times symbols; symbols whose differences are squared.
-MAX_FACTORS, MAX_SUMMED, MAX_MULTIPLES, MAX_SQUARED = 8, 4, 24, 4
+#: Inequalities of which products are taken; equations times symbols; symbols whose differences are squared.
+MAX_FACTORS, MAX_MULTIPLES, MAX_SQUARED = 8, 24, 4
 #: Terms of all together, or twice as many as claims where those are more.
 MAX_TERMS = 80
 #: More claims than this are not put to boxes.
@@ -52,8 +50,6 @@ def refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
         return False
     more = list(_products(claims, positive))
     if more and contradictory([*claims, *more], positive):
-        return True
-    if any(holds_somewhere(total.expr, total.sense == ">", positive) is False for total in _sums(claims)):
         return True
     equations = [c.expr for c in claims if c.sense == "="]
     others = [c.expr for c in claims if c.sense != "="]
@@ -144,15 +140,6 @@ def _products(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> Iterato
     equations = [c for c in claims if c.sense == "="]
     if len(equations) * len(symbols) <= MAX_MULTIPLES:
         yield from (SignClaim(ex.mul(c.expr, s), "=") for c in equations for s in symbols)
-
-
-def _sums(claims: Sequence[SignClaim]) -> Iterator[SignClaim]:
-    """Sums of two or three inequalities."""
-    some = [c for c in claims if c.sense != "="]
-    for size in (2, 3) if len(some) <= MAX_SUMMED else ():
-        for chosen in combinations(some, size):
-            strict = any(c.sense == ">" for c in chosen)
-            yield SignClaim(ex.add(*(c.expr for c in chosen)), ">" if strict else ">=")
 
 
 def _symbols(claims: Iterable[SignClaim]) -> frozenset[Expr]:

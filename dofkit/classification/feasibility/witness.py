@@ -7,9 +7,8 @@ An inequality e >= 0 becomes the equation e = s^2 of one more unknown. A zero th
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from itertools import product as cartesian
 from typing import NamedTuple
 
 from flint import arb, fmpq, fmpq_mat
@@ -17,34 +16,24 @@ from flint import arb, fmpq, fmpq_mat
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import Verdict
 from dofkit.classification.feasibility.state_problem import StateProblem
-from dofkit.exact.boxes.box_program import BoxProgram
-from dofkit.exact.boxes.intervals import WHOLE, EmptyError, Interval, down, up
+from dofkit.exact.boxes import WHOLE, BoxProgram, EmptyError, Interval, bounds
 from dofkit.exact.errors import NoValueError
+from dofkit.exact.linear_inequalities import LinearCondition, solution
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.linear_inequalities import LinearCondition, solution
-from dofkit.exact.zero.identity import zero_and_verdict
+from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.enclosures import approximate, interval_of
+from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.linear import linear
 from dofkit.relations.normal.domain import DomainCondition
 
 #: Searches along slacks, from so many starts each, with so many steps; equations and conditions that one may have.
 SEARCHES, STARTS, STEPS, MAX_ROWS = 3, 6, 60, 80
-#: Simple points that are tried: up to this many places take every choice of values.
-MAX_GRID = 3
-_SIMPLE = (ex.ZERO, ex.ONE, ex.MINUS_ONE)
-#: Numbers that what a search ended near is taken for: fractions with these denominators, times one of these.
-#: Else a fraction with at most the last one below.
-DENOMINATORS, NEAR, PLAIN = 12, 1e-5, 1000
-_UNITS = (ex.ONE, ex.PI, ex.sqrt(ex.TWO), ex.sqrt(ex.num(3)))
-
-
 #: An exact value, or a ball, of symbols.
 Values = Mapping[Expr, Expr | arb]
 
@@ -73,8 +62,7 @@ def witness(
         return _linearly(problem, positive)
     if len(problem.expressions) > MAX_ROWS:
         return None
-    found = _by_simple_points(problem, positive)
-    return _by_slacks(problem, positive, codimension) if found is None else found
+    return _by_slacks(problem, positive, codimension)
 
 
 def value_of(s: Expr) -> Fraction:
@@ -126,55 +114,6 @@ def _holds(e: Expr, c: DomainCondition, positive: frozenset[Expr], at: Mapping[E
     if c.sense == "!=":
         return not value.contains(0)
     return bool(value > 0) or (c.sense == ">=" and _vanishes(e, positive, at))
-
-
-def _by_simple_points(problem: StateProblem, positive: frozenset[Expr]) -> Witness | None:
-    """Simple values of the places, then such values near to where a search ends."""
-    if not problem.rigidly:
-        return None
-    for point in _simple_points(problem):
-        check()
-        if not _far_off(problem, point):
-            found = _at(problem, positive, point)
-            if found is not None:
-                return found
-    return None
-
-
-def _simple_points(problem: StateProblem) -> Iterator[Mapping[Expr, Expr]]:
-    places = problem.places
-    if len(places) <= MAX_GRID:
-        for choice in cartesian(_SIMPLE, repeat=len(places)):
-            yield dict(zip(places, choice, strict=True))
-    else:
-        yield from (dict.fromkeys(places, v) for v in _SIMPLE)
-    search = _Search(problem, frozenset())
-    for seed in range(SEARCHES):
-        near = search.ended(seed)
-        if near is not None:
-            yield {s: _simple_near(near[s]) for s in places}
-
-
-def _far_off(problem: StateProblem, point: Mapping[Expr, Expr]) -> bool:
-    """Is some equation or condition clearly not met, by a rough ball?"""
-    at = {s: approximate(v) for s, v in point.items()}
-    fractions = {s: Fraction(v) for s, v in at.items() if v is not None}
-    for k, e in enumerate(problem.expressions):
-        value = interval_of(e, fractions, 64)
-        if value is None or bool(value < -NEAR) or (k < len(problem.equations) and bool(value > NEAR)):
-            return True
-    return False
-
-
-def _simple_near(value: float) -> Expr:
-    """The simple number near to a float, else the float itself."""
-    for unit in _UNITS:
-        size = approximate(unit) or 1.0
-        for denominator in range(1, DENOMINATORS + 1):
-            top = round(value / size * denominator)
-            if abs(top * size / denominator - value) < NEAR:
-                return ex.mul(ex.num(Fraction(top, denominator)), unit)
-    return ex.num(Fraction(value).limit_denominator(PLAIN))
 
 
 # -- linear ones ------------------------------------------------------------------------------------
@@ -229,16 +168,6 @@ class _Search:
         self.rows = [self.ring.node(e) for e in rows]
         self.search = RealSearch(self.ring, self.rows, [*problem.unknowns, *self.slacks], positive)
         self.given = {s: float(v) for s, v in problem.fixed.items()}
-
-    def ended(self, seed: int) -> dict[Expr, float] | None:
-        """Where a search in floating point ends; 0 for what nothing mentions."""
-        try:
-            symbols = self.search.start(seed, self.given)
-            if self.search.descend(symbols, seed, STEPS) is None:
-                return None
-        except (NoValueError, ArithmeticError, ValueError):
-            return None
-        return {s: symbols.get(s, 0.0) for s in self.problem.places}
 
     def found(self, seed: int) -> RealPoint | None:
         """A point that is certified, with all slacks apart from 0."""
@@ -296,13 +225,13 @@ def _defined(problem: StateProblem, point: BallPoint) -> bool:
     """Has all that was written a value on the whole ball, equations one that may be 0, conditions the right sign?"""
     try:
         program = BoxProgram([(e, WHOLE) for e in problem.expressions])
-        box = [_hull(arb(point.symbols[s])) for s in program.variables]
+        box = [bounds(arb(point.symbols[s])) for s in program.variables]
         at = program.forward(box)
-        if not program.total(at):
+        if not program.is_defined(at):
             return False
     except (EmptyError, NoValueError, KeyError):
         return False
-    told = [at[root] for root, _ in program.roots]
+    told = [at[e] for e in problem.expressions]
     n = len(problem.equations)
     zeros = all(low <= 0.0 <= high for low, high in told[:n])
     return zeros and all(_agrees(v, c) for v, c in zip(told[n:], problem.conditions, strict=True))
@@ -311,7 +240,3 @@ def _defined(problem: StateProblem, point: BallPoint) -> bool:
 def _agrees(value: Interval, c: DomainCondition) -> bool:
     low, high = value
     return (low > 0.0 or high < 0.0) if c.sense == "!=" else low > 0.0
-
-
-def _hull(value: arb) -> Interval:
-    return down(down(float(value.lower()))), up(up(float(value.upper())))

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from dofkit.base.verdicts import weakest
-from dofkit.classification.freedom.agreement import agreed, numeric
 from dofkit.classification.freedom.bridged_blocks import bridged_answer
 from dofkit.configuration import distance_geometry
 from dofkit.configuration.at_reference import at_reference
@@ -16,24 +15,24 @@ from dofkit.configuration.linear_blocks import confirmed, eliminated
 from dofkit.configuration.measured.equations import is_measured
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety, of_real_point, of_reference
-from dofkit.exact.engines import BALLS, BOTH
 from dofkit.exact.errors import NoPointError
+from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
-from dofkit.exact.zero.independence import doubt, independent_generators
+from dofkit.exact.zero import BALLS, BOTH, doubt, independent_generators
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.labels_by_balls import ball_labels
-from dofkit.integrability.labels_by_field import field_labels
-from dofkit.integrability.lie_algebra_at_points import SampledSpan, on_the_same_part, span_at
+from dofkit.integrability.lie_algebra import SampledSpan, on_the_same_part, span_at
 from dofkit.integrability.nonlinear_velocities import first_order_beside_bends, set_velocity_freedom
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution, first_order_freedom
 from dofkit.integrability.prolongation import confinements, prolong
 from dofkit.integrability.regular_reference import on_reference, regular_reference
+from dofkit.integrability.row_labels import ball_labels, field_labels
 from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.setting import Setting
 
+RELATED = "the functions or numbers that occur may satisfy an identity that arithmetic modulo primes does not detect"
 #: Rounds of prolongation: each finds one hidden finite relation.
 MAX_ROUNDS = 12
 #: Branches of one hidden relation that are followed.
@@ -57,7 +56,7 @@ APART = "real configurations were found only on components other than those of t
 
 def answer(block: Block, setting: Setting) -> Answer:
     """All that is asked of one block, and how large the model was."""
-    bridged = bridged_answer(block, setting, answer)
+    bridged = bridged_answer(block, setting, answer) if setting.bridges else None
     if bridged is not None:
         return bridged
     found = _engines(block, setting)
@@ -87,10 +86,42 @@ def _engines(block: Block, setting: Setting) -> Answer:
     except NoPointError:
         if setting.engines != BOTH:
             raise
-        return numeric(_answer(block, alone))
+        balls = _answer(block, alone)
+        return replace(balls, verdict=weakest(balls.verdict, "numeric"), growth=None, derived=None)
     if found.doubt and setting.engines == BOTH and setting.tolerance is None:
-        return agreed(found, _answer(block, alone))
+        return _confirmed_by_balls(found, _answer(block, alone))
     return found
+
+
+def _confirmed_by_balls(field: Answer, balls: Answer) -> Answer:
+    """Return the answer over GF(p) if the answer by balls is the same; otherwise nothing is decided.
+
+    Over GF(p) what is 0 may seem to differ from 0 by an unknown identity, and a nested root may stand for its
+    conjugate; balls never take for 0 what is not, unless it is smaller than their precision.
+    """
+    if (
+        field.consistent is not True
+        and balls.consistent is not True
+        and not (field.consistent is False and field.matrix)
+    ):
+        return field
+    if field.consistent is True and balls.consistent is True and _is_same(field, balls):
+        return field
+    reasons = [*field.reasons, RELATED]
+    return Answer(
+        None, verdict="undecided", reasons=reasons, hidden=field.hidden, doubt=field.doubt, method=field.method
+    )
+
+
+def _is_same(a: Answer, b: Answer) -> bool:
+    numbers = a.dof is not None and (a.dof, a.velocity_dof, a.instantaneous) == (b.dof, b.velocity_dof, b.instantaneous)
+    labels = all(label.holonomic == b.labels[i].holonomic for i, label in a.labels.items() if i in b.labels)
+    return (
+        numbers
+        and labels
+        and a.hidden == b.hidden
+        and echelon(a.matrix, a.modulus).independent == echelon(b.matrix, b.modulus).independent
+    )
 
 
 def _answer(block: Block, setting: Setting) -> Answer:

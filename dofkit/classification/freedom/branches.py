@@ -7,26 +7,25 @@ from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product as cartesian
-from math import prod
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
 from dofkit.classification.freedom.block import answer
-from dofkit.classification.freedom.common_point import at_one_point
-from dofkit.classification.freedom.copies import copies
-from dofkit.classification.freedom.domain import restricted_to_domain
+from dofkit.classification.freedom.common_point import at_one_point, restricted_to_domain
 from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses
-from dofkit.classification.freedom.reference_branches import branches_at_reference, crossing_at, reductions_at_reference
+from dofkit.classification.freedom.preparation import (
+    branches_at_reference,
+    copies,
+    has_kink_at_reference,
+    reductions_at_reference,
+)
 from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.modulo_others import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.relations.answer import Answer, AnsweredPart
-from dofkit.relations.blocks import Block, Row, blocks_of, split, with_boundaries
-from dofkit.relations.integration_constants import names_in, with_rows
-from dofkit.relations.joint_equations import JointEquation
+from dofkit.relations.blocks import Block, Row, blocks_of, names_in, with_boundaries, with_rows
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.one_sided import holds_somewhere
-from dofkit.relations.normal.pieces import Normal, Still
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.normal.no_solution import holds_somewhere
+from dofkit.relations.normal.pieces import JointEquation, Reduced, Still
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import MAX_WAYS, RewrittenRow, ways_of
 from dofkit.system import System
@@ -37,6 +36,8 @@ _LEFT_OUT = (
     f"of more than {MAX_CHOICES} combinations of branches, not all were examined, so the largest dimension is not known"
 )
 
+KINKED = "the argument of an absolute value vanishes at the reference configuration, so there is no derivative"
+
 
 @dataclass
 class Outcome:
@@ -44,8 +45,8 @@ class Outcome:
 
     ``reduced``: what was written nonlinear in the velocities and is not so beside the other rows; ``impossible``:
     constraints that hold nowhere, ``unsettled``: inequalities of which that is not known. ``crossing``: a relation has
-    several branches at the reference, or none there; then ``first_order`` is what its gradient allows. ``divided``: to
-    reduce a relation, what may vanish was divided by. ``witness``: of coordinates that only domains mention.
+    several branches at the reference, or none there. ``divided``: to reduce a relation, what may vanish was divided by.
+    ``witness``: of coordinates that only domains mention.
     """
 
     rows: list[Row]
@@ -53,9 +54,7 @@ class Outcome:
     answers: list[Answer]
     untouched: list[str]
     impossible: list[int] = field(default_factory=list)
-    first_order: int | None = None
     crossing: bool = False
-    kinked: bool = False
     copies: dict[int, int] = field(default_factory=dict)
     reduced: tuple[RewrittenRow, ...] = ()
     unsettled: list[int] = field(default_factory=list)
@@ -167,8 +166,9 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     best.copies = copied if outcomes else {}
     best.unsettled = [*unsettled, *best.unsettled]
     if setting.reference is not None and any(len(normal.branches) > 1 for _, normal in normals):
-        best.first_order, best.crossing = _first_order(system, reduced, normals, setting, constants), True
-        best.kinked = any(normal.kinked for _, normal in normals)
+        best.crossing = True
+    if any(has_kink_at_reference(normal, setting) for _, normal in normals) and best.consistent is not False:
+        best.answers = [Answer(None, verdict="undecided", reasons=[KINKED]) for _ in best.answers]
     return best
 
 
@@ -217,37 +217,6 @@ def _confirmed(only: Outcome, setting: Setting) -> list[Answer]:
     return told
 
 
-def _first_order(
-    system: System,
-    reduced: Sequence[Reduced],
-    normals: Sequence[tuple[int, Normal]],
-    setting: Setting,
-    constants: Mapping[str, Row],
-) -> int | None:
-    """Velocities allowed to first order where branches cross: there the gradient of a product is 0.
-
-    Of a relation between velocities they are those that it allows at the reference, the most that one of its branches
-    does. None where the reference is on no branch of a relation, or allows none.
-    """
-    written = [relation.expr for r in reduced for relation in r.written]
-    options: list[tuple[tuple[Row, ...], ...]] = []
-    for (i, n), e in zip(normals, written, strict=True):
-        crossing = crossing_at(n, e, setting)
-        if crossing is None:
-            return None
-        options.append(tuple(tuple(Row(i, p) for p in b) for b in crossing))
-    if prod(map(len, options)) > MAX_CHOICES:
-        return None
-    names = [c.name for c in system.coordinates]
-    told = []
-    for choice in cartesian(*options):
-        rows = with_rows([row for part in choice for row in part], constants)
-        blocks, untouched = split([*names, *names_in(rows, constants)], rows)
-        parts = [in_time(b, setting).instantaneous for b in blocks]
-        told.append(None if any(p is None for p in parts) else len(untouched) + sum(p for p in parts if p is not None))
-    return None if None in told else max((t for t in told if t is not None), default=None)
-
-
 def _answered(
     names: Sequence[str],
     rows: list[Row],
@@ -280,14 +249,14 @@ class AnsweredBlocks:
         """The blocks' answers; those that may be twins are looked through for one that was answered."""
         shapes = Counter(map(_shape, blocks)) if len(blocks) > 1 and "twins" in setting.reductions else Counter()
         self._shapes |= {shape for shape, times in shapes.items() if times > 1}
-        likenesses = Likenesses(setting, self._roles)
+        likenesses = Likenesses(setting, self._roles) if self._shapes else None
         return [self._answer(block, setting, likenesses) for block in blocks]
 
-    def _answer(self, block: Block, setting: Setting, likenesses: Likenesses) -> Answer:
+    def _answer(self, block: Block, setting: Setting, likenesses: Likenesses | None) -> Answer:
         same = tuple([id(row.piece) for row in block.rows] + [id(c) for c in block.conditions])
         if same not in self._answers:
             twins = _shape(block) in self._shapes and not any(isinstance(r.piece, JointEquation) for r in block.rows)
-            found = self._twin(block, setting, likenesses) if twins else in_time(block, setting)
+            found = self._twin(block, setting, likenesses) if twins and likenesses else in_time(block, setting)
             self._answers[same] = block, found
         return self._answers[same][1]
 

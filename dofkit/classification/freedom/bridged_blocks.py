@@ -14,9 +14,8 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.vectors import difference
 from dofkit.relations.answer import Answer, AnsweredPart, FollowedClasses, Size
 from dofkit.relations.blocks import Block, Row, coordinates_of, split, uses_time
-from dofkit.relations.chart_of_block import make_chart
-from dofkit.relations.joint_equations import JointEquation
-from dofkit.relations.normal.pieces import Finite
+from dofkit.relations.chart import make_chart
+from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import Setting
 
 #: A block of so few coordinates, all of whose equations are written out, is answered as soon as a whole.

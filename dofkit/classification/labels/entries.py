@@ -13,18 +13,14 @@ from dofkit.base.verdicts import Claim, Verdict, weakest
 from dofkit.base.wording import verb
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.labels.companions import Companionship
+from dofkit.classification.labels.companions import Companionship, by_itself
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
-from dofkit.classification.labels.equation_names import in_words
-from dofkit.classification.labels.reasons import Others
-from dofkit.classification.labels.shared_entries import SharedEntries
-from dofkit.classification.labels.single_constraint_labels import by_itself
+from dofkit.classification.labels.reasons import Others, in_words
 from dofkit.integrability.modulo_others import label_modulo_others
+from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import GAP
-from dofkit.relations.blocks import Row
-from dofkit.relations.integration_constants import fixed_constants
-from dofkit.relations.normal.pieces import Nonlinear
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.blocks import Row, fixed_constants
+from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict
 
@@ -50,27 +46,28 @@ def entries_of(
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
-    shared, entries = SharedEntries(setting, company.parts), list[ConstraintEntry]()
-    consistent = outcome.consistent
+    entries = list[ConstraintEntry]()
+    traits_of = partial(_traits_of, setting)
     for i, r in enumerate(reduced):
         number = known.independent.get(i, None if told[i] else 0)
         circuit = None if i not in known.circuits else [names[j] for j in known.circuits[i]]
         try:
             check()
+            beside = partial(_with_others, i, told[i], company, names)
+            alone = by_itself(i, r, told[i], company.parts)
             copied = i in outcome.copies
-            kind = None if known.says_more_of(i) else shared.kind(r, told[i], number, copied, i in known.following)
-            made = shared.known(kind, r)
-            if made is None:
-                beside = partial(_with_others, i, told[i], company, names)
-                alone = by_itself(i, r, told[i], company.parts)
-                evidence = Evidence(told[i], alone, number, circuit, constants, shared.traits, beside, copied)
-                made = entry(r, evidence, setting, consistent)
-                made = _with_dependence(made, i, r, known)
-                shared.keep(kind, made)
-            entries.append(made)
+            evidence = Evidence(told[i], alone, number, circuit, constants, traits_of, beside, copied)
+            entries.append(_with_dependence(entry(r, evidence, setting, outcome.consistent), i, r, known))
         except OutOfTimeError as error:
             entries.append(unfinished(r, str(error)))
     return entries
+
+
+def _traits_of(setting: Setting, piece: Clause) -> Traits:
+    """Return the labels that a piece carries on its own; the equations of a joint that is not driven hold no time."""
+    if isinstance(piece, JointEquation):
+        return Traits((True, "proved"))
+    return traits(piece, setting.positive, setting.engines, False)
 
 
 class _Dependence(NamedTuple):
@@ -86,10 +83,6 @@ class _Dependence(NamedTuple):
     following: Mapping[int, set[int]]
     seen: frozenset[int]
     on_component: frozenset[int]
-
-    def says_more_of(self, i: int) -> bool:
-        """Is anything known of a constraint beyond how many of its equations are independent: all of them?"""
-        return i in self.circuits or i in self.gone or i in self.open or bool(self.following.get(i))
 
 
 def _dependence(dependent: Sequence[Redundancies], outcome: Outcome) -> _Dependence:

@@ -7,26 +7,33 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from dofkit.base.verdicts import OPEN, VERDICTS, Claim, Verdict, weakest
-from dofkit.classification.labels.entry_claims import FoundLabels, Ground, claim_of_dependence, claims_of_labels
-from dofkit.classification.labels.reasons import Labels, Others, joined, reason_of
-from dofkit.classification.labels.time_labels import (
+from dofkit.classification.freedom.preparation import all_of
+from dofkit.classification.labels.reasons import (
     EntryLabels,
     EntryTraits,
+    FoundLabels,
+    Ground,
+    Labels,
+    Others,
     branches_of_time,
+    claim_of_dependence,
+    claims_of_labels,
     declared_functions,
+    joined,
+    reason_of,
     reason_of_time,
     timed_in_system,
     traits_together,
 )
-from dofkit.exact.engines import BOTH
+from dofkit.classification.undecided import open_entry
+from dofkit.exact.zero import BOTH
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.single_form import Integrability, integrability
 from dofkit.integrability.traits import Traits
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
-from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Normal, Pfaffian, Still, with_constants
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Normal, Pfaffian, Reduced, Still, with_constants
 from dofkit.relations.setting import Setting
 from dofkit.report import FORMS, ConstraintEntry, FieldVerdict, Form
 
@@ -236,29 +243,12 @@ def _once(normals: Sequence[Normal]) -> str:
 
 
 def unfinished(reduced: Reduced, why: str) -> ConstraintEntry:
-    """An entry without labels: there was no time for them."""
-    constraint = reduced.constraint
+    """Return an entry without labels: there was no time for them."""
     pieces: list[Clause] = [p for normal in reduced.normals for p in normal.pieces] + list(reduced.inequalities)
-    return ConstraintEntry(
-        name=constraint.name,
-        type=constraint.type,
-        text=constraint.text,
-        form=max((form_of(p) for p in pieces), key=FORMS.index, default="finite"),
-        holonomic=None,
-        holonomic_alone=None,
-        scleronomic=None,
-        catastatic=None,
-        bilateral=not reduced.inequalities,
-        exact=None,
-        integrating_factor=None,
-        integral=None,
-        circuit=None,
-        equations=reduced.equations,
-        independent=None,
-        verdict="undecided",
-        verdicts={name: FieldVerdict.of(OPEN) for name in ("holonomic", "holonomic_alone", "scleronomic")},
-        reason=f"Not decided: {why}.",
-    )
+    form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
+    bilateral = not reduced.inequalities
+    changes = {"form": form, "bilateral": bilateral, "equations": reduced.equations}
+    return open_entry(reduced.constraint, why).model_copy(update=changes)
 
 
 def _proofs(form: Form, forms: Sequence[Pfaffian], by_itself: Answer | None, setting: Setting) -> list[Integrability]:
@@ -269,12 +259,6 @@ def _proofs(form: Form, forms: Sequence[Pfaffian], by_itself: Answer | None, set
     labels = [label.holonomic for label in by_itself.labels.values()]
     single = labels[0] if len(labels) == 1 else None
     return [integrability(f, setting.positive, single) for f in forms]
-
-
-def _together(labels: Sequence[bool | None]) -> bool | None:
-    if any(label is False for label in labels):
-        return False
-    return None if any(label is None for label in labels) else True
 
 
 def _labels(in_system: bool | None, own: bool | None, told: Sequence[LabelledRow]) -> Labels:
@@ -308,7 +292,7 @@ def label_in_system(
         else:
             labels.append(t.label.holonomic)
             verdicts.append(t.label.verdict)
-    together = _together(labels)
+    together = all_of(labels)
     if together is False:
         return False, _strongest(told, proved)
     return together, weakest(*verdicts)
@@ -342,7 +326,7 @@ def _alone(
     labels = list(by_itself.labels.values())
     if by_itself.consistent is not True or not labels:
         return None, "undecided"
-    together = _together([label.holonomic for label in labels])
+    together = all_of(label.holonomic for label in labels)
     if together is False:
         return False, min((x.verdict for x in labels if x.holonomic is False), key=VERDICTS.index, default="proved")
     return together, weakest(*(x.verdict for x in labels))

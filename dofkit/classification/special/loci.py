@@ -2,32 +2,124 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from itertools import combinations
+from math import comb
+from typing import Any, NamedTuple
 
 from flint import arb, ctx, nmod, nmod_mat
 
-from dofkit.base.verdicts import Verdict
+from dofkit.classification.special.common_zeros import MAX_READ, Leaf, common_zeros
+from dofkit.classification.special.minors import MAX_MINORS, EliminatedTable, MinorTable, curvatures
 from dofkit.configuration.generic_points import on_variety
 from dofkit.exact.errors import NoValueError, raising_no_value
-from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import PRECISION, BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, Pivots, certified_rank, field_frame, rank_over
 from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.ring.canonical import Poly, determinant
 from dofkit.exact.ring.program import values
-from dofkit.exact.solving.triangular import TriangularSolver
+from dofkit.exact.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import AdmissibleCurve, columns_of
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, uses_time
-from dofkit.relations.chart import Chart
-from dofkit.relations.chart_of_block import make_chart
+from dofkit.relations.chart import Chart, make_chart
 from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.relations.setting import Setting
+
+
+class Candidates(NamedTuple):
+    """Conditions on coordinates under which all largest minors vanish, and all curvature or a minor of it."""
+
+    ranks: list[Leaf]
+    bends: list[Leaf]
+
+
+def candidates(table: MinorTable, rank: int, curvature: int, curved: bool) -> Candidates:
+    """Return the candidates; ``rank``: of the rows in the columns of the coordinates.
+
+    ``curvature``: the number of independent directions that [D, D] adds to D at a generic point, 0 where not known.
+    Where nothing is ``curved`` curvature has nothing to tell. What is too large has no candidates.
+    """
+    reduction = EliminatedTable(table)
+    size = rank - len(reduction.solved)
+    ranks = _attempt(lambda: _loci(table, reduction.minors(size) if size > 0 else ()))
+    bends = _attempt(lambda: _bends(table, reduction, size, curvature)) if curved and size >= 0 else []
+    return Candidates(ranks, bends)
+
+
+def _attempt(search: Callable[[], Iterable[Leaf]]) -> list[Leaf]:
+    try:
+        return raising_no_value(lambda: list(search()))()
+    except NoValueError:
+        return []
+
+
+def _bends(table: MinorTable, reduction: EliminatedTable, size: int, independent: int) -> Iterator[Leaf]:
+    """Yield the loci on which all curvature vanishes, and those on which less of it is independent."""
+    if not any(table.curls):
+        return
+    matrix = curvatures(table, reduction.kernel(size))
+    yield from _loci(table, [c for row in matrix for c in row])
+    bent = [row for row in matrix if any(c != 0 for c in row)]
+    if independent > 1 and comb(len(bent), independent) * comb(len(bent[0]), independent) <= MAX_MINORS:
+        columns = range(len(bent[0]))
+        picked = [(r, c) for r in combinations(bent, independent) for c in combinations(columns, independent)]
+        yield from _loci(table, [determinant(table.canon, [[row[i] for i in c] for row in r]) for r, c in picked])
+
+
+def _loci(table: MinorTable, polynomials: Iterable[Poly]) -> Iterator[Leaf]:
+    """Yield conditions on coordinates under which polynomials vanish and the finite relations can hold for a while."""
+    present = [p for p in polynomials if p != 0]
+    for leaf in common_zeros(table.reals, present, short=True) if present else ():
+        conditions = leaf.conditions(table.canon)
+        short = all(len(p) <= MAX_READ for p in (*leaf.others, *(v for _, v in leaf.solved)))
+        alone = any(_is_instant(table, c) or table.reals.of_parameters(c) for c in conditions)
+        if not short or alone or not _is_of_coordinates(table, conditions) or not _is_defined(table, leaf):
+            continue
+        if _can_hold(table, leaf):
+            yield leaf
+
+
+def _can_hold(table: MinorTable, leaf: Leaf) -> bool:
+    """Return whether the finite relations may hold on a leaf for an interval of time and all parameters."""
+    relations = [table.reals.on(leaf, g) for g in table.relations]
+    if any(table.reals.never_zero(g) for g in relations):
+        return False
+    try:
+        ways = [way.conditions(table.canon) for way in common_zeros(table.reals, relations)]
+    except NoValueError:
+        return True
+    return any(not any(_is_instant(table, c) or table.reals.of_parameters(c) for c in way) for way in ways)
+
+
+def _is_instant(table: MinorTable, condition: Poly) -> bool:
+    """Return whether a condition is one on time alone."""
+    symbols = _symbols(table, [condition])
+    return ex.TIME in symbols and all(s.args[0] in ("time", "parameter") for s in symbols)
+
+
+def _symbols(table: MinorTable, conditions: Iterable[Poly]) -> frozenset[Expr]:
+    present = {i for poly in conditions for i in table.canon.generators_in(poly)}
+    return frozenset[Expr]().union(*(table.canon.ring.var_expr[i].symbols for i in present))
+
+
+def _is_defined(table: MinorTable, leaf: Leaf) -> bool:
+    """Return whether the denominators of the rows do not vanish on a leaf."""
+    below = [table.reals.on(leaf, p) for p in table.below]
+    return all(p != 0 and not any(divmod(p, c)[1] == 0 for c in leaf.others) for p in below)
+
+
+def _is_of_coordinates(table: MinorTable, conditions: Sequence[Poly]) -> bool:
+    """Return whether coordinates occur, and no unknown functions."""
+    kinds = {table.canon.ring.vars[i].kind for poly in conditions for i in table.canon.generators_in(poly)}
+    return "call" not in kinds and any(s.args[0] == "coordinate" for s in _symbols(table, conditions))
+
 
 #: Starts and steps of the search for a real point of a locus; where it is regular a few are enough.
 STARTS, STEPS = 2, 14
@@ -67,7 +159,7 @@ class Locus:
     ``rank`` in the coordinates' columns; ``moves``: False where no velocity satisfies them (dt lies in their
     span); ``dependent``: the constraints whose independent rows depend on each other there; ``regular``: that such
     real configurations exist is proved. ``growth``: dimensions of D, D + [D, D], ..., where they were asked for, as far
-    as they are certain; ``least``: what balls prove them to be at least.
+    as they are certain.
     """
 
     rank: int
@@ -75,7 +167,6 @@ class Locus:
     dependent: tuple[int, ...]
     regular: bool
     growth: tuple[int, ...] = ()
-    least: tuple[int, ...] = ()
 
 
 @raising_no_value
@@ -105,9 +196,7 @@ def place(
     frame = field_frame(matrix, len(rows.columns), point.p)
     if not rank == whole == grows or not frame.rows or not frame.free:
         return Locus(rank, whole == rank, owners, found.regular)
-    return Locus(
-        rank, True, owners, found.regular, _growth(rows, frame, point, a), _least(rows, balls, frame, found.real)
-    )
+    return Locus(rank, True, owners, found.regular, _growth(rows, frame, point, a))
 
 
 def _part(matrix: list[list[Any]], n: int) -> list[list[Any]]:
@@ -179,21 +268,6 @@ def _growth(rows: FormRows, frame: Pivots, point: FieldPoint, a: Answer) -> tupl
     return dimensions[: reached if reached <= certain + 1 else certain]
 
 
-def _least(rows: FormRows, balls: list[list[arb]], frame: Pivots, point: BallPoint) -> tuple[int, ...]:
-    """What D, D + [D, D] and the next have at least, along one curve of balls."""
-    if certified_rank([[balls[r][c] for c in frame.dependent] for r in frame.rows]) < len(frame.rows):
-        return ()
-    try:
-        point.rng.seed("dofkit curve")
-        flow = AdmissibleCurve(rows, frame, point)
-        flow.follow(3)
-        vectors = [v for k in range(3) for v in columns_of(flow.pulled[k])]
-        size = len(frame.free)
-        return tuple(rank_over(vectors[: size * (k + 1)], flow.sample) for k in range(3))
-    except NoValueError:
-        return ()
-
-
 def _dimensions(flows: Sequence[AdmissibleCurve]) -> tuple[int, ...]:
     vectors: list[tuple[Any, ...]] = []
     found = []
@@ -201,31 +275,3 @@ def _dimensions(flows: Sequence[AdmissibleCurve]) -> tuple[int, ...]:
         vectors += [v for flow in flows for v in columns_of(flow.pulled[k])]
         found.append(rank_over(vectors, flows[0].sample))
     return tuple(found)
-
-
-def undefined(
-    block: Block, setting: Setting, relations: Sequence[Expr], below: Expr, tops: Sequence[Expr]
-) -> Verdict | None:
-    """How sure it is that coefficients ``tops`` / ``below`` have no value where ``below`` = 0; None where it is not."""
-    chart = _chart(block, setting, [*relations, below], tops)
-    found = points_of(chart)
-    if found is None:
-        return None
-    try:
-        nodes = [chart.ring.node(e) for e in tops]
-        at = values(chart.ring, found.field)
-        with ctx.workprec(PRECISION):
-            balls = values(chart.ring, found.real)
-    except NoValueError:
-        return None
-    if not any(at[node] != 0 and not balls[node].contains(0) for node in nodes):
-        return None
-    return "proved" if found.regular else "probable"
-
-
-def meeting(coordinates: Sequence[str], setting: Setting, relations: Sequence[Expr]) -> Verdict | None:
-    """How sure it is that real configurations satisfy relations; None where none was found."""
-    found = points_of(_chart(Block(tuple(coordinates), ()), setting, relations, ()))
-    if found is None:
-        return None
-    return "proved" if found.regular else "probable"

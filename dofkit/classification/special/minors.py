@@ -15,15 +15,87 @@ from math import comb
 
 from dofkit.base.deadline import check
 from dofkit.classification.special.common_zeros import Reals
-from dofkit.classification.special.derivatives import Derivation
 from dofkit.exact.errors import TooLargeError, raising_no_value
 from dofkit.exact.ring.canonical import Canon, Poly, Quotient, cleared, determinant
+from dofkit.exact.ring.program import Var
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block
 from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.relations.setting import Setting
+
+
+class Derivation:
+    """d/ds for every symbol s; memoised."""
+
+    def __init__(self, canon: Canon) -> None:
+        self.canon = canon
+        self.zero: Quotient = (canon.one * 0, canon.one)
+        self._known: dict[tuple[int, Expr], Quotient] = {}
+
+    def of(self, value: Quotient, symbol: Expr) -> Quotient:
+        """The derivative of a quotient, in lowest terms. Raises TooLargeError for functions it does not know."""
+        top, bottom = value
+        if bottom.is_constant():
+            return self._of_poly(top, symbol)
+        above, below = self._of_poly(top, symbol), self._of_poly(bottom, symbol)
+        total = above[0] * below[1] * bottom - below[0] * above[1] * top
+        return self.lowest(self.canon.reduce(total), above[1] * below[1] * bottom**2)
+
+    def lowest(self, top: Poly, bottom: Poly) -> Quotient:
+        """A quotient without common factors, its denominator 1 where it is a number."""
+        if bottom.is_constant():
+            return top / bottom.leading_coefficient(), self.canon.one
+        common = top.gcd(bottom)
+        return (top / common, bottom / common) if common.total_degree() else (top, bottom)
+
+    def _of_poly(self, poly: Poly, symbol: Expr) -> Quotient:
+        total, below, n = self.zero[0], self.canon.one, len(self.canon.gens)
+        for i in self.canon.generators_in(poly):
+            top, bottom = self._of_generator(i, symbol)
+            if top == 0:
+                continue
+            term = poly.derivative(n - 1 - i) * top
+            if bottom == below:
+                total = total + term
+            else:
+                total, below = total * bottom + term * below, below * bottom
+        return self.lowest(self.canon.reduce(total), below)
+
+    def _of_generator(self, index: int, symbol: Expr) -> Quotient:
+        var, shown = self.canon.ring.vars[index], self.canon.ring.var_expr[index]
+        if symbol not in shown.symbols:
+            return self.zero
+        if var.kind == "symbol":
+            return self.canon.one, self.canon.one
+        found = self._known.get((index, symbol))
+        if found is None:
+            inner = self.of(self.canon.quotient(var.args[0]), symbol)
+            top, bottom = self._outer(var)
+            found = self._known[index, symbol] = self.lowest(self.canon.reduce(inner[0] * top), inner[1] * bottom)
+        return found
+
+    def _outer(self, var: Var) -> Quotient:
+        """The derivative of a generator by its argument."""
+        gens, one = self.canon.gens, self.canon.one
+        if var.kind == "cos":
+            return -gens[var.partner], one
+        if var.kind == "sin":
+            return gens[var.partner], one
+        if var.kind == "exp":
+            return gens[var.index], one
+        if var.kind == "sign":
+            return one * 0, one
+        top, bottom = self.canon.quotient(var.args[0])
+        if var.kind == "root":
+            return gens[var.index] * bottom, var.degree * top
+        if var.kind == "log":
+            return bottom, top
+        if var.kind == "atan":
+            return bottom**2, bottom**2 + top**2
+        raise TooLargeError
+
 
 #: Minors, and vectors of the kernel, of which there may be so many; their size.
 MAX_MINORS, MAX_VECTORS, MAX_SIZE = 20, 8, 4
@@ -35,8 +107,8 @@ MAX_TERMS, MAX_SHORT = 12, 60
 class MinorTable:
     """``relations`` are the finite relations; ``rows`` over ``symbols`` (coordinates, then time where it enters).
 
-    The first rows are the relations' differentials. Of every form ``bent`` has d(omega), ``clocks`` what holds its time
-    (the dt coefficient and time derivatives); ``below`` has every row's denominator, as written.
+    The first rows are the relations' differentials. Of every form ``bent`` has d(omega);
+    ``below`` has every row's denominator, as written.
     """
 
     canon: Canon
@@ -45,7 +117,6 @@ class MinorTable:
     relations: list[Poly]
     rows: list[list[Poly]]
     bent: Callable[[], list[dict[tuple[int, int], Quotient]]]
-    clocks: list[list[Poly]]
     below: list[Poly]
 
     @cached_property
@@ -84,7 +155,6 @@ def table_of(block: Block, hidden: Sequence[Expr], setting: Setting, nonzero: fr
         [values[g][0] for g in finite],
         [tops for tops, _ in clear],
         lambda: [_curl(slopes, form, values, symbols) for form in forms],
-        [_clock(slopes, row) for row in written] if timed else [],
         [whole for _, whole in clear],
     )
 
@@ -104,11 +174,6 @@ def _curl(
         total = old + top if below == under else old * below + top * under
         found[key] = slopes.lowest(slopes.canon.reduce(total), below if below == under else below * under)
     return {key: found[key] for key in sorted(found) if found[key][0] != 0}
-
-
-def _clock(slopes: Derivation, row: Sequence[Quotient]) -> list[Poly]:
-    """What holds the time in a row: its last coefficient, and the others' derivatives."""
-    return [row[-1][0], *(slopes.of(entry, ex.TIME)[0] for entry in row[:-1])]
 
 
 class EliminatedTable:

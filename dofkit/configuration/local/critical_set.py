@@ -16,7 +16,7 @@ from flint import nmod_mat
 from dofkit.configuration.local.manifold import Form, Manifold, inverse, product
 from dofkit.exact.points.frames import pivots
 from dofkit.exact.points.series import Series, monomial
-from dofkit.exact.ring.instructions import Scalar
+from dofkit.exact.ring.program import Scalar
 
 
 @dataclass(frozen=True)

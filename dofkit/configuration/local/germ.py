@@ -19,8 +19,7 @@ from dofkit.configuration.local.critical_set import Split
 from dofkit.configuration.local.manifold import Form, Manifold, is_zero
 from dofkit.configuration.local.neighbourhood import holds_away
 from dofkit.exact.points.series import Series
-from dofkit.exact.ring.instructions import ADD, MUL, NUM, POW, VAR, Scalar
-from dofkit.exact.ring.program import reachable
+from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, Scalar, reachable
 from dofkit.exact.ring.ring import Ring
 
 #: Orders to which the other relations are followed on M; the second where one motion is in question.

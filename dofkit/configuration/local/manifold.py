@@ -15,8 +15,7 @@ from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import FactoredMatrix
 from dofkit.exact.points.frames import Pivots, solve
 from dofkit.exact.points.series import Series, SeriesPoint, monomial, series_values, zero_poly
-from dofkit.exact.ring.instructions import Scalar
-from dofkit.exact.ring.program import gradient, values
+from dofkit.exact.ring.program import Scalar, gradient, values
 from dofkit.exact.ring.ring import Ring
 
 Form = list[list[Scalar]]

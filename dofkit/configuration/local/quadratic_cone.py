@@ -16,7 +16,7 @@ from flint import arb, nmod, nmod_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
-from dofkit.exact.ring.instructions import Scalar
+from dofkit.exact.ring.program import Scalar
 
 Form = Sequence[Sequence[Scalar]]
 #: The most linear conditions by which the complex cone is cut: their Macaulay matrix has comb(2 c, c + 1) columns.

@@ -29,7 +29,7 @@ from dofkit.configuration.measured.equations import (
     independent_rows,
 )
 from dofkit.configuration.measured.second_order import StressForms
-from dofkit.exact.matrices.singular_values import dependency_pattern, greedy_pivots
+from dofkit.exact.matrices.certified import dependency_pattern, greedy_pivots
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart
 from dofkit.relations.setting import Setting

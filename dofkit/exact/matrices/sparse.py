@@ -1,4 +1,4 @@
-"""Sparse matrices over GF(p): independent rows in order, what the others depend on, and columns to solve for.
+"""Ranks over GF(p); of sparse matrices also independent rows in order, dependences, and columns to solve for.
 
 Rows are taken one after another and reduced by those before them; a pivot is the entry whose column occurs in the
 fewest rows, so a chain or a tree fills in nothing and a grid little more than its width.
@@ -8,18 +8,70 @@ from __future__ import annotations
 
 import random
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from typing import Any
 
-from dofkit.base.deadline import check
+from flint import fmpq, nmod_mat
+
+from dofkit.base.deadline import affordable, check
 from dofkit.exact.errors import PoleError
+
+Numbers = Sequence[Any]
+LinearRow = dict[int, Any]
+
+
+def combined(parts: Iterable[tuple[Any, Mapping[int, Any]]]) -> LinearRow:
+    """The sum of numbers times rows."""
+    found: LinearRow = {}
+    for factor, row in parts:
+        for c, v in row.items():
+            found[c] = found.get(c, 0) + factor * v
+    return found
+
+
+def along(direction: Numbers, rows: Sequence[LinearRow]) -> LinearRow:
+    """The component along a direction of a vector of rows."""
+    return combined(zip(direction, rows, strict=True))
+
+
+def across(direction: Numbers, rows: Sequence[LinearRow]) -> Iterator[LinearRow]:
+    """The d - 1 components across a direction of a vector of rows."""
+    return (along(u, rows) for u in spanning(direction))
+
+
+def less(second: Sequence[LinearRow], first: Sequence[LinearRow]) -> list[LinearRow]:
+    """second - first."""
+    return [combined(((1, b), (-1, a))) for a, b in zip(first, second, strict=True)]
+
+
+def spanning(n: Numbers) -> list[tuple[Any, ...]]:
+    """Directions across n: d - 1 of them."""
+    if len(n) == 2:
+        return [(-n[1], n[0])]
+    pivot = next(i for i in reversed(range(len(n))) if n[i] != 0)
+    found = []
+    for i in range(len(n)):
+        if i != pivot:
+            parts = [0] * len(n)
+            parts[i], parts[pivot] = n[pivot], -n[i]
+            found.append(tuple(parts))
+    return found
+
+
+def cross(a: Numbers, b: Numbers) -> tuple[Any, ...]:
+    """a x b in space."""
+    return tuple(a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1)))
+
 
 SparseRow = dict[int, int]
 #: For every row that depends on rows before it a minimal set of those; told where it is asked for.
 Supports = Callable[[], Mapping[int, Sequence[int]]]
 
+RationalRow = dict[int, fmpq]
+#: Primes modulo which dependences of rational rows are found; factors have up to half their bits.
+RECONSTRUCTION_PRIMES = (2**127 - 1, 2**521 - 1, 2**2203 - 1)
 #: Rows between two looks at the clock.
 LOOK = 64
 
@@ -95,6 +147,46 @@ def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
         else:
             found.append({i: 1} | {k: -v % p for k, v in reduction.support(used).items()})
     return found
+
+
+def dependences(rows: Sequence[Mapping[int, fmpq]]) -> dict[int, RationalRow] | None:
+    """Return for every rational row that is a sum of rows before it their factors, row_i = sum f_k row_k.
+
+    What is independent modulo a prime is so over the rationals; dependences are reconstructed from their residues and
+    checked. None where that succeeds for no prime.
+
+    >>> dependences([{0: fmpq(1)}, {0: fmpq(1), 1: fmpq(2)}, {1: fmpq(1)}])
+    {2: {0: -1/2, 1: 1/2}}
+    """
+    for p in RECONSTRUCTION_PRIMES:
+        try:
+            residues = [{c: int(v.p) * pow(int(v.q), -1, p) % p for c, v in row.items()} for row in rows]
+        except ValueError:  # the prime divides a denominator
+            continue
+        sums = vanishing([{c: v for c, v in row.items() if v} for row in residues], p)
+        factors = {max(s): {k: _reconstructed(-v, p) for k, v in sorted(s.items()) if k != max(s)} for s in sums}
+        if all(_is_sum(rows, i, row) for i, row in factors.items()):
+            return factors
+    return None
+
+
+def _reconstructed(residue: int, p: int) -> fmpq:
+    """Return the fraction a/b with the residue modulo p and |a|, |b| below the root of p/2, if there is one (Wang)."""
+    a, b, x, y = p, residue % p, 0, 1
+    while 2 * b * b > p:
+        quotient = a // b
+        a, b, x, y = b, a - quotient * b, y, x - quotient * y
+    return fmpq(b, y)
+
+
+def _is_sum(rows: Sequence[Mapping[int, fmpq]], i: int, factors: RationalRow) -> bool:
+    """Return whether row i is exactly the sum of rows times factors."""
+    check()
+    total = dict(rows[i])
+    for k, factor in factors.items():
+        for c, v in rows[k].items():
+            total[c] = total.get(c, fmpq(0)) - factor * v
+    return all(v == 0 for v in total.values())
 
 
 def vector_in_kernel(rows: Sequence[Mapping[int, int]], p: int, rng: random.Random) -> SparseRow:
@@ -250,3 +342,16 @@ class FactoredMatrix:
     def solve(self, right: Sequence[int]) -> list[int]:
         """The x with A x = ``right``: what was done to the rows is done to it, then the pivots backwards."""
         return self._found.solved(right)
+
+
+def rank_of(matrix: list[list[Any]], p: int) -> int:
+    """Rank over GF(p)."""
+    if not matrix or not matrix[0]:
+        return 0
+    affordable(len(matrix), len(matrix[0]))
+    return int(nmod_mat([[int(v) for v in row] for row in matrix], p).rank())
+
+
+def without_time(rows: Sequence[SparseRow], n: int) -> list[SparseRow]:
+    """The first n columns."""
+    return [{c: v for c, v in row.items() if c < n} for row in rows]

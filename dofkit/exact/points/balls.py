@@ -1,4 +1,7 @@
-"""Real points as balls (arb): a value whose ball excludes 0 is proved not to be 0."""
+"""Points at which values are certain: balls of real numbers (arb), and rational numbers.
+
+A value whose ball excludes 0 is proved not to be 0; values at a point with rational coordinates are exact.
+"""
 
 from __future__ import annotations
 
@@ -8,17 +11,63 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from fractions import Fraction
-from functools import cached_property
-from typing import Any
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
 
-from flint import arb, ctx, fmpq
+from flint import arb, ctx, fmpq, fmpq_mat
 
-from dofkit.exact.errors import OutsideDomainError
-from dofkit.exact.points.smooth import smooth_function
-from dofkit.exact.ring.instructions import Scalar, Var
-from dofkit.exact.ring.program import gradient
+from dofkit.exact.errors import NoPointError, NoValueError, OutsideDomainError
+from dofkit.exact.ring.program import Scalar, Var, gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
+
+#: Sines in a function.
+WAVES = 3
+
+
+class SmoothFunction(NamedTuple):
+    """The dyadic numbers of one function of some arguments."""
+
+    start: Fraction
+    slopes: tuple[Fraction, ...]
+    waves: tuple[tuple[Fraction, tuple[Fraction, ...], Fraction], ...]
+
+    def value(self, args: Sequence[Any], orders: Sequence[int], numbers: Any, sine: Any, half_pi: Any) -> Any:
+        """The function differentiated ``orders[i]`` times by its i-th argument.
+
+        ``numbers`` turns a fraction into the numbers of the arguments; ``sine``, ``half_pi``: theirs.
+        """
+        total = sum(orders)
+        found = numbers(Fraction(0))
+        if total == 0:
+            found = found + numbers(self.start)
+            for slope, u in zip(self.slopes, args, strict=True):
+                found = found + numbers(slope) * u
+        elif total == 1:
+            found = found + numbers(self.slopes[list(orders).index(1)])
+        for height, widths, phase in self.waves:
+            factor, angle = height, numbers(phase) + half_pi * total
+            for width, order, u in zip(widths, orders, args, strict=True):
+                factor *= width**order
+                angle = angle + numbers(width) * u
+            found = found + numbers(factor) * sine(angle)
+        return found
+
+
+@lru_cache(maxsize=256)
+def smooth_function(name: str, arguments: int, seed: int) -> SmoothFunction:
+    """The function of a name: the same in every run, another for another seed."""
+    rng = random.Random(f"dofkit function {name} {arguments} {seed}")
+
+    def draw(low: int, high: int) -> Fraction:
+        return Fraction(rng.choice((-1, 1)) * rng.randrange(low, high), 512)
+
+    slopes = tuple(draw(256, 1024) for _ in range(arguments))
+    waves = tuple(
+        (draw(64, 512), tuple(draw(256, 1024) for _ in range(arguments)), draw(1, 1600)) for _ in range(WAVES)
+    )
+    return SmoothFunction(draw(1, 1024), slopes, waves)
+
 
 #: Bits of a ball; numbers of more bits than the second ask for as many more, twice: what they differ by may be as small
 #: as they are long.
@@ -152,3 +201,72 @@ def jacobian(
         g = gradient(ring, at, point, [(node, zero + 1)])
         rows.append([g.get(c, zero) for c in columns])
     return rows
+
+
+#: Entries of a matrix that is eliminated over the rationals.
+MAX_ENTRIES = 20_000
+#: Functions that have a rational value at 0.
+AT_ZERO = {"cos": 1, "sin": 0, "exp": 1, "asin": 0, "atan": 0}
+
+
+class ExactPoint:
+    """Rational values of the symbols; of functions, those at 0 and roots of powers. Raises NoPointError for others."""
+
+    def __init__(self, symbols: Mapping[Expr, Fraction]) -> None:
+        self.symbols = symbols
+
+    def number(self, value: Fraction) -> fmpq:
+        return fmpq(value.numerator, value.denominator)
+
+    def generator(self, var: Var, args: Sequence[Scalar]) -> fmpq:
+        if var.kind == "symbol" and var.key in self.symbols:
+            return self.number(self.symbols[var.key])
+        if var.kind in AT_ZERO and args and args[0] == 0:
+            return fmpq(AT_ZERO[var.kind])
+        if var.kind == "root":
+            return _root(args[0], var.degree)
+        raise NoPointError(f"{var.kind} has no rational value there")
+
+
+def _root(value: fmpq, degree: int) -> fmpq:
+    """The root of a power of a rational that is not negative. Raises NoPointError."""
+    if value >= 0:
+        top, bottom = (n.root(degree) for n in (value.p, value.q))
+        if top**degree == value.p and bottom**degree == value.q:
+            return fmpq(top, bottom)
+    raise NoPointError("a root that is no rational")
+
+
+def rational_values(known: Mapping[Expr, Expr]) -> dict[Expr, Fraction]:
+    """The symbols whose values are written as rational numbers."""
+    return {s: v.args[0] for s, v in known.items() if v.op == "num"}
+
+
+def vanish_exactly(ring: Ring, nodes: Sequence[int], symbols: Mapping[Expr, Fraction]) -> bool:
+    """Are nodes proved to be 0 at a rational point? False where a value is no rational."""
+    try:
+        at = values(ring, ExactPoint(symbols))
+    except NoValueError:
+        return False
+    return all(at[node] == 0 for node in nodes)
+
+
+def exact_rank(
+    ring: Ring, nodes: Sequence[int], columns: Sequence[int], symbols: Mapping[Expr, Fraction]
+) -> int | None:
+    """The rank of d(nodes)/d(columns) at a rational point; None where a value is none, or there are too many.
+
+    ``columns``: generators of symbols, -1 for one that does not occur.
+    """
+    present = [c for c in columns if c >= 0]
+    if len(nodes) * len(present) > MAX_ENTRIES:
+        return None
+    if not nodes or not present:
+        return 0
+    point = ExactPoint(symbols)
+    try:
+        at = values(ring, point)
+        slopes = [gradient(ring, at, point, [(node, fmpq(1))]) for node in nodes]
+    except NoValueError:
+        return None
+    return int(fmpq_mat([[row.get(c, fmpq(0)) for c in present] for row in slopes]).rref()[1])

@@ -13,7 +13,7 @@ from dofkit.exact.errors import PoleError, raising_no_value
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns
 from dofkit.exact.points.series import Series
-from dofkit.exact.ring.instructions import Scalar
+from dofkit.exact.ring.program import Scalar
 from dofkit.exact.ring.ring import Ring
 
 

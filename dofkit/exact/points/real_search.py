@@ -16,8 +16,7 @@ from flint import arb, arb_mat, ctx
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
 from dofkit.exact.errors import NoValueError, raising_no_value
-from dofkit.exact.matrices.certified import ORDERED, PivotedPart, ball_part
-from dofkit.exact.matrices.singular_values import independent_part
+from dofkit.exact.matrices.certified import ORDERED, PivotedPart, ball_part, independent_part
 from dofkit.exact.points.balls import BallPoint, FloatPoint, jacobian, precision
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring

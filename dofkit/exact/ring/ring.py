@@ -14,14 +14,76 @@ from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from math import gcd
 
-from dofkit.exact.ring.angles import MAX_MULTIPLE, exact_turn, multiple, of_inverse, rotated, turn_of_twelfths
-from dofkit.exact.ring.instructions import ADD, MUL, NUM, VAR, Instructions, Var
-from dofkit.exact.ring.inverses import inverse_function, log, over_primes, split_logs
-from dofkit.exact.ring.radicals import root, sign
+from dofkit.exact.ring.program import ADD, MUL, NUM, VAR, Instructions, Var
+from dofkit.exact.ring.radicals import inverse_function, log, over_primes, root, sign
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.terms import linear_terms, sorted_sum
 from dofkit.expressions.tree import Expr
+
+#: sin(n u) is a polynomial in sin u and cos u up to this n; beyond, it is a generator of its own.
+MAX_MULTIPLE = 64
+
+#: (cos, sin) by nodes.
+Turn = tuple[int, int]
+
+
+def rotated(ring: Instructions, a: Turn, b: Turn) -> Turn:
+    """cos and sin of a sum of two angles."""
+    if a == (ring.number(1), ring.number(0)):
+        return b
+    minus = ring.number(-1)
+    return (
+        ring.total(ring.product(a[0], b[0]), ring.product(minus, a[1], b[1])),
+        ring.total(ring.product(a[0], b[1]), ring.product(a[1], b[0])),
+    )
+
+
+def multiple(ring: Instructions, angle: Turn, n: int) -> Turn:
+    """cos and sin of n times an angle."""
+    if n < 0:
+        cos, sin = multiple(ring, angle, -n)
+        return cos, ring.product(ring.number(-1), sin)
+    if n == 0:
+        return ring.number(1), ring.number(0)
+    half = multiple(ring, angle, n // 2)
+    total = angle if n == 1 else rotated(ring, half, half)
+    return rotated(ring, total, angle) if n > 1 and n % 2 else total
+
+
+def of_inverse(ring: Instructions, rest: Expr) -> Turn:
+    """cos and sin of asin u, acos u, atan u or atan2(y, x)."""
+    u = rest.args[1]
+    if rest.args[0] in ("asin", "acos"):
+        other = ring.node(ex.sqrt(ex.ONE - u * u))
+        return (other, ring.node(u)) if rest.args[0] == "asin" else (ring.node(u), other)
+    x = ex.ONE if rest.args[0] == "atan" else rest.args[2]
+    inverse = ring.power_node(ring.node(ex.sqrt(x * x + u * u)), -1)
+    return ring.product(ring.node(x), inverse), ring.product(ring.node(u), inverse)
+
+
+def _in_twelfths(factor: Fraction) -> bool:
+    return bool((12 * factor).denominator == 1)
+
+
+def _cosine_of_twelfths(k: int) -> Expr:
+    """Return cos(k pi/12) with square roots."""
+    k = min(k % 24, -k % 24)
+    return -_COSINES[12 - k] if k > 6 else _COSINES[k]
+
+
+_COSINES = tuple(
+    ex.num(Fraction(1, 4)) * e
+    for e in (
+        ex.num(4),
+        ex.sqrt(ex.num(6)) + ex.sqrt(ex.TWO),
+        ex.TWO * ex.sqrt(ex.num(3)),
+        ex.TWO * ex.sqrt(ex.TWO),
+        ex.TWO,
+        ex.sqrt(ex.num(6)) - ex.sqrt(ex.TWO),
+        ex.ZERO,
+    )
+)
 
 
 def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) -> dict[tuple[str, Expr], int]:
@@ -32,7 +94,8 @@ def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) ->
         if family:
             argument = node.args[1] if node.op == "fn" else node.args[1] * ex.fn("log", node.args[0])
             for rest, factor in linear_terms(over_primes(substitute(argument, alias))).items():
-                factor = exact_turn(factor)[1] if rest == ex.PI and family == "cis" else factor
+                if rest == ex.PI and family == "cis" and _in_twelfths(factor):
+                    continue
                 old = denominators.get((family, rest), 1)
                 denominators[family, rest] = old * factor.denominator // gcd(old, factor.denominator)
     return denominators
@@ -72,20 +135,18 @@ class Ring(Instructions):
         positive: frozenset[Expr] = frozenset(),
         alias: Mapping[Expr, Expr] | None = None,
     ) -> None:
-        super().__init__()
+        super().__init__(positive)
         self._bases: dict[Expr, Expr] = {}
-        self.positive = positive
         self.alias = alias or {}
         given = [e for e in expressions if e.functions]
         self._denominators = _angle_arguments(given, self.alias)
-        self._split = split_logs((e for e in given if "log" in e.functions), positive)
         self._memo: dict[Expr, int] = {}
         self._turns: dict[Expr, tuple[int, int]] = {}
 
     def another(self) -> Ring:
         """An empty ring that splits arguments in the same way, so that a point of one is a point of the other."""
         made = Ring((), self.positive, self.alias)
-        made._denominators, made._split = self._denominators, self._split
+        made._denominators = self._denominators
         return made
 
     def node(self, e: Expr) -> int:
@@ -151,7 +212,7 @@ class Ring(Instructions):
             return self._exp(u)
         if name == "abs":
             return self.product(sign(self, u), self.node(u))
-        return log(self, u, self._split) if name == "log" else inverse_function(self, name, e)
+        return log(self, u) if name == "log" else inverse_function(self, name, e)
 
     def _hyperbolic(self, name: str, u: Expr) -> int:
         up, down = self._exp(u), self._exp(-u)
@@ -200,12 +261,13 @@ class Ring(Instructions):
         u = substitute(u, self.alias)
         total = (self.number(1), self.number(0))
         for rest, factor in linear_terms(u).items():
-            if rest == ex.PI:
-                known, factor = exact_turn(factor)
-                total = rotated(self, total, turn_of_twelfths(self, known))
-            if factor:
+            if rest == ex.PI and _in_twelfths(factor):
+                k = int(12 * factor)
+                turn = self.node(_cosine_of_twelfths(k)), self.node(_cosine_of_twelfths(k - 6))
+            else:
                 cos, sin, n = self._basic_angle(rest, factor)
-                total = rotated(self, total, multiple(self, (cos, sin), n))
+                turn = multiple(self, (cos, sin), n)
+            total = rotated(self, total, turn)
         return total
 
     def _basic_angle(self, rest: Expr, factor: Fraction) -> tuple[int, int, int]:

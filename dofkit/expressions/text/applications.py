@@ -3,81 +3,52 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import islice
 from typing import NoReturn
 
-from dofkit.expressions.calculus import diff
-from dofkit.expressions.domains import of_function, of_power
-from dofkit.expressions.text.arithmetic import UndefinedError, applied, inverse, product
-from dofkit.expressions.text.derivatives import by_time, over_dt, raise_order, size, total_differential
-from dofkit.expressions.text.limits import MAX_DIFFERENTIATED, MAX_ORDER
+from dofkit.expressions.calculus import by_time, diff, of_function, of_power, over_dt, total_differential
+from dofkit.expressions.text.characters import MAX_DIFFERENTIATED, MAX_ORDER
+from dofkit.expressions.text.grammar import Parser
 from dofkit.expressions.text.names import AmbiguousError
-from dofkit.expressions.text.reader import TextReader
+from dofkit.expressions.text.reader import applied, inverse, product
 from dofkit.expressions.text.tokens import Token
-from dofkit.expressions.tree import DT, FUNCTIONS, MINUS_ONE, TIME, Expr, call, mul
+from dofkit.expressions.tree import DT, FUNCTIONS, MINUS_ONE, TIME, Expr, call, mul, nodes
 
 _BARE = frozenset({"number", "value", "motion", "call", "function", "root", "frac", "|"})
 
 
-def arguments(parser: TextReader) -> list[Expr]:
-    """Values in parentheses with commas between."""
-    opening = parser.take()
-    bars, parser.bars = parser.bars, 0
-    found = [parser.sum()]
-    while parser.next.kind == ",":
-        parser.at += 1
-        found.append(parser.sum())
-    parser.bars = bars
-    parser.close(opening)
-    return found
-
-
-def checked(parser: TextReader, token: Token, name: str, given: list[Expr]) -> Expr:
-    """The elementary function ``name`` at ``given``."""
-    wanted = FUNCTIONS.get(name, 1)
-    if len(given) != wanted:
-        what = "one argument" if wanted == 1 else f"{wanted} arguments"
-        parser.fail(f"`{name}` takes {what}, not {len(given)}", token, "check the commas")
-    parser.domain |= dict.fromkeys(of_function(name, *given))
-    try:
-        return applied(name, given)
-    except UndefinedError as fault:
-        parser.fail(fault.message, token, fault.hint)
+def _applied(parser: Parser, token: Token, name: str, arguments: list[Expr]) -> Expr:
+    """Return the value of the elementary function ``name``."""
+    expected = FUNCTIONS.get(name, 1)
+    if len(arguments) != expected:
+        what = "one argument" if expected == 1 else f"{expected} arguments"
+        parser.fail(f"`{name}` takes {what}, not {len(arguments)}", token, "check the commas")
+    return parser.computed(token, applied, name, *arguments, needs=of_function(name, *arguments))
 
 
 # Elementary functions
 
 
-def function(parser: TextReader, token: Token) -> Expr:
-    """`sin(x)`, `sin x`, `sin^2(x)`."""
-    name = token.name
-    exponent = function_power(parser, name)
-    if parser.next.kind == "(":
-        found = checked(parser, token, name, arguments(parser))
-    else:
-        found = checked(parser, token, name, [bare(parser, token)])
-    return found if exponent is None else parser.raise_to(found, exponent, token)
+def function(parser: Parser, token: Token) -> Expr:
+    """Read `sin(x)`, `sin x`, `sin^2(x)`."""
+    exponent = _function_power(parser, token.name)
+    arguments = parser.enclosed(commas=True) if parser.next.kind == "(" else [_bare_argument(parser, token)]
+    e = _applied(parser, token, token.name, arguments)
+    return e if exponent is None else parser.raise_to(e, exponent, token)
 
 
-def function_power(parser: TextReader, name: str) -> Expr | None:
-    """The `2` of `sin^2(x)`; a negative one is a question."""
+def _function_power(parser: Parser, name: str) -> Expr | None:
+    """Return the `2` of `sin^2(x)`; a negative one is a question."""
     token = parser.next
-    if token.kind == "superscript":
-        parser.at += 1
-        exponent = token.expr
-    elif token.kind == "^":
-        parser.at += 1
-        if parser.next.kind == "(":
-            exponent = parser.group()
-        elif parser.next.kind == "number":
-            exponent = parser.take().expr
-        else:
-            sign = parser.next.kind == "-"
-            if sign:
-                parser.at += 1
-            exponent = parser.primary()
-            exponent = mul(MINUS_ONE, exponent) if sign else exponent
-    else:
+    if token.kind not in ("superscript", "^"):
         return None
+    parser.at += 1
+    exponent = token.expr
+    if token.kind == "^":
+        negative = parser.next.kind == "-"
+        parser.at += negative
+        exponent = parser.primary()
+        exponent = mul(MINUS_ONE, exponent) if negative else exponent
     if exponent is None or exponent.op != "num" or exponent.args[0].denominator != 1:
         parser.fail(f"this power of `{name}` is not read", token, f"write `{name}(...)^(...)`")
     if exponent.args[0] < 0:
@@ -87,58 +58,57 @@ def function_power(parser: TextReader, name: str) -> Expr | None:
     return exponent
 
 
-def bare(parser: TextReader, token: Token) -> Expr:
-    """The argument of a function without parentheses: numbers, then one name or letters written together."""
+def _bare_argument(parser: Parser, token: Token) -> Expr:
+    """Return a function's argument without parentheses: numbers, then one name or letters written together."""
     first = parser.next
     name = token.name
     if first.kind not in _BARE or FUNCTIONS.get(name, 1) != 1 or (first.kind == "|" and parser.bars):
         parser.fail(f"`{name}` needs its argument", first, f"write `{name}(...)`")
+    factors = [parser.primary() if first.kind == "number" else parser.power()]
+    if first.name == "degrees":
+        return factors[0]
     if first.kind == "number":
-        parts = [parser.primary()]
-        if first.name == "degrees":
-            return parts[0]
         if parser.next.kind == "value":
-            parts.append(parser.power())
+            factors.append(parser.power())
         elif parser.next.kind in ("^", "superscript", "motion", "function", "call", "(", "root", "frac"):
-            ask_extent(parser, token, first)
-    else:
-        parts = [parser.power()]
+            _ask_extent(parser, token, first)
     if first.kind in ("number", "value"):
         while parser.next.kind == "value" and parser.next.start == parser.last.end:
-            parts.append(parser.power())
+            factors.append(parser.power())
     after = parser.next
-    if after.kind in ("value", "number", "root", "frac") or (after.kind == "(" and after.start == parser.last.end):
-        ask_extent(parser, token, first)
-    if after.kind in ("*", "/") and after.start == parser.last.end:
+    touching = after.start == parser.last.end
+    doubtful = after.kind in ("value", "number", "root", "frac") or (after.kind == "(" and touching)
+    if after.kind in ("*", "/") and touching:
         beyond = parser.tokens[parser.at + 1]
-        if beyond.start == after.end and beyond.kind in ("value", "number", "("):
-            ask_extent(parser, token, first)
-    return product(parts)
+        doubtful = beyond.start == after.end and beyond.kind in ("value", "number", "(")
+    if doubtful:
+        _ask_extent(parser, token, first)
+    return product(factors)
 
 
-def ask_extent(parser: TextReader, token: Token, first: Token) -> NoReturn:
-    """`sin theta/2`: how far does the argument reach?"""
+def _ask_extent(parser: Parser, token: Token, first: Token) -> NoReturn:
+    """Ask how far the argument of `sin theta/2` reaches."""
     after, end = parser.next, parser.last.end
     beyond = parser.tokens[parser.at + 1] if after.kind in ("*", "/", "^") else after
     argument = parser.source(first.start, end)
     more = parser.source(end, beyond.end) + ("...)" if beyond.kind == "(" else "")
     sign = "" if after.kind in ("*", "/", "^", "superscript") else "*"
     name = token.name
-    ways = (f"{name}({argument}{sign}{more})", f"{name}({argument}){sign}{more}")
-    hint = f"write `{ways[0]}` or `{ways[1]}`"
+    readings = (f"{name}({argument}{sign}{more})", f"{name}({argument}){sign}{more}")
     follows = parser.text[beyond.end : beyond.end + 1]
-    plain = parser.tokens[parser.at - 1].kind != ")" and beyond.kind in ("value", "number")
-    closed = plain and (not follows or follows in " +-,=<>)]}")
+    plain = parser.last.kind != ")" and beyond.kind in ("value", "number")
+    complete = plain and (not follows or follows in " +-,=<>)]}")
     span = (parser.columns[token.start], parser.columns[beyond.end])
-    told = f"it is not clear how far the argument of `{name}` reaches"
-    raise AmbiguousError(told, parser.columns[after.start], hint, ways if closed else (), span)
+    message = f"it is not clear how far the argument of `{name}` reaches"
+    hint = f"write `{readings[0]}` or `{readings[1]}`"
+    raise AmbiguousError(message, parser.columns[after.start], hint, readings if complete else (), span)
 
 
-def root(parser: TextReader, token: Token) -> Expr:
-    """`√x`, `√(x + y)`."""
+def root(parser: Parser, token: Token) -> Expr:
+    """Read `√x`, `√(x + y)`."""
     first = parser.next
     if first.kind == "(":
-        return checked(parser, token, "sqrt", [parser.group()])
+        return _applied(parser, token, "sqrt", [parser.group()])
     if first.kind not in ("number", "value") or first.expr is None:
         parser.fail("`√` needs its argument", first, "write `sqrt(...)`")
     parser.at += 1
@@ -147,68 +117,63 @@ def root(parser: TextReader, token: Token) -> Expr:
         short, long = parser.source(first.start, first.end), parser.source(first.start, after.end)
         hint = f"write `sqrt({long}...)` or `sqrt({short})...`"
         parser.fail("it is not clear how far `√` reaches", after, hint)
-    parser.check_allowed(first.expr, token)
-    return checked(parser, token, "sqrt", [first.expr])
+    if first.expr.op == "sym":
+        parser.check_allowed(first.expr, token)
+    return _applied(parser, token, "sqrt", [first.expr])
 
 
-def fraction(parser: TextReader, token: Token) -> Expr:
-    """LaTeX's fraction of two groups in braces."""
-    parts = []
-    for _ in range(2):
+def fraction(parser: Parser, token: Token) -> Expr:
+    """Read LaTeX's fraction of two groups in braces."""
+    groups, brace = list[Expr](), token
+    for _ in "ab":
         brace = parser.next
         if brace.kind != "(" or parser.text[brace.start] != "{":
             parser.fail("a fraction needs two groups in braces", brace, "write `(a)/(b)`")
-        parts.append(parser.group())
-    above, below = parts
-    moved = over_dt(above) if below == DT else None
-    if moved is not None:
-        return moved
-    parser.domain |= dict.fromkeys(of_power(below, MINUS_ONE))
-    try:
-        return mul(above, inverse(below))
-    except UndefinedError as fault:
-        parser.fail(fault.message, brace, fault.hint)
+        groups.append(parser.group())
+    above, below = groups
+    velocity = over_dt(above) if below == DT else None
+    if velocity is not None:
+        return velocity
+    return mul(above, parser.computed(brace, inverse, below, needs=of_power(below, MINUS_ONE)))
 
 
 # Unknown functions
 
 
-def unknown(parser: TextReader, token: Token) -> Expr:
-    """`h(s)`, `h'(s)`, `h` alone, and its derivatives by time `hdot`, `dh`."""
+def unknown(parser: Parser, token: Token) -> Expr:
+    """Read `h(s)`, `h'(s)`, `h` alone, and its derivatives by time `hdot`, `dh`."""
     name = token.name
     primes = parser.take() if parser.next.kind == "prime" and parser.next.start == token.end else None
-    ahead = parser.tokens[parser.at : parser.at + 3]
-    power_then_group = [t.kind for t in ahead] == ["^", "number", "("] or [t.kind for t in ahead[:2]] == [
-        "superscript",
-        "(",
-    ]
-    if power_then_group:
+    ahead = [t.kind for t in parser.tokens[parser.at : parser.at + 3]]
+    if ahead == ["^", "number", "("] or ahead[:2] == ["superscript", "("]:
         hint = f"write `{name}(...)^2`, or `{name}^2*(...)`"
-        parser.fail(f"a power stands between `{name}` and its argument", ahead[0], hint)
-    wanted = parser.names.functions[name]
+        parser.fail(f"a power stands between `{name}` and its argument", parser.next, hint)
+    expected = parser.names.functions[name]
     if parser.next.kind == "(":
-        given = arguments(parser)
-        if len(given) != wanted:
-            what = "one argument" if wanted == 1 else f"{wanted} arguments"
-            parser.fail(f"`{name}` is declared with {what}, not {len(given)}", token, "check the commas")
+        arguments = parser.enclosed(commas=True)
+        if len(arguments) != expected:
+            what = "one argument" if expected == 1 else f"{expected} arguments"
+            parser.fail(f"`{name}` is declared with {what}, not {len(arguments)}", token, "check the commas")
     else:
-        given = own_arguments(parser, token)
-    if primes is not None and wanted != 1:
-        hint = f"write `diff({name}(...), x)` with the argument that is meant"
-        parser.fail(
-            f"`{name}` has {wanted} arguments, so a prime does not say which of them to differentiate by", primes, hint
-        )
-    found = call(name, given, (primes.amount,) if primes is not None else None)
-    return time_derivative_of(parser, token, found, token.amount)
+        arguments = _declared_arguments(parser, token)
+    if primes is not None and expected != 1:
+        message = f"`{name}` has {expected} arguments, so a prime does not say which of them to differentiate by"
+        parser.fail(message, primes, f"write `diff({name}(...), x)` with the argument that is meant")
+    e = call(name, arguments, (primes.amount,) if primes is not None else None)
+    if token.amount == -1:
+        return _allowed(parser, token, total_differential(e))
+    for _ in range(token.amount):
+        e = _allowed(parser, token, by_time(e))
+    return e
 
 
-def own_arguments(parser: TextReader, token: Token) -> list[Expr]:
-    """What `h` alone is a function of, by its declaration."""
+def _declared_arguments(parser: Parser, token: Token) -> list[Expr]:
+    """Return what `h` alone is a function of, by its declaration."""
     name = token.name
     declared = parser.names.arguments.get(name, ())
     if len(declared) != parser.names.functions[name]:
         parser.fail(f"the function `{name}` needs its argument", token, f"write `{name}(...)`")
-    given = []
+    arguments = []
     for argument in declared:
         meaning = parser.names.lookup.meaning(argument)
         if meaning is None or meaning.kind != "value" or meaning.expr is None:
@@ -216,101 +181,84 @@ def own_arguments(parser: TextReader, token: Token) -> list[Expr]:
             parser.fail(message, token, f"write its argument, `{name}(...)`, or declare `{argument}`")
         if meaning.expr.op == "sym":
             parser.check_allowed(meaning.expr, token)
-        given.append(meaning.expr)
+        arguments.append(meaning.expr)
     after = parser.next
-    if after.kind == "value" and after.expr in given:
-        shown = parser.source(after.start, after.end)
-        hint = f"write `{name}({shown})` or `{name}({shown})*{shown}`"
-        parser.fail(f"`{name} {shown}` may be a value of `{name}` or a product", token, hint)
-    return given
+    if after.kind == "value" and after.expr in arguments:
+        written = parser.source(after.start, after.end)
+        hint = f"write `{name}({written})` or `{name}({written})*{written}`"
+        parser.fail(f"`{name} {written}` may be a value of `{name}` or a product", token, hint)
+    return arguments
 
 
-def time_derivative_of(parser: TextReader, token: Token, found: Expr, order: int) -> Expr:
-    """``found`` differentiated ``order`` times by time; its differential for -1."""
-    if order == -1:
-        return allowed_derivative(parser, token, total_differential(found))
-    for _ in range(order):
-        found = allowed_derivative(parser, token, by_time(found))
-    return found
-
-
-def allowed_derivative(parser: TextReader, token: Token, found: Expr | None) -> Expr:
-    """A derivative that exists and holds only what is allowed."""
-    if found is None:
+def _allowed(parser: Parser, token: Token, e: Expr | None) -> Expr:
+    """Return a derivative that exists and holds only what is allowed."""
+    if e is None:
         hint = "write the derivative of an expression in coordinates, velocities and t"
         parser.fail("this expression cannot be differentiated with respect to time", token, hint)
-    for symbol in sorted(found.symbols, key=lambda s: s.args):
+    for symbol in sorted(e.symbols, key=lambda s: s.args):
         parser.check_allowed(symbol, token)
-    return found
+    return e
 
 
 # Derivatives
 
 
-def derivative_call(parser: TextReader, token: Token) -> Expr:
-    """`diff(x, t)`, `diff(h(s), s)`, `diff(h(a, b), a, 2, b)`, `partial(h(x, t), t)`, `partial(h(x, x), 1)`."""
+def derivative_call(parser: Parser, token: Token) -> Expr:
+    """Read `diff(x, t)`, `diff(h(s), s)`, `diff(h(a, b), a, 2, b)`, `partial(h(x, t), t)`, `partial(h(x, x), 1)`."""
     name = token.name
     if parser.next.kind != "(":
         parser.fail(f"`{name}` needs its arguments", token, f"write `{name}(h(s), s)`")
-    given = arguments(parser)
-    if len(given) < 2:
-        parser.fail(
-            f"`{name}` needs an expression and the variable to differentiate by", token, f"write `{name}(h(s), s)`"
-        )
-    found, steps = given[0], given[1:]
+    e, *steps = parser.enclosed(commas=True)
+    if not steps:
+        message = f"`{name}` needs an expression and the variable to differentiate by"
+        parser.fail(message, token, f"write `{name}(h(s), s)`")
     if name == "partial" and any(step.op == "num" for step in steps):
-        return by_place(parser, token, found, steps)
-    position = total = 0
-    while position < len(steps):
-        symbol = steps[position]
-        position += 1
-        times = 1
-        if position < len(steps) and steps[position].op == "num":
-            times = whole(parser, token, steps[position])
-            position += 1
+        return _by_arguments(parser, token, e, steps)
+    total = 0
+    while steps:
+        symbol = steps.pop(0)
+        times = _order(parser, token, steps.pop(0)) if steps and steps[0].op == "num" else 1
         total += times
         if symbol.op != "sym" or total > MAX_ORDER:
             message = f"`{name}` differentiates by a coordinate, parameter or t, at most {MAX_ORDER} times"
             parser.fail(message, token, f"write `{name}(h(s), s)`")
         for _ in range(times):
-            found = once(parser, token, found, symbol)
-    return found
+            e = _differentiated(parser, token, e, symbol)
+    return e
 
 
-def once(parser: TextReader, token: Token, found: Expr, symbol: Expr) -> Expr:
-    """One derivative; by time it is the total one for `diff`."""
-    if size(found, MAX_DIFFERENTIATED) >= MAX_DIFFERENTIATED:
+def _differentiated(parser: Parser, token: Token, e: Expr, symbol: Expr) -> Expr:
+    """Return the derivative; by time it is the total one for `diff`."""
+    if sum(1 for _ in islice(nodes(e), MAX_DIFFERENTIATED)) >= MAX_DIFFERENTIATED:
         parser.fail("this expression is too long to be differentiated here", token, "write the derivative out")
     if symbol == TIME and token.name == "diff":
-        return allowed_derivative(parser, token, by_time(found))
-    return diff(found, symbol)
+        return _allowed(parser, token, by_time(e))
+    return diff(e, symbol)
 
 
-def whole(parser: TextReader, token: Token, e: Expr) -> int:
-    """A small counting number."""
+def _order(parser: Parser, token: Token, e: Expr) -> int:
+    """Return a small counting number."""
     value = e.args[0]
     if value.denominator != 1 or not 1 <= value <= MAX_ORDER:
         parser.fail(f"{value} is not an order of differentiation", token, f"write a number from 1 to {MAX_ORDER}")
     return int(value)
 
 
-def by_place(parser: TextReader, token: Token, found: Expr, steps: list[Expr]) -> Expr:
-    """Derivatives of an unknown function by its first, second, ... argument."""
-    if found.op != "call" or len(steps) > MAX_ORDER:
+def _by_arguments(parser: Parser, token: Token, e: Expr, steps: list[Expr]) -> Expr:
+    """Return the derivative of an unknown function by its first, second, ... argument."""
+    if e.op != "call" or len(steps) > MAX_ORDER:
         parser.fail("only an unknown function has a first argument", token, "write `partial(h(x, y), 1)`")
+    name, (*orders,), arguments = e.args
     for step in steps:
-        if step.op == "num":
-            index = whole(parser, token, step) - 1
-        else:
-            places = [i for i, argument in enumerate(found.args[2]) if argument == step]
-            index = places[0] if len(places) == 1 else len(found.args[2])
-        if index >= len(found.args[2]):
-            parser.fail(f"`{found.args[0]}` has no such argument", token, "write `partial(h(x, y), 1)`")
-        found = raise_order(found, index)
-    return found
+        places = [i for i, argument in enumerate(arguments) if argument == step]
+        index = _order(parser, token, step) - 1 if step.op == "num" else places[0] if len(places) == 1 else len(orders)
+        if index >= len(orders):
+            parser.fail(f"`{name}` has no such argument", token, "write `partial(h(x, y), 1)`")
+        orders[index] += 1
+    return call(name, arguments, orders)
 
 
-READERS: dict[str, Callable[[TextReader, Token], Expr]] = {
+APPLICATIONS: dict[str, Callable[[Parser, Token], Expr]] = {
     "function": function,
     "call": unknown,
     "operator": derivative_call,

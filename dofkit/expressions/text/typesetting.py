@@ -1,13 +1,14 @@
 """A text in the grammar of scenes as it is printed in a book: LaTeX, and MathML for a page.
 
-The order of terms and factors is the writer's. Nothing is looked up: a text is set as it stands, and one that cannot
-be set is told as text.
+The order of terms and factors is the writer's. Nothing is looked up: a text is set as it stands, and one that is no
+formula is shown as text.
 """
 
 from __future__ import annotations
 
 import re
 from typing import NamedTuple
+from xml.etree import ElementTree
 
 from dofkit.base.errors import TextError
 from dofkit.expressions.text.characters import (
@@ -16,191 +17,144 @@ from dofkit.expressions.text.characters import (
     GREEK,
     GREEK_LETTERS,
     LETTERS_OF_NAMES,
+    MAX_CHARACTERS,
+    MAX_DEPTH,
     SUPERSCRIPTS,
     TWO_DOTS,
     fold,
+    unlatex,
 )
-from dofkit.expressions.text.latex import unlatex
-from dofkit.expressions.text.limits import MAX_CHARACTERS
 from dofkit.expressions.text.names import ELEMENTARY
+from dofkit.expressions.text.tokens import NUMBER, WORD
 
-_WORD = rf"[A-Za-z{GREEK_LETTERS}][A-Za-z0-9_{GREEK_LETTERS}{DOT}{TWO_DOTS}]*"
 _TOKEN = re.compile(
-    rf"[ \t]*(?:(?P<word>{_WORD})|(?P<number>(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?)|(?P<relation><=|>=|==?|[<>])"
+    rf"[ \t]*(?:(?P<word>{WORD})|(?P<number>{NUMBER})|(?P<relation><=|>=|==?|[<>])"
     rf"|(?P<sign>\*\*|[-+*/^(),\[\]])|(?P<prime>'+)|(?P<superscript>[{''.join(SUPERSCRIPTS)}]+)"
-    rf"|(?P<fraction>[{''.join(FRACTIONS)}])|(?P<end>$))"
+    rf"|(?P<fraction>[{''.join(FRACTIONS)}])|(?P<end>$))",
+    re.ASCII,
 )
 _RATE = re.compile(rf"(?P<base>.+?)(?:(?P<two>ddot|{TWO_DOTS})|(?P<one>dot|{DOT}))(?P<below>_\w+)?")
 _INDEXED = re.compile(rf"(?P<letter>[A-Za-z]+?|[{GREEK_LETTERS}])_?(?P<below>\d[A-Za-z0-9_]*|(?<=_)[A-Za-z0-9_]+)?")
-_RELATIONS = {
-    "and": (r"\text{ and }", "&#160;and&#160;"),
-    "<=": (r"\le", "≤"),
-    ">=": (r"\ge", "≥"),
-    "==": ("=", "="),
-    "<": ("<", "&lt;"),
-    ">": (">", "&gt;"),
-}
+_RELATIONS = {"and": r"\text{ and }", "<=": r"\le", ">=": r"\ge", "==": "="}
 _LATEX_FUNCTIONS = frozenset(["sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "exp", "log"])
 _INVERSE = {"asin": "arcsin", "acos": "arccos", "atan": "arctan"}
-_LEAF = re.compile(r"<(m[in])(?: [^>]*)?>[^<]*</\1>")
 #: What may stand right after a factor as the next one.
-_BEGINNINGS = frozenset({"word", "number", "fraction"})
-#: Texts nested deeper than this are told as text.
-_DEEPEST = 60
+_BEGINNINGS = frozenset({"word", "number", "fraction", "(", "["})
 
 
-class Typeset(NamedTuple):
-    """A piece of mathematics twice; ``bare`` is what stands within its parentheses, where it has some."""
+def typeset(text: str) -> str | None:
+    """Return ``text`` in LaTeX, or None for what is no formula.
 
-    latex: str
-    mathml: str
-    bare: tuple[str, str] | None = None
-
-
-def typeset(text: str) -> Typeset | None:
-    """``text`` as LaTeX and as MathML (the inside of ``<math>``), or None for what is no formula.
-
-    >>> found = typeset("l^2 thetadot^2/2")
-    >>> "" if found is None else found.latex
-    '\\\\frac{l^{2} \\\\dot{\\\\theta}^{2}}{2}'
+    >>> print(typeset("l^2 thetadot^2/2"))
+    \\frac{l^{2} \\dot{\\theta}^{2}}{2}
     >>> typeset("no formula; this") is None
     True
     """
     if len(text) > MAX_CHARACTERS:
         return None
     try:
-        return _Setter(_tokens(unlatex(fold(text)).text)).whole()
+        return _Setter(_pieces(unlatex(fold(text)).text)).formula()
     except (TextError, _NoFormulaError):
         return None
 
 
+def mathml(latex: str) -> str:
+    """Return what stands within ``<math>``, without its name space, for mathematics in LaTeX.
+
+    Raises one of `latex2mathml.exceptions` or ParseError for what is no LaTeX.
+    """
+    from latex2mathml.converter import convert  # heavy, and only pages and handouts need it
+
+    element = ElementTree.fromstring(convert(latex))
+    for part in element.iter():
+        part.tag = part.tag.partition("}")[2] or part.tag
+    return "".join(ElementTree.tostring(part, encoding="unicode") for part in element)
+
+
 class _NoFormulaError(ValueError):
-    """What was given is no formula."""
+    """A text is no formula."""
 
 
 class _Piece(NamedTuple):
+    """A token; ``glued``: no space stands before it."""
+
     kind: str
     text: str
     glued: bool
 
 
-def _tokens(text: str) -> list[_Piece]:
-    found: list[_Piece] = []
+def _pieces(text: str) -> list[_Piece]:
+    pieces: list[_Piece] = []
     position = 0
     while True:
         match = _TOKEN.match(text, position)
         if match is None:
             raise _NoFormulaError
-        kind = "relation" if match["word"] == "and" else match.lastgroup or ""
-        found.append(_Piece(kind, match[match.lastgroup or ""].strip(), match.start(match.lastgroup or "") == position))
+        group = match.lastgroup or ""
+        kind = "relation" if match["word"] == "and" else match[group] if group == "sign" else group
+        pieces.append(_Piece(kind, match[group], match.start(group) == position))
         if kind == "end":
-            return found
+            return pieces
         position = match.end()
 
 
-def _row(parts: list[Typeset], between: str = " ") -> Typeset:
-    return Typeset(between.join(p.latex for p in parts), "".join(p.mathml for p in parts))
+def _without_parentheses(latex: str) -> str:
+    """Return what stands within the parentheses around all of ``latex``, which a bar or an exponent makes needless."""
+    inside = latex.removeprefix(r"\left")
+    depth = 0
+    for i, char in enumerate(inside):
+        depth += (char == "(") - (char == ")")
+        if depth == 0:
+            return inside[1:-1].removesuffix(r"\right") if i and i == len(inside) - 1 else latex
+    return latex
 
 
-def _side_by_side(parts: list[Typeset]) -> Typeset:
-    """A product: its factors a little apart."""
-    if len(parts) == 1:
-        return parts[0]
-    return Typeset(" ".join(p.latex for p in parts), '<mspace width="0.14em"/>'.join(p.mathml for p in parts))
+def _fraction(above: str, below: str) -> str:
+    return rf"\frac{{{_without_parentheses(above)}}}{{{_without_parentheses(below)}}}"
 
 
-def _stripped(part: Typeset) -> Typeset:
-    """Without the parentheses that a bar or an exponent makes needless."""
-    return part if part.bare is None else Typeset(*part.bare)
+def _raised(base: str, exponent: str) -> str:
+    return f"{base}^{{{_without_parentheses(exponent)}}}"
 
 
-def _fraction(above: Typeset, below: Typeset) -> Typeset:
-    above, below = _stripped(above), _stripped(below)
-    mathml = f"<mfrac>{_one(above.mathml)}{_one(below.mathml)}</mfrac>"
-    return Typeset(rf"\frac{{{above.latex}}}{{{below.latex}}}", mathml)
-
-
-def _raised(base: Typeset, exponent: Typeset) -> Typeset:
-    exponent = _stripped(exponent)
-    mathml = f"<msup>{_one(base.mathml)}{_one(exponent.mathml)}</msup>"
-    return Typeset(f"{base.latex}^{{{exponent.latex}}}", mathml)
-
-
-def _one(mathml: str) -> str:
-    """One element: a letter or a number as it is, anything else as a row."""
-    return mathml if _LEAF.fullmatch(mathml) else f"<mrow>{mathml}</mrow>"
-
-
-def _in_parentheses(inner: Typeset) -> Typeset:
-    if "<mfrac>" in inner.mathml:
-        mathml = f"<mrow><mo>(</mo>{inner.mathml}<mo>)</mo></mrow>"
-        return Typeset(rf"\left({inner.latex}\right)", mathml, (inner.latex, inner.mathml))
-    mathml = f'<mrow><mo stretchy="false">(</mo>{inner.mathml}<mo stretchy="false">)</mo></mrow>'
-    return Typeset(f"({inner.latex})", mathml, (inner.latex, inner.mathml))
-
-
-def _operator(latex: str, shown: str) -> Typeset:
-    return Typeset(latex, f"<mo>{shown}</mo>")
-
-
-def _letter(name: str) -> Typeset | None:
-    """A letter, a Greek one by its name too, perhaps with an index; None for any other word."""
+def _letter(name: str) -> str | None:
+    """Return a letter, a Greek one by its name too, perhaps with an index; None for any other word."""
     match = _INDEXED.fullmatch(name)
     if match is None:
         return None
-    letter = match["letter"]
-    greek = letter if letter in GREEK else LETTERS_OF_NAMES.get(letter)
-    if greek is None and len(letter) > 1:
+    letter = LETTERS_OF_NAMES.get(match["letter"], match["letter"])
+    if len(letter) > 1:
         return None
-    latex = letter if greek is None else "\\varphi" if greek == "φ" else f"\\{GREEK[greek]}"
-    plain = Typeset(latex, f"<mi>{greek or letter}</mi>")
-    return plain if match["below"] is None else _indexed(plain, match["below"])
+    latex = rf"\{GREEK[letter]}" if letter in GREEK else letter
+    latex = r"\varphi" if latex == r"\phi" else latex
+    return latex if match["below"] is None else _indexed(latex, match["below"])
 
 
-def _indexed(base: Typeset, below: str) -> Typeset:
-    shown = LETTERS_OF_NAMES.get(below, below)
-    slanted = len(shown) == 1 and shown.isalpha()
-    style = "" if slanted else ' mathvariant="normal"'
-    tag = "mn" if shown.isdigit() else "mi"
-    latex = (f"\\{below}" if shown != below else below) if slanted or shown.isdigit() else rf"\mathrm{{{_safe(below)}}}"
-    mathml = f"<msub>{base.mathml}<{tag}{style if tag == 'mi' else ''}>{shown}</{tag}></msub>"
-    return Typeset(f"{base.latex}_{{{latex}}}", mathml)
+def _indexed(base: str, below: str) -> str:
+    if below in LETTERS_OF_NAMES:
+        return rf"{base}_{{\{below}}}"
+    return f"{base}_{{{below}}}" if len(below) == 1 or below.isdigit() else f"{base}_{{{_upright(below)}}}"
 
 
-def _safe(word: str) -> str:
-    return word.replace("_", r"\_")
+def _upright(word: str) -> str:
+    escaped = word.replace("_", r"\_")
+    return rf"\mathrm{{{escaped}}}"
 
 
-def _name(word: str) -> Typeset:
-    """A name: a letter, a rate, a differential, else the word upright."""
+def _name(word: str) -> str:
+    """Return a name: a letter, a rate, a differential, else the word upright."""
     rate = _RATE.fullmatch(word)
-    if rate is not None:
-        base = _name(rate["base"] + (rate["below"] or ""))
-        latex, mark = (r"\ddot", "¨") if rate["two"] else (r"\dot", "˙")
-        return _dotted(base, latex, mark)
-    plain = _letter(word)
-    if plain is not None:
-        return plain
+    if rate is not None:  # the dot stands above the letter, not above its index
+        letter, sign, index = _name(rate["base"] + (rate["below"] or "")).partition("_")
+        return rf"\{'ddot' if rate['two'] else 'dot'}{{{letter}}}{sign}{index}"
+    letter_or_none = _letter(word)
+    if letter_or_none is not None:
+        return letter_or_none
     differential = _letter(word[1:]) if word[0] == "d" else None
     if differential is not None:
-        d = Typeset(r"\mathrm{d}", '<mi mathvariant="normal">d</mi>')
-        return _row([d, differential])
+        return rf"\mathrm{{d}} {differential}"
     head, _, below = word.partition("_")
-    whole = Typeset(rf"\mathrm{{{_safe(head)}}}", f'<mi mathvariant="normal">{head}</mi>')
-    return _indexed(whole, below) if below else whole
-
-
-def _dotted(base: Typeset, latex: str, mark: str) -> Typeset:
-    """The dot stands above the letter, not above its index."""
-    letter, under, index = base.latex.partition("_")
-    if base.mathml.startswith("<msub>"):
-        inner = base.mathml.removeprefix("<msub>")
-        end = inner.index(">", inner.index("</")) + 1
-        mathml = f'<msub><mover accent="true">{inner[:end]}<mo>{mark}</mo></mover>{inner[end:]}'
-        return Typeset(f"{latex}{{{letter}}}{under}{index}", mathml)
-    return Typeset(
-        f"{latex}{{{base.latex}}}", f'<mover accent="true"><mrow>{base.mathml}</mrow><mo>{mark}</mo></mover>'
-    )
+    return _indexed(_upright(head), below) if below else _upright(head)
 
 
 class _Setter:
@@ -214,120 +168,108 @@ class _Setter:
         return self.pieces[self.at]
 
     def take(self) -> _Piece:
-        piece = self.pieces[self.at]
         self.at += 1
-        return piece
+        return self.pieces[self.at - 1]
 
-    def takes(self, *texts: str) -> bool:
-        found = self.next.kind in ("sign", "relation") and self.next.text in texts
-        self.at += found
-        return found
+    def takes(self, *kinds: str) -> bool:
+        """Return whether the next piece is one of these signs, and move past it if so."""
+        taken = self.next.kind in kinds
+        self.at += taken
+        return taken
 
-    def whole(self) -> Typeset:
-        """Sums with relations and commas between them."""
-        parts = [self.sum()]
-        while self.next.kind != "end":
-            if self.next.kind == "relation":
-                sign = self.take().text
-                parts += [_operator(*_RELATIONS.get(sign, (sign, sign))), self.sum()]
-            elif self.takes(","):
-                parts += [_operator(",", ","), self.sum()]
-            else:
-                raise _NoFormulaError
-        return _row(parts)
-
-    def sum(self) -> Typeset:
-        self.depth += 1
-        if self.depth > _DEEPEST:
+    def formula(self) -> str:
+        """Return sums with relations and commas between them."""
+        parts = [self.sums()]
+        while self.next.kind == "relation":
+            sign = self.take().text
+            parts += [_RELATIONS.get(sign, sign), self.sums()]
+        if self.next.kind != "end":
             raise _NoFormulaError
-        parts: list[Typeset] = []
-        while self.next.text in ("+", "-") or not parts:
-            if self.next.text in ("+", "-"):
-                sign = self.take().text
-                parts.append(_operator(sign, "−" if sign == "-" else "+"))
-            parts.append(self.product())
-        self.depth -= 1
-        return _row(parts)
+        return " ".join(parts)
 
-    def product(self) -> Typeset:
-        """Factors side by side; a quotient's numerator is what was read since the last one."""
-        done: list[Typeset] = []
-        parts = [self.factor()]
-        while True:
-            if self.takes("/"):
-                above = _side_by_side(parts)
-                done.append(_fraction(above, self.factor()))
-                parts = []
-            elif self.takes("*") or self.next.kind in _BEGINNINGS or self.next.text in ("(", "["):
-                digits = bool(parts) and self.next.kind == "number"
-                parts += [_operator(r"\cdot", "·"), self.factor()] if digits else [self.factor()]
-            else:
-                return _side_by_side([*done, *parts])
-
-    def factor(self) -> Typeset:
-        if self.takes("-"):
-            return _row([_operator("-", "−"), self.factor()])
-        base = self.atom()
-        while self.next.kind == "prime":
-            marks = self.take().text
-            base = Typeset(base.latex + marks, f"<msup>{base.mathml}<mo>{'′' * len(marks)}</mo></msup>")
-            if self.next.text == "(" and self.next.glued:
-                base = _row([base, self.atom()], "")
-        if self.next.kind == "superscript":
-            digits = "".join(SUPERSCRIPTS[c] for c in self.take().text)
-            return _raised(base, Typeset(digits, f"<mn>{digits}</mn>"))
-        return _raised(base, self.factor()) if self.takes("^", "**") else base
-
-    def atom(self) -> Typeset:
-        piece = self.take()
-        if piece.kind == "number":
-            return Typeset(piece.text, f"<mn>{piece.text}</mn>")
-        if piece.kind == "fraction":
-            return _fraction(*(Typeset(str(n), f"<mn>{n}</mn>") for n in FRACTIONS[piece.text]))
-        if piece.kind == "word":
-            return self.word(piece.text)
-        if piece.text in ("(", "["):
-            inner = self.list_of_sums()
-            if not self.takes(")", "]"):
-                raise _NoFormulaError
-            return _in_parentheses(inner)
-        raise _NoFormulaError
-
-    def list_of_sums(self) -> Typeset:
+    def sums(self) -> str:
         parts = [self.sum()]
         while self.takes(","):
-            parts += [_operator(",", ","), self.sum()]
-        return _row(parts)
+            parts += [",", self.sum()]
+        return " ".join(parts)
 
-    def word(self, word: str) -> Typeset:
-        called = self.next.text == "("
-        if word == "sqrt" and called:
-            inner = _stripped(self.atom())
-            return Typeset(rf"\sqrt{{{inner.latex}}}", f"<msqrt>{inner.mathml}</msqrt>")
-        if word == "abs" and called:
-            inner = _stripped(self.atom())
-            return Typeset(rf"\left|{inner.latex}\right|", f"<mrow><mo>|</mo>{inner.mathml}<mo>|</mo></mrow>")
-        if word == "diff" and called:
+    def sum(self) -> str:
+        self.depth += 1
+        if self.depth > MAX_DEPTH:
+            raise _NoFormulaError
+        parts: list[str] = []
+        while self.next.kind in ("+", "-") or not parts:
+            if self.next.kind in ("+", "-"):
+                parts.append(self.take().text)
+            parts.append(self.product())
+        self.depth -= 1
+        return " ".join(parts)
+
+    def product(self) -> str:
+        """Return factors side by side; a quotient's numerator is what was read since the last one."""
+        quotients: list[str] = []
+        factors = [self.factor()]
+        while True:
+            if self.takes("/"):
+                quotients.append(_fraction(" ".join(factors), self.factor()))
+                factors = []
+            elif self.takes("*") or self.next.kind in _BEGINNINGS:
+                if factors and self.next.kind == "number":
+                    factors.append(r"\cdot")
+                factors.append(self.factor())
+            else:
+                return " ".join([*quotients, *factors])
+
+    def factor(self) -> str:
+        if self.takes("-"):
+            return f"- {self.factor()}"
+        base = self.atom()
+        while self.next.kind == "prime":
+            base += self.take().text
+            if self.next.kind == "(" and self.next.glued:
+                base += self.atom()
+        if self.next.kind == "superscript":
+            return _raised(base, "".join(SUPERSCRIPTS[c] for c in self.take().text))
+        return _raised(base, self.factor()) if self.takes("^", "**") else base
+
+    def atom(self) -> str:
+        piece = self.take()
+        if piece.kind == "number":
+            return piece.text
+        if piece.kind == "fraction":
+            return _fraction(*map(str, FRACTIONS[piece.text]))
+        if piece.kind == "word":
+            return self.word(piece.text)
+        if piece.kind not in ("(", "["):
+            raise _NoFormulaError
+        inside = self.sums()
+        if not self.takes(")", "]"):
+            raise _NoFormulaError
+        return rf"\left({inside}\right)" if r"\frac" in inside else f"({inside})"
+
+    def word(self, word: str) -> str:
+        called = self.next.kind == "("
+        if called and word in ("sqrt", "abs"):
+            inside = _without_parentheses(self.atom())
+            return rf"\sqrt{{{inside}}}" if word == "sqrt" else rf"\left|{inside}\right|"
+        if called and word == "diff":
             return self.derivative()
         if word not in ELEMENTARY:
-            plain = _name(word)
-            return _row([plain, self.atom()], "") if called and self.next.glued else plain
-        shown = _INVERSE.get(word, word)
-        latex = f"\\{shown}" if word in _LATEX_FUNCTIONS or word in _INVERSE else rf"\operatorname{{{shown}}}"
-        head = Typeset(latex, f"<mi>{shown}</mi>")
+            return _name(word) + (self.atom() if called and self.next.glued else "")
+        name = _INVERSE.get(word, word)
+        head = f"\\{name}" if word in _LATEX_FUNCTIONS or word in _INVERSE else _upright(name)
         if self.takes("^", "**"):
             head = _raised(head, self.atom())
-        return _row([head, Typeset("", "<mo>&#8289;</mo>"), self.factor()])
+        return f"{head} {self.factor()}"
 
-    def derivative(self) -> Typeset:
-        """``diff(f, s)`` and ``diff(f, s, 2)``."""
+    def derivative(self) -> str:
+        """Return ``diff(f, s)`` or ``diff(f, s, 2)`` as a quotient of differentials."""
         self.take()
-        what = self.sum()
+        function = self.sum()
         if not self.takes(","):
             raise _NoFormulaError
-        by, order = self.sum(), self.sum() if self.takes(",") else None
+        variable, order = self.sum(), self.sum() if self.takes(",") else None
         if not self.takes(")"):
             raise _NoFormulaError
-        d = _operator(r"\partial", "∂")
-        above, below = (d, by) if order is None else (_raised(d, order), _raised(by, order))
-        return _row([_fraction(above, _row([d, below])), what])
+        d, below = (r"\partial", variable) if order is None else (rf"\partial^{{{order}}}", _raised(variable, order))
+        return rf"\frac{{{d}}}{{\partial {below}}} {function}"

@@ -22,6 +22,20 @@ _SEGMENT = re.compile(
     r"⇒(?=\s*[^\W\d_]+\s*=)|(?<=\s)(?:so|therefore|hence|thus|also|donc|luego|quindi|portanto|daher|folglich)(?=\s)",
     re.IGNORECASE,
 )
+#: What draws a conclusion, and what is replaced by what follows it: `not 3 but 2`.
+_CONCLUSION = re.compile(
+    r"(?:[.,;]|\s)\s*(?:so|therefore|hence|thus|donc|luego|quindi|portanto|daher|folglich)\b\s*:?\s*(?=\S)",
+    re.IGNORECASE,
+)
+_REPLACED = re.compile(
+    r"\b(?:not|nicht|pas|no|non|n[aã]o)\s+(?:\d+|[^\W\d_]+)\s*,?\s*(?:but|sondern|mais|sino|ma|mas)\s+(?=\S)",
+    re.IGNORECASE,
+)
+#: A bracket that gives another number under a condition: `(4 with the winch)`.
+_CONDITION = re.compile(
+    r"\s*(?:\d+|[^\W\d_]+)\s+(?:with|without|if|when|mit|ohne|wenn|falls|avec|sans|si|con|sin|senza|com|sem)\b",
+    re.IGNORECASE,
+)
 #: Brackets of a set, and a number in bold letters of Markdown.
 _BRACKETS, _BOLD = re.compile(r"[{}\[\]]"), re.compile(r"\A\s*\*\*([^*]+)\*\*(?=\s*\Z)")
 #: What bounds a number without telling it; another number beside it in parentheses; a number before a further name.
@@ -59,7 +73,8 @@ _OTHERS = words("n k f dof x y z t theta phi")
 _NAMED = re.compile(r"\s*([^\W\d_]+)\s*(?:=|[<>≤≥≠∈]|!=|\\(?:leq?|geq?|neq?|lt|gt|in)\b)")
 _SIGNS = re.compile(r"==|=|≈|≅|→|⇒")
 _WORD = re.compile(
-    r"(?:d\.\s?o\.\s?f|[dg]\.\s?d\.\s?l)\.?s?|[^\W\d_]+(?:['’][^\W\d_]+)*(?:-[^\W\d_]+)*(?:_\w+)?", re.IGNORECASE
+    r"(?:d\.\s?o\.\s?f|[dg]\.\s?d\.\s?l)\.?s?|[^\W\d_]+(?:['’][^\W\d_]+)*(?:-[^\W\d_]+)*(?:_\w+)?",
+    re.IGNORECASE,
 )
 _OPERATORS = {"minus": "-", "less": "-", "moins": "-", "menos": "-", "meno": "-", "plus": "+", "mas": "+", "piu": "+",
               "times": "*", "mal": "*"}  # fmt: skip
@@ -75,24 +90,25 @@ _ENDING = re.compile(r"[\s.!]+$")
 _NONE = words("none no kein keine keinen aucun ninguno ninguna nessuno nenhum")
 
 
-def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
-    """The number that an answer claims: ``4``, ``f = 6 - 2 = 4``, ``zwei``, ``two (2)``, ``2 ddl``, ``0,5``.
+def number(answer: object, called: frozenset[str] = frozenset(), foreign: frozenset[str] = frozenset()) -> Fraction:
+    """Return the one number that an answer claims: ``4``, ``f = 6 - 2 = 4``, ``zwei``, ``two (2)``, ``2 ddl``, ``0,5``.
 
-    ``called``: what the number asked for is called; where others stand beside it, only this one counts. Raises
-    TextError, with its column; DoubtError where it says several.
+    ``called``: names of the quantity; a number with such a name counts before all others. ``foreign``: nouns of other
+    quantities, whose numbers are not the one asked for. Raises TextError, with its column; DoubtError for several.
     """
     if isinstance(answer, (list, tuple)) and len(answer) == 1:
-        return number(answer[0], called)
+        return number(answer[0], called, foreign)
     script = script_of(one_text(answer)).replaced(_BOLD, r"\1").replaced(_COMMA, ".")
     if not re.search(r"[\\^_]", script.text):
         script = script.replaced(_BRACKETS, " ")
     reason = REASONS.search(script.text)
     body = script if reason is None else script.cut(0, reason.start())
+    body = _concluded(body.replaced(_REPLACED, ""))
     told, first, unread = set[Fraction](), None, set[int]()
     segments = list(_segments(body))
     named = [one for one in segments if (name := _NAMED.match(one.text)) and plain(name[1]) in called]
-    foreign = [one for one in segments if (name := _NAMED.match(one.text)) and plain(name[1]) in _OTHERS - called]
-    if segments and len(foreign) == len(segments):
+    strange = [one for one in segments if (name := _NAMED.match(one.text)) and plain(name[1]) in _OTHERS - called]
+    if segments and len(strange) == len(segments):
         raise DoubtError("it is labelled as a different quantity.", segments[0].columns[0], _HINT)
     others = [one for one in segments if one not in named and _only_number(one.text)]
     for segment in [*named, *others] if named else segments:
@@ -104,6 +120,8 @@ def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
             first = first or segment.moved(error)
             unread |= _beside(segment.text)
             continue
+        if found is not None and segment not in named and _is_foreign(segment.text, foreign):
+            raise DoubtError("it is labelled as a different quantity.", segment.columns[0], _HINT)
         if found is not None:
             told.add(found)
     if not told:
@@ -114,6 +132,20 @@ def number(answer: object, called: frozenset[str] = frozenset()) -> Fraction:
             raise DoubtError("it gives more than one number.", 1, _HINT)
         return whole
     return told.pop()
+
+
+def _concluded(script: Script) -> Script:
+    """Return what follows the last conclusion, if there is a number in it."""
+    ends = [match.end() for match in _CONCLUSION.finditer(script.text)]
+    last = script.cut(ends[-1]) if ends else script
+    return last if ends and (_FIGURE.search(last.text) or plain(last.text) in NUMBERS) else script
+
+
+def _is_foreign(text: str, foreign: frozenset[str]) -> bool:
+    """Return whether a number is followed by the noun of another quantity, and not by one of its own."""
+    after = re.split(r"\d+", text)[-1] if re.search(r"\d", text) else text
+    said = [plain(m[0]) for m in _WORD.finditer(after)]
+    return not foreign.isdisjoint(said) and "=" not in text
 
 
 def _sum_of_parts(text: str) -> Fraction | None:
@@ -146,7 +178,7 @@ def _segments(script: Script) -> Iterator[Script]:
             inside = script.cut(*group.span(1))
             if takes_back(inside.text):
                 raise DoubtError("a remark makes the answer ambiguous.", inside.columns[0], _HINT)
-            if _OTHERWISE.search(inside.text) and _FIGURE.search(inside.text):
+            if _CONDITION.match(inside.text) or (_OTHERWISE.search(inside.text) and _FIGURE.search(inside.text)):
                 raise DoubtError("it gives more than one number.", inside.columns[0], _HINT)
             if _only_number(inside.text) and any(_only_number(w) for w in re.findall(r"[^\W_]+", before)):
                 yield inside
@@ -213,7 +245,7 @@ def _value(script: Script) -> Fraction | None:
     if any(w in DOUBTS for w in words) or (
         any(w in NEGATIONS for w in words) and (counted or len(words) < _REMARK_WORDS)
     ):
-        raise DoubtError("it only says what the number is not.", script.columns[0], _HINT)
+        raise DoubtError("it is not clear which number is claimed.", script.columns[0], _HINT)
     if script.text.rstrip().endswith("?"):
         raise DoubtError("a question mark makes the answer ambiguous.", script.columns[0], _HINT)
     stated = _STATED.match(script.text)

@@ -33,20 +33,23 @@ def _forms(*stems: str) -> tuple[str, ...]:
 
 TERMS: dict[str, Terms] = {
     "holonomic": Terms(
-        "holonomic", "non-holonomic", _forms("holonom", "olonom"),
-        _forms("nonholonom", "anholonom", "nichtholonom", "unholonom", "anolonom", "inholonom"),
+        "holonomic", "non-holonomic", (*_forms("holonom", "olonom"), "hol", "holon"),
+        ("nonhol", "nonholon", "anhol", "nichthol",
+         *_forms("nonholonom", "anholonom", "nichtholonom", "unholonom", "anolonom", "inholonom")),
     ),
     "scleronomic": Terms(
         "scleronomic", "rheonomic",
         (*_forms("scleronom", "skleronom", "escleronom", "sclernom"), "timeindependent", "zeitunabhangig", "stationary",
-         "stationar"),
-        (*_forms("rheonom", "reonom", "nonscleronom"), "timedependent", "zeitabhangig", "instationar"),
+         "stationar", "scler", "skler", "sclero", "sklero"),
+        (*_forms("rheonom", "reonom", "nonscleronom"), "timedependent", "zeitabhangig", "instationar", "rheo", "rheon"),
     ),
     "bilateral": Terms(
         "bilateral", "unilateral",
-        ("bilateral", "bilaterale", "bilateraux", "bilatero", "twosided", "doublesided", "zweiseitig", "beidseitig",
+        ("bilateral", "bilaterale", "bilateraux", "bilatero", "twosided", "bilat", "doublesided", "zweiseitig",
+         "beidseitig",
          "equality", "bilateralis", "bilaterales"),
-        ("unilateral", "unilaterale", "unilatero", "onesided", "singlesided", "einseitig", "inequality", "nonbilateral",
+        ("unilateral", "unilaterale", "unilatero", "onesided", "unilat", "singlesided", "einseitig", "inequality",
+         "nonbilateral",
          "unilaterales"),
     ),
 }  # fmt: skip
@@ -104,6 +107,11 @@ _REASONED = re.compile(
 _BEFORE, _NEAR = 3, 6
 #: A `no` before a whole sentence.
 _REPLY = re.compile(r"\A\s*(?:no|nein|non|nao|não)\s*[,.;:!]", re.IGNORECASE)
+#: A question without its mark: `is it holonomic`.
+_ASKED = re.compile(
+    r"\s*(?:(?:is|are|was)\s+(?:it|this|that|the|they)|ist\s+(?:es|sie|das|die)|est-(?:ce|elle|il)|es\s+esta|é\s+esta)\b",
+    re.IGNORECASE,
+)
 _ITALIAN_NOR = re.compile(r"\bné\b", re.IGNORECASE)
 _TIMELESS, _TIMED = " timeindependent ", " timedependent "
 #: What is said in several words.
@@ -118,6 +126,7 @@ _PHRASES = tuple(
         (r"\btime[\s-]+independent\b|\bindependent\s+of\s+(?:the\s+)?time\b|\bunabh[aä]ngig\s+von\s+der\s+zeit\b",
          _TIMELESS),
         (r"\btime[\s-]+dependent\b", _TIMED),
+        (r"\bexplicit(?:ly)?\s+time[\s-]+(?:dependence|dependent)\b", _TIMED),
         (r"\b(one|two|single|double)[\s-]+sided\b", r" \1sided "),
         (r"\bh[aä]ngt\s+nicht\s+(?:explizit\s+)?von\s+der\s+zeit\s+ab\b", _TIMELESS),
         (r"\bh[aä]ngt\s+(?:explizit\s+)?von\s+der\s+zeit\s+ab\b", _TIMED),
@@ -185,6 +194,8 @@ def _split(answer: Given) -> list[Word]:
     if not isinstance(answer, str):
         return split_words(answer)
     script: Script = script_of(one_text(answer))
+    if _ASKED.match(script.text):
+        raise DoubtError("a question mark makes the answer ambiguous.", 1, _HINT)
     script = script.replaced(_REPLY, "")
     denied = _GROUP_DENIED.search(script.text) or _TAKEN_BACK.search(script.text)
     if denied is not None:

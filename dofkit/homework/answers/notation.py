@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 
-from dofkit.expressions.text.latex import BROKEN_COMMAND, COMMANDS, CONTROLS
+from dofkit.expressions.text.characters import BROKEN_COMMAND, COMMANDS, CONTROLS
 from dofkit.expressions.text.names import ELEMENTARY
 from dofkit.homework.answers.script import By, Script
 
@@ -95,9 +95,12 @@ _RULES: tuple[tuple[re.Pattern[str], By], ...] = tuple(
         (r"\\pm(?![A-Za-z])", "±"),
         (r"\\mp(?![A-Za-z])", "∓"),
         (r"\\(?:quad|qquad)(?![A-Za-z])|\\[,;:! ]", " "),
+        (r"(?:\\Delta(?![A-Za-z])|[Δ∆])\s*\\?(?=[A-Za-zα-ω])", " Δ"),
+        (r"\\stackrel\s*\{\s*!\s*\}\s*\{\s*=\s*\}|\\overset\s*\{\s*!\s*\}\s*\{\s*=\s*\}|=\s*!(?!=)", "="),
         (r"\\circ(?![A-Za-z])", "°"),
         (r"\\mathbb\s*\{?R\}?|ℝ", "R"),
         (r"\\in(?![A-Za-z])", "∈"),
+        (r"([^\s,;=<>]+)\s*(?:∈|\bin\b)\s*\[([^\[\],;]+)[,;]([^\[\],;]+)\]", r"\2 <= \1 <= \3"),
         (r"[“”„\"«»]", " "),
         (r"\bsen\b(?=\s*[(\\A-Za-zα-ω])", "sin"),
         (r"\b(?:tg)\b(?=\s*[(\\A-Za-zα-ω])", "tan"),
@@ -204,6 +207,6 @@ def script_of(text: str) -> Script:
 
 #: A plain text without any of these needs no rule.
 _ODD = re.compile(
-    r"Derivative|Eq\(|Equality|[\\$&`\"{>]|:=|\bdd?ot\(|\bd\s*/|\bd\s*(?:\^|\*\*)\s*2\s*/|np\.|math\.|sympy\.|sp\.|numpy\.|<br"
+    r"Derivative|\bin\s*\[|Eq\(|Equality|[\\$&`\"{>]|:=|\bdd?ot\(|\bd\s*/|\bd\s*(?:\^|\*\*)\s*2\s*/|np\.|math\.|sympy\.|sp\.|numpy\.|<br"
     r"|\.[*/^]|\b(?:sen|tg|Sin|Cos|Tan|Sqrt|Exp|SIN|COS|TAN|SQRT|EXP)\b"
 )

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.text.characters import GREEK
-from dofkit.expressions.text.words import read_word
+from dofkit.expressions.text.tokens import read_word
 from dofkit.homework.answers.notation import ARROW, script_of, with_differentials
 from dofkit.homework.answers.prose import plain, takes_back, words
 from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import one_text
-from dofkit.homework.judgement import DoubtError
+from dofkit.homework.judgement import DoubtError, Given
 
 #: Equations in one answer.
 MOST_PIECES = 40
@@ -70,6 +70,14 @@ _BESIDE = re.compile(r"[^\s=+\-*/^(,]\s+[ye]\s+[^\s=+\-*/^),]")
 #: A sign of equality for numbers that are rounded.
 _ROUNDED = re.compile(r"(?:[≈≃≅]|\\(?:approx|simeq|cong)(?![A-Za-z]))(?=.*\d[.,]\d)")
 _CHAINED = re.compile(r"(?<![<>=!])=(?!=)")
+#: Energies that lead to a Lagrangian: `T = ..., V = ..., L = T - V` is one expression.
+_ENERGY = r"(?:E_?\{?(?:kin|pot|k|p)\w{0,6}\}?|[TVUK](?:_\{?\w{1,4}\}?)?)"
+_STEP = re.compile(rf"\A\s*(?P<name>{_ENERGY})\s*=(?!=)(?P<value>[^=<>]+)\Z")
+_RESULT = re.compile(
+    r"\A\s*(?:(?:so|also|hence|thus|then|therefore|donc|daher|luego|quindi|portanto|damit|folglich)\s*:?\s+)?(?:L|ℒ|\\mathcal\s*\{?L\}?|\\mathscr\s*\{?L\}?)(?:\s*\([^()=]*\))?\s*=(?!=)(?P<value>.+)\Z",
+    re.DOTALL,
+)
+_NAME = re.compile(rf"(?<![\w\\]){_ENERGY}(?!\w)")
 
 
 @dataclass(frozen=True)
@@ -236,3 +244,19 @@ def _is_remark(text: str, names: Names, least: int = 5) -> bool:
     if any(w in _REMARKED for w in unknown) or len(unknown) > 2 or (len(unknown) > 1 and bool(long)):
         return True
     return len(unknown) == 1 and len(unknown[0]) >= least and unknown[0] not in GREEK.values()
+
+
+def with_energies(answer: Given, names: Names) -> Given:
+    """An answer whose last step tells a value by energies that it names before; any other answer as it is."""
+    try:
+        *steps, last = [script.text for script in pieces_of(answer, names).scripts]
+    except TextError:
+        return answer
+    told = [_STEP.match(step) for step in steps]
+    result = _RESULT.match(last)
+    if result is None or not told or None in told:
+        return answer
+    energies = {step["name"]: f"({step['value'].strip()})" for step in told if step is not None}
+    if any(names.lookup.meaning(name) is not None for name in energies):
+        return answer
+    return _NAME.sub(lambda found: energies.get(found[0], found[0]), result["value"])

@@ -31,19 +31,32 @@ NUMBERS: dict[str, int] = {
     ))
     for word in forms.split()
 }  # fmt: skip
+#: Nouns that say what is counted: a number of constraints is no number of degrees of freedom, and the other way round.
+CONSTRAINT_NOUNS = words(
+    "equation equations constraint constraints gleichung gleichungen zwangsbedingung zwangsbedingungen bindung "
+    "bindungen "
+    "contrainte contraintes liaison liaisons ecuacion ecuaciones restriccion restricciones ligadura ligaduras vincolo "
+    "vincoli equazione equazioni vinculo vinculos equacao equacoes"
+)
+FREEDOM_NOUNS = words(
+    "degree-of-freedom degrees-of-freedom dof dofs fhg ddl gdl gdls freedom freiheitsgrad freiheitsgrade "
+    "freiheitsgraden liberte liberta libertad liberdade"
+)
 #: What is counted.
-UNITS = words(
-    "seul seule sola solo degree-of-freedom degrees-of-freedom dof dofs fhg ddl gdl gdls degree degrees deg of di "
-    "do freedom freiheitsgrad freiheitsgrade freiheitsgraden degre degres de d liberte liberta grado grados gradi "
-    "libertad grau graus liberdade equation equations constraint constraints gleichung gleichungen "
-    "zwangsbedingung zwangsbedingungen bindung bindungen contrainte contraintes liaison liaisons ecuacion "
-    "ecuaciones restriccion restricciones ligadura ligaduras vincolo vincoli equazione equazioni vinculo vinculos "
-    "equacao equacoes coordinate coordinates koordinate koordinaten coordonnee coordonnees coordenada coordenadas "
-    "coordinata independent unabhangig unabhangige independants independantes independante independiente "
-    "independientes indipendenti indipendente independentes generalized generalised generalisierte "
-    "verallgemeinerte velocity velocities geschwindigkeiten vitesses velocidades finite holonomic holonome total "
-    "insgesamt en tout einziger einzige einzigen in im dans nel configuration konfigurationsraum space espace espacio "
-    "spazio espaco"
+UNITS = (
+    words(
+        "seul seule sola solo degree degrees deg of di "
+        "do degre degres de d grado grados gradi grau graus "
+        "coordinate coordinates koordinate koordinaten coordonnee coordonnees coordenada coordenadas "
+        "coordinata independent unabhangig unabhangige independants independantes independante independiente "
+        "independientes indipendenti indipendente independentes generalized generalised generalisierte "
+        "verallgemeinerte velocity velocities geschwindigkeiten vitesses velocidades finite holonomic holonome total "
+        "insgesamt en tout einziger einzige einzigen in im dans nel configuration konfigurationsraum space "
+        "espace espacio "
+        "spazio espaco"
+    )
+    | CONSTRAINT_NOUNS
+    | FREEDOM_NOUNS
 )
 #: What leads to a number.
 LEADING = words(

@@ -12,8 +12,9 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import AmbiguousError, Comparison, Names, UnknownNameError, parse_relations, spelled
 from dofkit.expressions.text.characters import GREEK
 from dofkit.expressions.text.names import in_words, unmarked
-from dofkit.expressions.text.words import read_word
+from dofkit.expressions.text.tokens import read_word
 from dofkit.expressions.tree import E, Expr, coordinate, parameter
+from dofkit.homework.answers.declared import DeclaredNames, usual_name
 from dofkit.homework.answers.pieces import Pieces, pieces_of
 from dofkit.homework.answers.script import Script
 from dofkit.homework.judgement import DoubtError
@@ -28,11 +29,15 @@ _CARTESIAN = frozenset("xyzXYZ")
 _LONG = frozenset({*GREEK.values(), "varphi", "vartheta"})
 _RATE = re.compile(r"(.+?)_?d?dot(_\w+)?")
 _RELATION = re.compile(r"[=<>≤≥]")
+#: Of a quotient of two numbers before a factor everybody reads the first way: `1/2(m v^2)` is half of it.
+_HALF = re.compile(r"\(\d+/\d+\)\*\(")
 _NAME = r"\\?[A-Za-zα-ωΑ-Ω][A-Za-z0-9α-ωΑ-Ω_{}]{0,7}"
 _FUNCTION = re.compile(
     rf"\A\s*(?:\\?[A-Za-zα-ωΑ-Ω]\w{{0,3}}\s*\(\s*{_NAME}(?:\s*,\s*{_NAME})+\s*\)"
     rf"|(?:[fghFGH]|phi|Phi|φ|Φ|\\phi|\\Phi|\\varphi)(?:_?\{{?\w{{0,2}}\}}?)?(?:\s*\(\s*{_NAME}\s*\))?)\s*=(?!=)\s*"
 )
+#: Names of constants of integration.
+_OF_INTEGRATION = re.compile(r"[CcKk](?:_?\d)?|const\w*|konst\w*|c[st]t?e?")
 #: Words that are one name, never a product.
 _WHOLE = re.compile(r"const|konst|cst|cte|lam|mu|mult", re.IGNORECASE)
 _CALLED = re.compile(r"\A\s*\\?([A-Za-zα-ωΑ-Ω]\w*)\s*\(\s*\\?(?:var)?([A-Za-zα-ωΑ-Ω]\w*)\s*\)\s*=(?!=)")
@@ -41,12 +46,18 @@ _CONSTANTS = re.compile(r"\b(const|konst|cst|cte)(?:[^\W\d_]*)\.?(?!\w)", re.IGN
 _SIGNS, _PLUS, _MINUS = re.compile("[±∓]"), re.compile("±"), re.compile("∓")
 
 
+def is_constant_name(name: str) -> bool:
+    """Return whether a name is one that constants of integration usually have."""
+    return _OF_INTEGRATION.fullmatch(name) is not None
+
+
 class AnswerReading(NamedTuple):
     """One way to read an answer.
 
     ``bare``: which relations were written without a sign, as `x y`; ``own``: names that nobody declared;
     ``moving``: those of them whose derivatives occur; ``meant``: spelling -> the declared name it was read as;
-    ``derived``: arrows stand between the equations; ``places``: the columns of the names of its own.
+    ``derived``: arrows stand between the equations; ``places``: the columns of the names of its own; ``rank``: how much
+    the reading supposes, 0 for nothing.
     """
 
     relations: tuple[Comparison, ...]
@@ -56,6 +67,7 @@ class AnswerReading(NamedTuple):
     meant: Mapping[str, str] = {}
     derived: bool = False
     places: Mapping[str, int] = {}
+    rank: int = 0
 
     @property
     def shown(self) -> str:
@@ -98,7 +110,8 @@ class AnswerNames:
     """The declared names, the answer's own, and spellings of declared ones.
 
     ``free``: may an answer bring names of its own? ``choice``: which reading was taken of each kind of doubt, the same
-    in the whole answer; ``signs_apart``: `±` makes two readings, not one product.
+    in the whole answer; ``signs_apart``: `±` makes two readings, not one product. ``usual``: words that are read as the
+    usual names of quantities, such as `v_x`.
     """
 
     names: Names
@@ -111,11 +124,13 @@ class AnswerNames:
     accelerations: bool = False
     signs_apart: bool = False
     euler: bool = False
+    usual: Mapping[str, Expr] = field(default_factory=dict)
+    rank: int = 0
 
     def known(self) -> Names:
         """All of them as names of a text; `e` is Euler's number unless it is declared."""
         base = self.names
-        more: dict[str, Expr] = {"e": E} if self.euler else {}
+        more: dict[str, Expr] = {**({"e": E} if self.euler else {}), **self.usual}
         for word, name in self.meant.items():
             more[word] = coordinate(name) if name in base.coordinates else base.parameters[name]
         more.update({name: parameter(name) for name in self.own if name not in self.moving})
@@ -131,7 +146,12 @@ class AnswerNames:
 
     def declares(self, word: str) -> bool:
         """Does a word mean something already?"""
-        return (self.euler and word == "e") or word in self.own or self.names.lookup.meaning(word) is not None
+        return (
+            (self.euler and word == "e")
+            or word in self.own
+            or word in self.usual
+            or self.names.lookup.meaning(word) is not None
+        )
 
     def with_word(self, word: str) -> AnswerNames | None:
         """The same with what an unknown word stands for; None where it can stand for nothing."""
@@ -142,6 +162,9 @@ class AnswerNames:
         stem = rate[1] + (rate[2] or "") if rate else word[1:] if word[0] == "d" and len(word) > 1 else ""
         if stem and stem in self.own and stem not in self.moving:
             return replace(self, moving=self.moving | {stem})
+        quantity = None if word in self.usual else usual_name(word, self._names_with_accelerations)
+        if quantity is not None:
+            return replace(self, usual={**self.usual, word: quantity})
         twin = self._twin(word) or (stem and self._twin(stem))
         if twin and word not in self.meant:
             return replace(self, meant={**self.meant, (word if self._twin(word) else stem): twin})
@@ -156,6 +179,10 @@ class AnswerNames:
             return replace(self, own=(*self.own, stem), moving=self.moving | {stem})
         return replace(self, own=(*self.own, word)) if self._may_be_own(word) else None
 
+    @property
+    def _names_with_accelerations(self) -> Names:
+        return replace(self.names, allow_accelerations=self.accelerations)
+
     def _twin(self, word: str) -> str | None:
         """The one declared name that differs by capitals and `_` only."""
         declared = (*self.names.coordinates, *self.names.parameters)
@@ -167,6 +194,8 @@ class AnswerNames:
         if word in _CARTESIAN:
             return False
         stem, _, index = word.partition("_")
+        if word != (bare := word.rstrip("0123456789")) and spelled(bare) in self.names.coordinates:
+            return False
         declared = stem in self.names.coordinates or stem in self.names.parameters
         fits = bool(_OWN.fullmatch(word)) or spelled(stem).rstrip("0123456789") in _LONG
         return fits and not (declared and index and not index.isdigit())
@@ -178,6 +207,8 @@ class AnswerNames:
         found = []
         for base in (self, replace(self, euler="e" in word or self.euler)):
             for letter in dict.fromkeys(["", *(c for c in word if c.isalpha() and not base.declares(c))]):
+                if letter and not base._may_be_own(letter):
+                    continue
                 grown = replace(base, own=(*base.own, letter)) if letter else base
                 try:
                     read_word(word, grown.known().lookup, 1, False)
@@ -187,6 +218,31 @@ class AnswerNames:
             if found:
                 break
         return found[0] if len(found) == 1 else None
+
+
+def with_explained_names(ways: Iterable[AnswerReading], names: DeclaredNames) -> list[AnswerReading]:
+    """Return the readings whose undeclared names may stand for something.
+
+    They may be constants of integration, other names of declared constants that the answer does not mention, or names
+    that several of its relations define. Raises UnknownNameError if there is no such reading.
+    """
+    kept, failure = [], None
+    for way in ways:
+        strange = [name for name in way.own if name not in names.also and not is_constant_name(name)]
+        sums = [c.left.symbols | c.right.symbols for c in way.relations]
+        used = {str(s.args[1]) for symbols in sums for s in symbols if len(s.args) > 1}
+        counts = {name: sum(any(s.args[-1] == name for s in symbols) for symbols in sums) for name in strange}
+        single = [name for name in strange if counts[name] < 2]
+        free = [name for name in names.constants if name not in used]
+        if not single or (len(strange) <= len(free) and not way.moving):
+            kept.append(way)
+        elif failure is None:
+            every = [*sorted(names.with_also.coordinates), *names.names.parameters]
+            hint = f"the declared names are {', '.join(every[:12])}"
+            failure = UnknownNameError(f"`{single[0]}` is not declared", way.places.get(single[0], 1), hint)
+    if not kept and failure is not None:
+        raise failure
+    return kept
 
 
 def readings_of(
@@ -217,7 +273,7 @@ def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading
         if len(ways) > MOST_READINGS:
             raise DoubtError("it can be read in many ways.", script.columns[0], "write parentheses")
     for relations, bare, own in ways:
-        yield AnswerReading(relations, bare, own.own, own.moving, own.meant, pieces.derived, own.places)
+        yield AnswerReading(relations, bare, own.own, own.moving, own.meant, pieces.derived, own.places, own.rank)
 
 
 def _readable(script: Script, vocabulary: AnswerNames) -> bool:
@@ -236,8 +292,12 @@ def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Compa
     script = _with_both_signs(script)
     while True:
         try:
-            yield parse_relations(script.text, vocabulary.known()), vocabulary
-            return
+            relations = parse_relations(script.text, vocabulary.known())
+            if not (other := _of_other_meaning(script, vocabulary)):
+                yield relations, vocabulary
+                return
+            usual = {word: e for word, e in vocabulary.usual.items() if word not in other}
+            vocabulary = replace(vocabulary, usual=usual, own=(*vocabulary.own, *other))
         except AmbiguousError as error:
             if not error.readings:
                 raise script.moved(error) from None
@@ -247,7 +307,8 @@ def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Compa
                 if vocabulary.choice.get(kind, n) != n:
                     continue
                 way = f" {way} "
-                chosen = replace(vocabulary, choice={**vocabulary.choice, kind: n})
+                rank = vocabulary.rank + (n > 0 and _HALF.match(error.readings[0]) is not None)
+                chosen = replace(vocabulary, choice={**vocabulary.choice, kind: n}, rank=rank)
                 yield from _ways(script.spliced(start - 1, end - 1, way), chosen)
             return
         except UnknownNameError as error:
@@ -260,6 +321,16 @@ def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Compa
             vocabulary = replace(grown, places=places)
         except TextError as error:
             raise script.moved(error) from None
+
+
+def _of_other_meaning(script: Script, vocabulary: AnswerNames) -> tuple[str, ...]:
+    """Return the words that cannot be the usual names of quantities which the same text writes in full."""
+    if not vocabulary.usual:
+        return ()
+    plain_names = replace(vocabulary, usual={}, own=(*vocabulary.own, *vocabulary.usual))
+    relations = parse_relations(script.text, plain_names.known())
+    written = {s for c in relations for e in (c.left, c.right) for s in e.symbols}
+    return tuple(word for word, quantity in vocabulary.usual.items() if quantity in written)
 
 
 def _plainer(script: Script, vocabulary: AnswerNames) -> Script:

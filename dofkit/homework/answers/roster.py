@@ -1,8 +1,10 @@
-"""Rosters: who is in a course, and under which names, addresses and numbers, read from a table of any platform.
+"""Rosters: who is in a course, and under which names, addresses and numbers; and who submitted a file.
 
 The headers of Canvas's gradebook (``Student, ID, SIS User ID, SIS Login ID, Section``), of Moodle's lists of
 participants and grades (``First name, Last name, ID number, Email address``), of Gradescope's (``Name, SID, Email``)
 and their like are known, in the usual languages.
+
+What a platform, a file's own name or a folder's name confirms goes before what a file only claims in its ``student``.
 """
 
 from __future__ import annotations
@@ -15,14 +17,16 @@ import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from io import StringIO
 from pathlib import Path
+from typing import NamedTuple
 
 from dofkit.base.errors import DofkitError
 from dofkit.homework.answers.submission import MOST_BYTES, clean, reason
-from dofkit.homework.answers.tables import DELIMITERS
 
+#: Separators of columns, the most usual first.
+DELIMITERS = ",;\t|"
 #: What headers call each field, in small letters.
 _HEADERS: Mapping[str, frozenset[str]] = {
     "name": frozenset(
@@ -55,6 +59,12 @@ _UNIQUE = ("email", "number", "username", "canvas", "moodle", "other")
 #: Folders and files as Moodle calls them when all submissions are downloaded, and as Canvas does.
 _MOODLE = re.compile(r"(?P<who>.+?)(?P<number>_\d+)_assignsubmission_\w+")
 _CANVAS = re.compile(r"[^\W_]+_(?:LATE_)?(?P<who>\d+)_\d+_", re.IGNORECASE)
+#: What stands beside the folders of Gradescope's export, and says of each who submitted it.
+METADATA = "submission_metadata.yml"
+_SUBMITTER = re.compile(
+    r"^(?P<folder>submission_\d+):|^  :(?P<block>\w+):|^\s+(?P<next>- )?:(?P<field>name|email|sid): *(?P<value>.*)$",
+    re.MULTILINE,
+)
 #: Files as PrairieLearn calls them: ``UID_..._QUESTION_..._SUBMISSION_NAME``.
 _PRAIRIELEARN = re.compile(r"(?P<who>[^@\s/]+@[^@\s/_]+)_(?:.*_)?\d+_[^_]*")
 
@@ -254,3 +264,95 @@ def _told_apart(members: Iterable[Participant], shown: str) -> None:
                     f"{shown}, line {member.line}: '{getattr(member, mark[0])}' also occurs in line {other.line}: "
                     "the two cannot be told apart"
                 )
+
+
+def identity_column(header: Sequence[str]) -> int:
+    """Return the column of a table of answers that identifies the student, or -1: its address before its name.
+
+    >>> identity_column(["Timestamp", "Email Address", "pendulum.f"]), identity_column(["p.f"])
+    (1, -1)
+    """
+    words = [" ".join(name.casefold().split()) for name in header]
+    for called in (frozenset({"student"}), *(_HEADERS[kind] for kind in ("email", "number", "username", "name"))):
+        if (place := next((i for i, word in enumerate(words) if word in called), None)) is not None:
+            return place
+    return -1
+
+
+@lru_cache(maxsize=4)
+def submitters(source: str) -> dict[str, tuple[Participant, ...]]:
+    """Return who submitted each folder of an export of Gradescope, called by the address, else by the name."""
+    try:
+        with open(os.path.join(source, METADATA), "rb") as file:
+            text = file.read(MOST_BYTES).decode("utf-8", "replace")
+    except OSError:
+        return {}
+    people: dict[str, list[dict[str, str]]] = {}
+    folder = block = ""
+    for match in _SUBMITTER.finditer(text):
+        folder, block = match["folder"] or folder, match["block"] or ("" if match["folder"] else block)
+        if match["field"] and folder and block == "submitters":
+            persons = people.setdefault(folder, [])
+            if match["next"] or not persons:
+                persons.append({})
+            persons[-1][match["field"]] = clean(match["value"]).strip("\"' \r")
+    return {folder: members for folder, persons in people.items() if (members := tuple(_participants(persons)))}
+
+
+def _participants(persons: Iterable[Mapping[str, str]]) -> Iterator[Participant]:
+    for person in persons:
+        email, name, number = (person.get(key, "") for key in ("email", "name", "sid"))
+        if email or name or number:
+            yield Participant(email or name or number, name=name, email=email, number=number)
+
+
+class Attribution(NamedTuple):
+    """``student``: the name in the result. ``confirmed``: a platform or a name of its file says so, not its text alone.
+
+    ``doubt``: why a person has to decide whose it is, or None.
+    """
+
+    student: str
+    confirmed: bool
+    doubt: str | None = None
+
+
+def attributed(
+    roster: Roster | None, claims: Sequence[str], users: Sequence[Participant], student: str, by_default: bool
+) -> Attribution:
+    """Return whose a submission is that names ``student``.
+
+    ``claims``: the names of its file and folders, the innermost first; ``users``: who submitted it by a platform's
+    export; ``by_default``: it names nobody, and ``student`` stands for that. Of several owners the outermost is taken,
+    because platforms name folders.
+    """
+    called = users[0].called() if len(users) == 1 else ()
+    names = (*claims, *(name for name in called if roster is not None and roster.find(name)))
+    owners = [] if roster is None else roster.owners(names)
+    if users and not owners:
+        platform = ", ".join(user.student for user in users)
+        return Attribution(platform, True, None if by_default else doubt_of_platform(users, student))
+    if roster is None:
+        return Attribution(student, by_default or _key(student) in map(_key, claims))
+    member = roster.find(student)
+    if not owners:
+        return Attribution(student if member is None else member.student, by_default)
+    owner = owners[-1]
+    if len(owners) > 1:
+        return Attribution(owner.student, False, doubt_of(owner.student, owners[0].student))
+    by_default = by_default or student in claims
+    if member is owner or (member is None and (by_default or owner.goes_by(student))):
+        return Attribution(owner.student, True)
+    return Attribution(owner.student, True, doubt_of(owner.student, student))
+
+
+def doubt_of_platform(users: Sequence[Participant], student: str) -> str | None:
+    """Return why a person has to look at what users submitted, which names ``student``, or None if they agree."""
+    if not users or not student or any(user.goes_by(student) for user in users):
+        return None
+    return doubt_of(", ".join(user.student for user in users), student)
+
+
+def doubt_of(owner: str, student: str) -> str:
+    """Return what is said of a submission that names somebody else."""
+    return f"it was submitted as {owner}'s, but names '{student}' as its student: a person has to decide whose it is"

@@ -10,16 +10,12 @@ import os
 import stat
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from io import BufferedReader, BytesIO, RawIOBase, TextIOWrapper
 from itertools import islice
-from pathlib import Path
 from typing import Any, BinaryIO
 
-from dofkit.homework.answers.gradescope import METADATA, submitters
-from dofkit.homework.answers.prairielearn import SubmittedRow, answers_of, is_submissions_header, submitted_rows
-from dofkit.homework.answers.roster import Participant, own_name
+from dofkit.homework.answers.roster import METADATA, Participant, own_name, submitters
 from dofkit.homework.answers.submission import (
     MOST_BYTES,
     FilePlace,
@@ -31,7 +27,7 @@ from dofkit.homework.answers.submission import (
     refused,
     shaped,
 )
-from dofkit.homework.answers.tables import DELIMITERS, MOST_CHARACTERS, STUDENT, Columns, TableError, rows
+from dofkit.homework.answers.tables import MOST_CHARACTERS, Columns, TableError, is_header, rows
 
 DOCUMENTS, LINES, TABLES = (".json", ".yaml", ".yml"), (".jsonl", ".ndjson"), (".csv", ".tsv")
 STDIN = "-"
@@ -48,7 +44,8 @@ class Handed:
 
     ``name``: the student's name where it gives none. ``claims``: the names of the file and of the folders it was found
     in, the innermost first: a roster knows whether they are somebody's. ``users``: who handed it in, where a platform's
-    export says so.
+    export says so. ``listed``: it stands in a table that the lecturer names, which confirms whose it is; ``order``: how
+    late it was submitted, where the table has times.
     """
 
     name: str
@@ -57,6 +54,8 @@ class Handed:
     error: str = ""
     claims: tuple[str, ...] = ()
     users: tuple[Participant, ...] = ()
+    listed: bool = False
+    order: int | None = None
 
     def submissions(self, known: Columns) -> list[Submission]:
         """Read it; ``known``: the assignment's columns."""
@@ -116,6 +115,7 @@ def _claimed(one: Handed, source: str) -> Handed:
     if source == STDIN or not path or one.users:
         return one
     folder = os.path.isdir(source)
+    one = replace(one, listed=one.listed and not folder)
     within = os.path.relpath(path, clean(source)) if folder else os.path.join(*_last_two(path))
     *folders, _ = [part for part in within.split(os.sep) if part not in ("", os.curdir, os.pardir)]
     stem = _stem(path)
@@ -176,23 +176,13 @@ def _stream(stream: BinaryIO, file: str, known: Columns) -> Iterator[Handed]:
     """The submissions of an open file: its suffix tells what it is, else its first line."""
     suffix, shown = os.path.splitext(file)[1].lower(), clean(file)
     first = stream.readline(MOST_BYTES + 1) if suffix not in DOCUMENTS else b""
-    if suffix not in LINES and is_submissions_header(first.decode("utf-8", "replace")):
-        yield from _of_prairielearn(_text(first, stream), shown, known)
-    elif suffix in TABLES or (suffix not in (*DOCUMENTS, *LINES) and _is_header(first)):
+    if suffix in TABLES or (suffix not in (*DOCUMENTS, *LINES) and is_header(first.decode("utf-8-sig", "replace"))):
         yield from _table(_text(first, stream), shown, known)
     elif suffix in LINES or (suffix not in DOCUMENTS and _is_line(first)):
         yield from _lines(first, stream, shown)
     else:
         data = first + stream.read(MOST_BYTES + 1 - len(first))
         yield Handed(_stem(shown), FilePlace(shown), data)
-
-
-def _is_header(line: bytes) -> bool:
-    """Does a line begin a table?"""
-    cells = line.decode("utf-8-sig", "replace").lower()
-    for delimiter in DELIMITERS:
-        cells = cells.replace(delimiter, "\n")
-    return "\n" in cells.rstrip("\r\n") and STUDENT in [cell.strip('" \r') for cell in cells.split("\n")]
 
 
 def _is_line(line: bytes) -> bool:
@@ -207,7 +197,7 @@ def _lines(first: bytes, stream: BinaryIO, file: str) -> Iterator[Handed]:
     while line:
         place = FilePlace(file, number)
         if line.strip():
-            yield Handed(f"{_stem(file)}:{number}", place, line.strip(b"\r\n"))
+            yield Handed(f"{_stem(file)}:{number}", place, line.strip(b"\r\n"), listed=True)
         while not line.endswith(b"\n") and (rest := stream.readline(MOST_BYTES)):
             line = rest
         line, number = stream.readline(MOST_BYTES + 1), number + 1
@@ -252,47 +242,10 @@ def _table(lines: Iterator[str], file: str, known: Columns) -> Iterator[Handed]:
                 yield Handed(row.student, place, error=row.error)
             else:
                 named = {"student": row.student} if row.student else {}
-                yield Handed(row.student or _stem(file), place, {**named, "answers": row.answers})
+                value = {**named, "answers": row.answers}
+                yield Handed(row.student or _stem(file), place, value, listed=bool(named), order=row.order)
     except (TableError, UnicodeError) as error:
         yield Handed(_stem(file), FilePlace(file, 1), error=str(error))
-
-
-def _of_prairielearn(lines: Iterator[str], file: str, known: Columns) -> Iterator[Handed]:
-    """The submissions of a table of PrairieLearn's, each its user's, whatever a file in it says."""
-    try:
-        for row in submitted_rows(lines, known, HAND_INS):
-            place = FilePlace(file, row.line)
-            users = (Participant(row.student, email="" if row.team else row.student),)
-            files = row.files(HAND_INS)
-            if row.error is not None or len(files) > 1:
-                why = row.error or f"there is more than one file: {', '.join(one.name for one in files)}"
-                yield Handed(row.student or _stem(file), place, error=why)
-            elif not files:
-                given = {"student": row.student, "answers": answers_of(row.given, known)}
-                yield Handed(row.student, place, given, users=users)
-            else:
-                inside = list(_stream(BytesIO(files[0].data), files[0].name, known))
-                only = (
-                    inside[0]
-                    if len(inside) == 1
-                    else Handed("", place, error="its file does not contain exactly one submission")
-                )
-                within = FilePlace(f"{place}, {files[0].name}")
-                yield replace(only, name=row.student, place=within, users=users)
-    except (TableError, UnicodeError) as error:
-        yield Handed(_stem(file), FilePlace(file, 1), error=str(error))
-
-
-def submitted_in(sources: Sequence[str], known: Columns) -> list[SubmittedRow]:
-    """The rows of all tables of PrairieLearn's submissions among files and folders."""
-    found: list[SubmittedRow] = []
-    for source in map(Path, sources):
-        for path in sorted(source.rglob("*.csv")) if source.is_dir() else [source]:
-            with suppress(OSError, TableError, UnicodeError), path.open("rb") as stream:
-                first = stream.readline(MOST_BYTES + 1)
-                if is_submissions_header(first.decode("utf-8", "replace")):
-                    found += submitted_rows(_text(first, stream), known, HAND_INS)
-    return found
 
 
 def _unreadable(path: str, why: str) -> Handed:

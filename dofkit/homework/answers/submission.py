@@ -5,19 +5,21 @@ Nothing here raises for what a student wrote: what cannot be read is a submissio
 
 from __future__ import annotations
 
+import json
+import os
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Integral
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 from dofkit.base.documents import Document, read_document
 from dofkit.base.errors import Fault
 from dofkit.homework.answers.notation import backslashes_kept
-from dofkit.homework.answers.values import plain_value
 from dofkit.homework.judgement import Given
 from dofkit.scene.fields import LARGEST_EXPONENT
 
@@ -35,6 +37,12 @@ _STUDENT = re.compile(
 )
 _SCALAR = re.compile(r"[^,\]}\n\r]*")
 _SURROGATES = re.compile("[\ud800-\udfff]")
+
+#: What a relation of SymPy is written with.
+_SIGNS = {"==": "=", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
+_LISTS = frozenset({"FiniteSet", "Tuple", "MatrixBase", "NDimArray"})
+#: Larger arrays are no answer.
+MOST_ENTRIES = 1000
 
 
 @dataclass(frozen=True)
@@ -254,3 +262,77 @@ def _ours(fault: Fault) -> Fault:
     """A fault of a document, its hint meant for submissions."""
     scenes = fault.hint is not None and ("scene" in fault.hint or "coordinates:" in fault.hint)
     return replace(fault, hint=_SHAPE) if scenes else fault
+
+
+def plain_value(answer: Any) -> Any:
+    """An object of a notebook as a number, a text or a list, of Python's own classes; anything else as it is.
+
+    >>> plain_value({2, 1})
+    [1, 2]
+    """
+    if isinstance(answer, str):
+        return str.__str__(answer)
+    if isinstance(answer, set | frozenset):
+        return sorted(answer, key=str) if len(answer) <= MOST_ENTRIES else answer
+    homes = [((cls.__module__ or "").partition(".")[0], cls.__name__) for cls in type(answer).__mro__]
+    if any(home == "numpy" for home, _ in homes) and getattr(answer, "size", MOST_ENTRIES + 1) <= MOST_ENTRIES:
+        return answer.tolist()
+    if homes[0][0] == "sympy":
+        return _of_sympy(answer, {name for _, name in homes})
+    if isinstance(answer, float):
+        return float.__pos__(answer)
+    if isinstance(answer, int) and not isinstance(answer, bool):
+        return int.__pos__(answer)
+    return answer
+
+
+def _of_sympy(answer: Any, names: set[str]) -> Any:
+    if "Integer" in names:
+        return int(answer)
+    if "Relational" in names:
+        return f"{answer.lhs} {_SIGNS.get(answer.rel_op, answer.rel_op)} {answer.rhs}"
+    if names & _LISTS:
+        parts = list(answer) if "MatrixBase" in names or "NDimArray" in names else list(answer.args)
+        return parts if len(parts) <= MOST_ENTRIES else str(type(answer))
+    return str(answer)
+
+
+def hand_in(
+    answers: Mapping[str, Mapping[str, Any]], path: str | os.PathLike[str] = "answers.json", student: str | None = None
+) -> Path:
+    """Write the answers of a notebook to a file, which `dofkit grade` judges later, and return its path.
+
+    Nothing is judged here: a student's own process could not be trusted with the key.
+
+    Parameters
+    ----------
+    answers
+        ``{PROBLEM: {QUESTION: answer}}``; an answer is a text, a number, a list, or a value of NumPy or SymPy. What is
+        left as ``...`` or None is no answer.
+    path
+        The file to write.
+    student
+        The student's name, where the platform does not know it.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    given = {
+        str(problem): {str(q): _json_value(a) for q, a in asked.items() if a is not None and a is not ...}
+        for problem, asked in answers.items()
+    }
+    target = Path(path)
+    document = {**({} if student is None else {"student": student}), "answers": given}
+    target.write_text(json.dumps(document, indent=1, ensure_ascii=True) + "\n", encoding="ascii")
+    print(f"{sum(map(len, given.values()))} answers were written to {target}: submit this file.")
+    return target
+
+
+def _json_value(answer: Any) -> Any:
+    """Return an answer as JSON holds it; an exact number that is no integer is its text."""
+    plain = _plain_answer(answer)
+    if isinstance(plain, tuple):
+        return [_json_value(part) for part in plain]
+    return str(plain) if isinstance(plain, Fraction) else plain

@@ -1,24 +1,31 @@
-"""Tables of answers, as spreadsheets write them: a header ``student,PROBLEM.QUESTION,...``, then a row a student.
+"""Tables of answers, as spreadsheets and forms write them: a header ``student,PROBLEM.QUESTION,...``, then rows.
 
-Rows are taken one by one. A row that is broken is told with its line, and the rows after it are read all the same. A
-table without the column ``student``, whose every column is a question, is one person's: that of its only row. A table
-whose header names no question at all is nobody's: no row of it is graded, for each would be worth nothing.
+The column that identifies the student may have any name that rosters know, such as ``Email Address``; the header of an
+answer's column may go on after the question's name, as ``disc.f How many degrees of freedom?``. In a table with times
+(``Timestamp``) a later row of the same student replaces an earlier one.
+
+A broken row is reported with its line, and the rows after it are read. A table without a column for students, whose
+every column is a question, is one person's: that of its only row. A table whose header names no question is an error,
+because every row would be worth nothing.
 """
 
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from io import StringIO
 from itertools import chain, islice
 
 from dofkit.base.wording import nearest
+from dofkit.homework.answers.roster import DELIMITERS, identity_column
 from dofkit.homework.answers.submission import clean
 
-#: What columns may be separated by, the most usual first.
-DELIMITERS = ",;\t|"
 STUDENT = "student"
+#: Headers of the column with the time of a submission, and how an answer's column begins.
+_TIMES = frozenset({"timestamp", "time", "submitted", "submitted at", "completion time", "zeitstempel", "horodateur"})
+_QUESTION = re.compile(r"\s*\[?(?P<name>[^\s:()\[\]]+)(?=$|[\s:()\]])")
 #: Names that a message lists.
 MOST_LISTED = 12
 #: Lines that one row may run over, and characters that it may hold.
@@ -31,12 +38,13 @@ Columns = Mapping[str, tuple[str, str]]
 
 @dataclass(frozen=True)
 class TableRow:
-    """A row of a table: its answers, or why there are none."""
+    """A row of a table: its answers, or why there are none. ``order``: its place in a table with times."""
 
     student: str
     line: int
     answers: Mapping[str, Mapping[str, str]]
     error: str | None = None
+    order: int | None = None
 
 
 class TableError(ValueError):
@@ -47,19 +55,20 @@ class TableError(ValueError):
 class Header:
     """How a table is written: its delimiter, which column names the student, and what the others answer.
 
-    ``student``: -1 where there is no such column. ``fault``: why no row of it can be graded.
+    ``student``: -1 if there is no such column. ``fault``: why no row of it can be graded. ``timed``: it has times.
     """
 
     delimiter: str
     student: int
     asked: tuple[tuple[str, str] | None, ...]
     fault: str | None = None
+    timed: bool = False
 
 
 def rows(lines: Iterable[str], known: Columns) -> Iterator[TableRow]:
     """The rows of a table, blank ones apart; ``student`` is empty where it has no such column. Raises TableError.
 
-    ``lines`` keep their ends; bytes that are no UTF-8 stand in them as lone surrogates. ``known``: the columns of the
+    ``lines`` keep their ends; bytes that are not UTF-8 are lone surrogates in them. ``known``: the columns of the
     assignment, which tell where a name with several dots is to be cut.
     """
     numbered = NumberedLines(lines)
@@ -147,40 +156,57 @@ def _header(lines: NumberedLines, known: Columns) -> Header:
     if line is None:
         raise TableError("it is empty")
     lines.give_back([line])
-    delimiter = delimiter or max(DELIMITERS, key=lambda d: (STUDENT in _names(line, d), line.count(d)))
+    delimiter = delimiter or max(DELIMITERS, key=lambda d: (identity_column(_names(line, d)) >= 0, line.count(d)))
     _, cells, error = next(records(lines, delimiter))
     names = [cell.strip() for cell in cells]
     while names and not names[-1]:
         names.pop()
-    lower = [name.lower() for name in names]
-    if error is not None or (STUDENT not in lower and not all(name in known for name in names)):
+    student = identity_column(names)
+    if error is not None or (student < 0 and not all(_asked(name, known) for name in names)):
         shown = clean(", ".join(names))[:80]
         raise TableError(error or f"its header has no column '{STUDENT}' but {shown}")
-    student = lower.index(STUDENT) if STUDENT in lower else -1
     return _header_of(delimiter, names, student, known, lines.number)
+
+
+def is_header(line: str) -> bool:
+    """Return whether a line begins a table: it has several cells, and one that identifies the student."""
+    return any(delimiter in line and identity_column(_names(line, delimiter)) >= 0 for delimiter in DELIMITERS)
 
 
 def _names(line: str, delimiter: str) -> list[str]:
     return [cell.strip(' "\r\n').lower() for cell in line.split(delimiter)]
 
 
+def _asked(name: str, known: Columns) -> tuple[str, str] | None:
+    """Return the question that a column answers: its header begins with the question's name."""
+    match = _QUESTION.match(name)
+    return known.get(name) or (None if match is None else known.get(match["name"]))
+
+
 def _header_of(delimiter: str, names: list[str], student: int, known: Columns, line: int) -> Header:
+    folded = [name.casefold() for name in names]
     twice = next(
-        (n for i, n in enumerate(names) if n and (n in names[:i] or (i > student >= 0 and n.lower() == STUDENT))), ""
+        (n for i, n in enumerate(names) if n and (n in names[:i] or (i > student and folded[i] == STUDENT))), ""
     )
+    questions = [None if i == student else _asked(name, known) for i, name in enumerate(names)]
     fault = None
     if twice:
         fault = f"the header (line {line}) has the column '{clean(twice)[:60]}' twice"
     elif "" in names:
         fault = f"column {names.index('') + 1} of the header (line {line}) has no name"
-    elif not any(name in known for name in names):
+    elif not any(questions):
         fault = f"the header (line {line}) names no question: {_meant(names, student, known)}"
-    asked = [None if i == student else known.get(name) or _split(name) for i, name in enumerate(names)]
-    return Header(delimiter, student, tuple(asked), fault)
+    elif (repeated := next((q for i, q in enumerate(questions) if q and q in questions[:i]), None)) is not None:
+        fault = f"the header (line {line}) has two columns for {'.'.join(repeated)}"
+    timed = not _TIMES.isdisjoint(folded)
+    form = student >= 0 and folded[student] != STUDENT
+    strange = [None if i == student or form or timed else _split(name) for i, name in enumerate(names)]
+    asked = tuple(one or other for one, other in zip(questions, strange, strict=True))
+    return Header(delimiter, student, asked, fault, timed)
 
 
 def _meant(names: list[str], student: int, known: Columns) -> str:
-    """What the columns could have been called."""
+    """Return what the columns could have been called."""
     others = [name for i, name in enumerate(names) if i != student]
     near = next((f"'{near}' for '{clean(name)[:60]}'" for name in others if (near := nearest(name, known))), None)
     shown = ", ".join(list(known)[:MOST_LISTED]) + (", ..." if len(known) > MOST_LISTED else "")
@@ -206,7 +232,7 @@ def _row(header: Header, line: int, cells: list[str], error: str | None) -> Tabl
     for asked, cell in zip(header.asked, cells, strict=False) if error is None else ():
         if asked is not None and cell.strip():
             answers.setdefault(asked[0], {})[asked[1]] = cell
-    return TableRow(student, line, answers, error)
+    return TableRow(student, line, answers, error, line if header.timed else None)
 
 
 def _undecoded(cell: str) -> bool:

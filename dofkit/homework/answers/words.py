@@ -31,9 +31,21 @@ _LEAD = re.compile(r"\A[^:=\d]*:(?!=)")
 _TITLE = re.compile(r"\bq(?:_?\{?\w?\}?)?\s*=")
 _COMMAND = re.compile(r"\\(?:var(?=phi|theta|epsilon|rho|sigma))?(?=[A-Za-z])")
 _OR = re.compile(r",?\s+(?:or|oder|ou|oppure)\s+", re.IGNORECASE)
+#: `one of bar and again`, `any one of them`; all of them.
+_ANY = re.compile(
+    r"(?:any\s+)?(?:one|eine[rs]?|une?|uno|una|any)(?:\s+(?:of\s+(?:them|these|the\s+\w+)|davon|beliebige|quelconque))?\.?\Z"
+    r"|(?:any\s+|either\s+)?(?:one|eine[rs]?|une?|uno|una)\s+(?:of|von|de|di)\s+(?P<which>.+)"
+)
+_ALL = re.compile(
+    r"(?:all|alle|tous|toutes|todos|todas|tutti|tutte)(?:\s+(?:of\s+them|three|two|four|drei|zwei|vier))?\Z"
+)
 _EITHER = re.compile(r"\A\s*(?:either|entweder|soit)\s+", re.IGNORECASE)
 _LOWERED = {0x2080 + n: str(n) for n in range(10)}
 _BRACES = re.compile(r"_\{(\w+)\}")
+
+#: Characters of an answer that are shown; and what stands between the parts of a list.
+MOST_SHOWN = 2000
+_BETWEEN = "; "
 
 
 def one_text(answer: object) -> str:
@@ -108,10 +120,14 @@ def lists_only(part: str, known: Sequence[str]) -> bool:
     return len(others) < min(len(found), _FEW_WORDS) and all(plain(w) in FILLING for w in others)
 
 
-def alternatives(answer: Given) -> list[Given]:
-    """The answers of `x or y`; the answer itself where it is one."""
+def alternatives(answer: Given, known: Sequence[str] = ()) -> list[Given]:
+    """Return the answers of `x or y`, `one of x and y`, or `any one` of the known names; else the answer itself."""
     if not isinstance(answer, str):
         return [answer]
+    if known and (some := _ANY.match(plain(answer))) is not None:
+        return list(names_of(some["which"], known, "constraint")) if some["which"] else list(known)
+    if known and _ALL.match(plain(answer)):
+        return [tuple(known)]
     parts = _OR.split(_EITHER.sub("", answer))
     return [*parts] if all(part.strip() for part in parts) else [answer]
 
@@ -182,3 +198,39 @@ def chosen(words: Iterable[Word], known: Sequence[str], what: str) -> list[str]:
     if not found:
         raise TextError(f"no {what} is named", 1, f"the {what}s are {', '.join(known[:12])}; or write: none")
     return list(found)
+
+
+def typed_text(answer: Given) -> str:
+    """An answer as one text; the parts of a list have semicolons between them.
+
+    >>> typed_text("f = 2 "), typed_text(Fraction(1, 2)), typed_text(("x", ("y", 3)))
+    ('f = 2 ', '0.5', 'x; y; 3')
+    """
+    if isinstance(answer, str):
+        return answer
+    if isinstance(answer, Fraction):
+        return as_written(answer)
+    if isinstance(answer, bool | int | float):
+        return str(answer)
+    return _BETWEEN.join(typed_text(part) for part in answer)
+
+
+def shown_text(answer: Given) -> str:
+    """The same, of which a person sees at most so many characters."""
+    text = typed_text(answer)
+    return text if len(text) <= MOST_SHOWN else text[: MOST_SHOWN - 3] + "..."
+
+
+def in_whole(answer: Given, error: TextError, read: Callable[[Given], object]) -> TextError:
+    """An error with its column in the text that is shown: of a list it is that of a part, which ``read`` tells."""
+    if isinstance(answer, str | bool | int | float | Fraction) or len(answer) < 2:
+        return error
+    place = 0
+    for part in answer:
+        try:
+            read(part)
+        except TextError as found:
+            if (found.message, found.column) == (error.message, error.column):
+                return TextError(error.message, place + (error.column or 1), error.hint)
+        place += len(typed_text(part)) + len(_BETWEEN)
+    return error

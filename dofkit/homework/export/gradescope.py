@@ -13,9 +13,9 @@ from dofkit.homework.assignment import load_assignment
 from dofkit.homework.autograder import undecided
 from dofkit.homework.export.inline import exact_json, inlined
 from dofkit.homework.export.wheels import download, own_wheel, requirements
-from dofkit.homework.formats.documents import text
+from dofkit.homework.formats.base import text
 from dofkit.homework.formats.gradescope import document, visibility_of
-from dofkit.homework.runs.review_files import TABLE, RunReview
+from dofkit.homework.formats.review import TABLE, RunReview
 
 #: The Pythons of the images that Gradescope offers, that of Ubuntu 24.04 first.
 PYTHONS = ("3.12", "3.11", "3.13")

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from dofkit.homework.formats.base import Format, FormatError, Target, opened
-from dofkit.homework.formats.canvas import CANVAS
-from dofkit.homework.formats.coursera import COURSERA
+from dofkit.homework.formats.base import NATIVE, Format, FormatError
+from dofkit.homework.formats.gradebooks import CANVAS, MOODLE
 from dofkit.homework.formats.gradescope import GRADESCOPE
 from dofkit.homework.formats.html import HTML
-from dofkit.homework.formats.lti import LTI
-from dofkit.homework.formats.moodle import MOODLE
-from dofkit.homework.formats.native import NATIVE
 from dofkit.homework.formats.prairielearn import PRAIRIELEARN
 
-__all__ = ["FORMATS", "Format", "FormatError", "Target", "opened"]
+__all__ = ["FORMATS", "Format", "FormatError"]
 
-#: What ``--format`` may name.
-_ALL = (NATIVE, GRADESCOPE, PRAIRIELEARN, COURSERA, CANVAS, MOODLE, LTI, HTML)
-FORMATS: dict[str, Format] = {f.name: f for f in _ALL}
+#: The values of ``--format``.
+FORMATS: dict[str, Format] = {f.name: f for f in (NATIVE, GRADESCOPE, PRAIRIELEARN, CANVAS, MOODLE, HTML)}

@@ -2,51 +2,52 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+import csv
+import json
+import re
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple, TextIO
+from typing import Any, TextIO, TypeAlias
 
 from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.errors import DofkitError
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
+from dofkit.homework.formats.wording import FileNames, plain
 from dofkit.homework.result import Result
 
 #: Where results go: the path that ``--out`` names, or a stream such as standard output.
 Target = Path | TextIO
+Document: TypeAlias = Callable[[Result], dict[str, Any]]
+#: Writes results, which come one by one in the order of the submissions; a gradebook has rows for a roster only.
+Write: TypeAlias = Callable[[Iterator[Result], Prepared, Target, "Roster | None"], None]
+#: What spreadsheets read as the beginning of a formula, also after spaces, and in its full-width forms.
+_FORMULA = re.compile("\\s*[=+\\-@|\uff1d\uff0b\uff0d\uff20\u2212]|[\t\r\n]")
+_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?")
+#: More than a spreadsheet holds in a cell.
+MOST_CHARACTERS = 32_000
 
 
 class FormatError(DofkitError):
     """Results that cannot be written in a format, such as two students where it holds one."""
 
 
-class Handback(NamedTuple):
-    """The files that were handed in, and who is in the course."""
-
-    sources: tuple[str, ...]
-    roster: Roster | None
-
-
 @dataclass(frozen=True)
 class Format:
-    """``write(results, prepared, target)`` writes results, which come one by one in the order of the submissions.
+    """A form in which results are written.
 
-    ``write`` keeps no more than one result in memory where the format allows it, and raises FormatError for what the
-    format cannot hold. ``needs_path``: it writes a folder, so that standard output will not do. ``endings``: those
-    of the files that it writes, without the dot. ``folders``: whether it can write a folder. ``write_known``: the same
-    with a roster: a gradebook has rows for those in it only, and pages tell of each class. ``write_back``: it fills in,
-    at a path that ends in ``.csv``, the tables of the platform that were handed in.
+    ``write`` raises FormatError for what the format cannot hold. ``needs_path``: it writes a folder, so that standard
+    output will not do. ``endings``: those of the files that it writes, without the dot. ``folders``: whether it can
+    write a folder.
     """
 
     name: str
-    write: Callable[[Iterator[Result], Prepared, Target], None]
+    write: Write
     needs_path: bool = False
     endings: tuple[str, ...] = ("json",)
     folders: bool = True
-    write_known: Callable[[Iterator[Result], Prepared, Target, Roster], None] | None = None
-    write_back: Callable[[Iterator[Result], Prepared, Path, Handback], None] | None = None
 
     def folder(self, path: Path) -> bool:
         """Return whether a folder is written there. Raises ArgumentError for the ending of another format."""
@@ -55,29 +56,75 @@ class Format:
         format_of_path(path, self.endings)
         return False
 
-    def written(
-        self,
-        results: Iterator[Result],
-        prepared: Prepared,
-        target: Target,
-        roster: Roster | None,
-        sources: Sequence[str] = (),
-    ) -> None:
-        """Write results, those of a gradebook by a roster where there is one; ``sources``: what was handed in."""
-        if self.write_back is not None and isinstance(target, Path) and target.suffix.lower() == ".csv":
-            self.write_back(results, prepared, target, Handback(tuple(sources), roster))
-        elif roster is None or self.write_known is None:
-            self.write(results, prepared, target)
-        else:
-            self.write_known(results, prepared, target, roster)
-
 
 @contextmanager
 def opened(target: Target) -> Iterator[TextIO]:
-    """A text stream to write to: a new UTF-8 file, its folder made, or the stream that was given."""
+    """Open a text stream to write to: a new UTF-8 file, its folder made, or the stream that was passed."""
     if not isinstance(target, Path):
         yield target
         return
     target.parent.mkdir(parents=True, exist_ok=True)
     with target.open("w", encoding="utf-8", newline="") as stream:
         yield stream
+
+
+def write_native(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+    """Write one JSON object per line for every submission, as soon as it is graded."""
+    del prepared, roster
+    with opened(target) as stream:
+        for result in results:
+            stream.write(result.json_line() + "\n")
+            stream.flush()
+
+
+def write_documents(results: Iterator[Result], target: Target, document: Document) -> None:
+    """Write one JSON document per student.
+
+    A stream, or a path that ends in ``.json``, holds one student; any other path is a folder, with a file for each.
+    Raises FormatError where a second student does not fit, or where there is none at all for a file.
+    """
+    if isinstance(target, Path) and (target.is_dir() or target.suffix.lower() != ".json"):
+        names = FileNames()
+        target.mkdir(parents=True, exist_ok=True)
+        for result in results:
+            _write(document(result), target / f"{names.of(result.student)}.json")
+        return
+    first = next(results, None)
+    if first is None:
+        if isinstance(target, Path):
+            raise FormatError(f"there is no submission to write to {target}")
+        return
+    _write(document(first), target)
+    second = next(results, None)
+    if second is not None:
+        raise FormatError("this format holds one student: give --out a folder, to get one file per student")
+
+
+def text(document: dict[str, Any]) -> str:
+    """Return a document as ASCII JSON, which every reader takes."""
+    return json.dumps(document, indent=2, allow_nan=False) + "\n"
+
+
+def _write(document: dict[str, Any], target: Target) -> None:
+    with opened(target) as stream:
+        stream.write(text(document))
+
+
+def cell(content: str) -> str:
+    """Return a text as a cell of a table: an apostrophe stands before what a spreadsheet would read as a formula.
+
+    >>> cell("=cmd|'/C calc'!A0"), cell("-2"), cell("-2+3"), cell("Ada")
+    ("'=cmd|'/C calc'!A0", '-2', "'-2+3", 'Ada')
+    """
+    shown = plain(content)
+    if len(shown) > MOST_CHARACTERS:
+        shown = shown[: MOST_CHARACTERS - 3] + "..."
+    return f"'{shown}" if _FORMULA.match(shown) and not _NUMBER.fullmatch(shown) else shown
+
+
+def table(stream: TextIO) -> Any:
+    """Return a writer of comma-separated rows, as RFC 4180 has them."""
+    return csv.writer(stream, lineterminator="\r\n")
+
+
+NATIVE = Format("native", write_native, endings=("jsonl",))

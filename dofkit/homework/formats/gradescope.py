@@ -19,9 +19,9 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared, Visibility
-from dofkit.homework.formats.base import Format, Target
-from dofkit.homework.formats.documents import write_documents
+from dofkit.homework.formats.base import Format, Target, write_documents
 from dofkit.homework.formats.wording import line, open_points, plain, points, remark, standing, title
 from dofkit.homework.result import Item, Result
 from dofkit.homework.sentences.translations import Language, in_language
@@ -120,8 +120,9 @@ def _test(item: Item, place: str | None, visibility: Visibility, language: Langu
     }
 
 
-def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None:
-    """One ``results.json`` a student."""
+def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+    """Write one ``results.json`` per student."""
+    del roster
     shown = visibility_of(prepared)
     write_documents(results, target, lambda result: document(result, shown, prepared.assignment.language))
 

@@ -1,10 +1,10 @@
 """PrairieLearn's ``results.json`` of an external grader: points as a share, and a test for every answer.
 
-``gradable: false`` costs a student no attempt and gives no points: that is said where an answer cannot be read, as
-PrairieLearn's own elements do, and where an answer needs a review, since a share can neither leave it open nor may it
-count it as nothing or as everything. ``format_errors`` then says which answers these are, and nothing is told of the
-others: what costs no attempt would else tell, again and again, which of them are right. The points that a person gave
-are taken back by a table of scores, in `dofkit.homework.formats.prairielearn_scores`.
+``gradable: false`` costs a student no attempt and gives no points: so it is where an answer cannot be read, or reads in
+several ways or in names that are not declared. That depends on its text and the declared names alone, never on the key,
+because what costs no attempt could be asked again and again. ``format_errors`` says which answers these are, and
+nothing is said of the others. An answer that reads in one way and could not be decided has no points yet: a person
+gives them on PrairieLearn's own page.
 """
 
 from __future__ import annotations
@@ -12,10 +12,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.formats.base import Format, Target
-from dofkit.homework.formats.documents import text, write_documents
-from dofkit.homework.formats.prairielearn_scores import write_scores
+from dofkit.homework.formats.base import Format, Target, text, write_documents
 from dofkit.homework.formats.wording import line, plain, remark, shortened, standing, title
 from dofkit.homework.result import Item, Result
 from dofkit.homework.sentences.translations import Language, in_language
@@ -47,7 +46,7 @@ def _document(result: Result, language: Language) -> dict[str, Any]:
     if result.error is not None:
         error = in_language(language, "{fault}", fault=plain(result.error))
         return {"gradable": False, "format_errors": [error], "message": message, "tests": []}
-    errors = [_error(item, language) for item in result.items if item.status == "unreadable" or item.score is None]
+    errors = [_error(item, language) for item in result.items if item.status == "unreadable" or not item.certain]
     if errors:
         return {"gradable": False, "format_errors": errors, "message": in_language(language, UNGRADED), "tests": []}
     tests = [_test(item, language) for item in result.items]
@@ -72,6 +71,9 @@ def _test(item: Item, language: Language) -> dict[str, Any]:
 
 def _error(item: Item, language: Language) -> str:
     where = "" if item.column is None else in_language(language, " (column {column})", column=item.column)
+    several = "It reads in several ways, or in names that are not declared: {text}"
+    if item.read_as and item.status != "unreadable":
+        return f"{title(item)}: {in_language(language, several, text=line(item.read_as))}"
     return f"{title(item)}{where}: {line(item.feedback) or in_language(language, 'not readable')}"
 
 
@@ -83,9 +85,10 @@ def _cut(found: dict[str, Any], most: int) -> dict[str, Any]:
     return cut
 
 
-def write(results: Iterator[Result], prepared: Prepared, target: Target) -> None:
-    """One ``results.json`` a student."""
+def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+    """Write one ``results.json`` per student."""
+    del roster
     write_documents(results, target, lambda result: document(result, prepared.assignment.language))
 
 
-PRAIRIELEARN = Format("prairielearn", write, endings=("json", "csv"), write_back=write_scores)
+PRAIRIELEARN = Format("prairielearn", write)

@@ -9,8 +9,6 @@ from typing import NamedTuple
 from dofkit.homework.result import Item, Result, Status
 from dofkit.homework.sentences.translations import Language, in_language
 
-#: The share of its points that stands for an answer that could not be decided where a number has to stand.
-OPEN_SHARE = 0.5
 #: What each status is called, in English.
 STATUSES: dict[Status, str] = {
     "right": "correct",
@@ -83,13 +81,6 @@ def points(item: Item, language: Language = "en") -> str:
 def open_points(result: Result) -> float:
     """The points of the answers that wait for a person."""
     return sum(item.max_score for item in result.items if item.score is None)
-
-
-def stand_in(item: Item) -> float:
-    """The points where a number has to stand: a part of an undecided answer's, none of one that cannot be read."""
-    if item.score is not None:
-        return item.score
-    return 0.0 if item.status == "unreadable" else OPEN_SHARE * item.max_score
 
 
 def decided(result: Result) -> bool:

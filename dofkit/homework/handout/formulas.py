@@ -7,11 +7,9 @@ from typing import NamedTuple
 from xml.etree import ElementTree
 
 from latex2mathml import exceptions
-from latex2mathml.converter import convert
 
-from dofkit.expressions.text.typesetting import typeset
+from dofkit.expressions.text.typesetting import mathml, typeset
 
-_SPACE = "http://www.w3.org/1998/Math/MathML"
 _ACCENTS = {
     "˙": "dot",
     "¨": "dot.double",
@@ -47,26 +45,16 @@ def formula(text: str) -> SetFormula:
     >>> formula("l^2 thetadot").latex, formula("l^2 thetadot").typst
     ('l^{2} \\\\dot{\\\\theta}', 'attach(l, t: 2) thin dot(θ)')
     """
-    found = None if "\\" in text else typeset(text)
-    if found is not None:
-        return SetFormula(found.latex, found.mathml, _typst(found.mathml))
+    latex = (None if "\\" in text else typeset(text)) or text
     try:
-        inside = _inside(convert(text))
-        return SetFormula(text, inside, _typst(inside))
+        inside = mathml(latex)
+        return SetFormula(latex, inside, _typst(inside))
     except _REFUSALS:
         return SetFormula(text, None, None)
 
 
-def _inside(math: str) -> str:
-    """What stands within ``<math>``, without its name space."""
-    element = ElementTree.fromstring(math)
-    for part in element.iter():
-        part.tag = part.tag.removeprefix(f"{{{_SPACE}}}")
-    return "".join(ElementTree.tostring(part, encoding="unicode") for part in element)
-
-
-def _typst(mathml: str) -> str:
-    return _row(list(ElementTree.fromstring(f"<math>{mathml}</math>")))
+def _typst(inside: str) -> str:
+    return _row(list(ElementTree.fromstring(f"<math>{inside}</math>")))
 
 
 def _set(element: ElementTree.Element) -> str:

@@ -83,9 +83,3 @@ def pdf_of(typst: str, pictures: Mapping[str, bytes]) -> bytes:
         source = Path(folder) / "sheet.typ"
         source.write_text(typst, encoding="utf-8")
         return bytes(compiled(source, root=Path(folder), format="pdf"))
-
-
-def pdf_of_picture(svg: bytes) -> bytes:
-    """A picture alone, on a page of its size. Raises TypesetterMissingError."""
-    page = '#set page(width: auto, height: auto, margin: 0pt)\n#image("picture.svg")\n'
-    return pdf_of(page, {"picture.svg": svg})

@@ -14,8 +14,7 @@ from dofkit.homework.handout.composition import SheetComposer
 from dofkit.homework.handout.figures import Draw, SheetFigure, figure_of, file_of
 from dofkit.homework.handout.markup import pictures_of, unset_formulas, with_latex
 from dofkit.homework.handout.page import page_of
-from dofkit.homework.handout.paper import pdf_of, pdf_of_picture, typst_of
-from dofkit.homework.handout.tex import tex_of
+from dofkit.homework.handout.paper import pdf_of, typst_of
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import MOTION
 from dofkit.homework.questions.equations import EquationQuestion
@@ -75,15 +74,6 @@ def _markdown(sheet: WrittenSheet, out: Path) -> None:
         _beside(out, path, figure.data)
 
 
-def _tex(sheet: WrittenSheet, out: Path) -> None:
-    out.write_text(tex_of(sheet.markdown), encoding="utf-8")
-    for path, figure in sheet.figures.items():
-        if path.endswith(".svg"):
-            _beside(out, str(Path(path).with_suffix(".pdf")), pdf_of_picture(figure.data))
-        else:
-            _beside(out, path, figure.data)
-
-
 def _beside(out: Path, path: str, data: bytes) -> None:
     target = out.parent / path
     target.parent.mkdir(parents=True, exist_ok=True)
@@ -91,7 +81,7 @@ def _beside(out: Path, path: str, data: bytes) -> None:
 
 
 #: How a sheet is written, by the name of the format.
-HANDOUTS: dict[str, Callable[[WrittenSheet, Path], None]] = {"html": _html, "pdf": _pdf, "tex": _tex, "md": _markdown}
+HANDOUTS: dict[str, Callable[[WrittenSheet, Path], None]] = {"html": _html, "pdf": _pdf, "md": _markdown}
 
 
 def write_sheet(sheet: WrittenSheet, form: str, out: Path) -> None:

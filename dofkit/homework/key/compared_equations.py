@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import re
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -10,22 +11,30 @@ from typing import NamedTuple, TypeVar
 
 from dofkit.base.errors import SceneError, TextError
 from dofkit.classification.dependence.equivalence import Compared, Sameness, compare
-from dofkit.expressions.text import UnknownNameError
-from dofkit.homework.answers.relations import AnswerReading
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
+from dofkit.expressions.text import Comparison, to_text
+from dofkit.expressions.tree import Expr
+from dofkit.homework.answers.relations import AnswerReading, is_constant_name
 from dofkit.homework.answers.rounding import exact_ways
-from dofkit.homework.judgement import HALF, NOTHING, Given, JudgedReading, Judgement, needs_review, partly, right, wrong
+from dofkit.homework.judgement import HALF, NOTHING, JudgedReading, Judgement, needs_review, partly, right, wrong
+from dofkit.homework.key.compared_motion import in_time
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import renamed, without_own
-from dofkit.homework.key.second_derivatives import held_accelerations
-from dofkit.homework.sentences.translations import say
+from dofkit.homework.key.regions import Condition, compared_regions, conditions, counterexample
+from dofkit.homework.key.right_motion import is_zero
+from dofkit.homework.sentences.translations import Said, say
+from dofkit.methods.classify import classify
+from dofkit.motion.lagrange.elimination import by_time
 from dofkit.scene.added_equations import Read, with_equations
 from dofkit.scene.lowering import lower
+from dofkit.scene.scene import Scene
 from dofkit.system import System
 
 _FEEDBACK = {
     Sameness.SAME: "",
     Sameness.IRREGULAR: (
-        "The solutions are correct, but the gradient vanishes on all of them, as for a squared equation."
+        "The solutions are correct, but the gradient vanishes on all of them, as for a squared equation: take the root."
     ),
     Sameness.BRANCH: "This describes only one branch: the others were lost by taking a root.",
     Sameness.DIFFERENTIATED: "This is the time derivative of the constraint: the constant is lost, so it is weaker.",
@@ -44,8 +53,11 @@ _HALVES = frozenset({Sameness.IRREGULAR, Sameness.BRANCH, Sameness.DIFFERENTIATE
 _RIGHT = frozenset({Sameness.SAME, Sameness.INTEGRATED})
 #: What the equations of an answer are called in the scene that holds them.
 ANSWER = "the answer"
+_TURNING = frozenset({"sin", "cos", "tan"})
 #: The code of an answer whose numbers are rounded.
 ROUNDED = "ROUNDED"
+#: A length that nobody named, as a scene's own equations call its square.
+_UNNAMED = re.compile(r"\b_[A-Z]\d+\b")
 Found = TypeVar("Found")
 
 
@@ -73,10 +85,12 @@ class EquationComparison:
     key: Key
     names: tuple[str, ...]
 
-    def judgement(self, way: AnswerReading, answer: Given) -> Judgement:
-        """What one reading of an answer is worth. Raises TextError for names that nobody declared."""
+    def judgement(self, way: AnswerReading) -> Judgement:
+        """Return what one reading of an answer is worth; names that nothing explains leave it open."""
         found = self._found(way)
         if found.status == "wrong" and found.share == NOTHING:
+            if any(map(_is_rounded_angle, way.relations)):
+                return needs_review(way.shown, "it contains a rounded angle.")
             for exact in exact_ways(way):
                 if self._found(exact).status == "right":
                     told = "The numbers are rounded: write them exactly, with roots and fractions."
@@ -109,11 +123,13 @@ class EquationComparison:
             return self._undecided(way)
         forms = any(self.key.constraints[name].form == "pfaffian" for name in self.names)
         if forms and not way.moving and not way.read().moving:
-            return self._told(way.read(frozenset(way.own)), way.shown)
+            found = self._told(way.read(frozenset(way.own)), way.shown)
+            if found.status in ("right", "partly") or all(map(is_constant_name, way.own)):
+                return found
         gone = without_own(way, self.key.scene)
         if gone is not None:
             return self._declared(gone, way.shown)
-        for other, names in renamed(way, self.key.scene, self.key.constants):
+        for other, names in renamed(way, self.key.scene, self.key.declared.constants):
             found = self._declared(other)
             if found.status == "right":
                 told = ", ".join(f"{own} = {name}" for own, name in names.items())
@@ -121,17 +137,38 @@ class EquationComparison:
         return self._undecided(way)
 
     def _undecided(self, way: AnswerReading) -> Judgement:
-        """An equation in coordinates that the assignment offers needs a review. Raises UnknownNameError for others."""
-        if set(way.own) <= self.key.also.keys():
-            return needs_review(way.shown, _UNDECIDED)
-        raise undeclared(way, self.key)
+        """Return that an equation needs a review: in coordinates that the assignment offers, or in unknown names."""
+        strange = [name for name in way.own if name not in self.key.also]
+        return needs_review(way.shown, undeclared(strange[0]) if strange else _UNDECIDED)
 
     def _declared(self, way: AnswerReading, shown: str = "") -> Judgement:
         if not way.on_coordinates and any(e.symbols for c in way.relations for e in (c.left, c.right)):
             raise TextError("the answer contains no coordinates", 1, "write an equation between the coordinates")
         if any(s.args[0] == "acceleration" for c in way.relations for e in (c.left, c.right) for s in e.symbols):
             return self._accelerated(way)
-        return self._told(way.read(), shown or way.shown)
+        found = self._told(way.read(), shown or way.shown)
+        if found.status == "right":
+            return found
+        region = self._region(way)
+        if region is not None or found.share != NOTHING:
+            return region or found
+        return self._with_counterexample(found, way)
+
+    def _with_counterexample(self, found: Judgement, way: AnswerReading) -> Judgement:
+        """Return a judgement with a configuration, if one is known, that the answer allows wrongly."""
+        system = lower(self.key.scene)
+        asked = [r.expr for i in system.numbers_of(*self.names) for r in system.constraints[i].relations]
+        symbols = {s for c in way.relations for e in (c.left, c.right, *asked) for s in e.symbols}
+        finite = all(s.args[0] in ("coordinate", "parameter") for s in symbols)
+        equations = all(c.relation == "=" for c in way.relations)
+        if len(asked) != 1 or not finite or not equations or found.codes == (Sameness.EMPTY.value,):
+            return found
+        point = counterexample(self._others(), way.relations, asked[0])
+        return (
+            found.saying(say("Your equation allows {point}, which the constraint forbids.", point=point))
+            if point
+            else found
+        )
 
     def _accelerated(self, way: AnswerReading) -> Judgement:
         """Equations of accelerations: a constraint that was differentiated twice is partly right."""
@@ -145,6 +182,25 @@ class EquationComparison:
             return needs_review(way.shown, "it contains accelerations.")
         return wrong(way.shown, "It contains accelerations; a constraint of this kind does not.", "DIFFERENT")
 
+    def _region(self, way: AnswerReading) -> Judgement | None:
+        """Return what inequalities are worth, compared as regions, or None if there are equations."""
+        system = lower(self.key.scene)
+        asked = [r for i in system.numbers_of(*self.names) for r in system.constraints[i].relations]
+        answer = conditions(way.relations)
+        if answer is None or any(r.sense == "=" for r in asked):
+            return None
+        wanted = [Condition(r.expr, r.sense == ">") for r in asked]
+        found = compared_regions(self._others(), wanted, answer)
+        if not found.beyond and not found.lacking:
+            same = None not in (found.beyond, found.lacking)
+            return right(way.shown) if same else needs_review(way.shown, _UNDECIDED)
+        allows = "Your inequality allows {point}, which the constraint forbids."
+        forbids = "Your inequality forbids {point}, which the constraint allows."
+        told = say(allows if found.beyond else forbids, point=found.point) if found.point else ""
+        both = found.beyond and found.lacking
+        sameness = Sameness.DIFFERENT if both else Sameness.WEAKER if found.beyond else Sameness.STRONGER
+        return wrong(way.shown, told, sameness.value)
+
     def _told(self, read: Read, shown: str) -> Judgement:
         found = self.key.compared((self.names, read.texts, read.constants), lambda: self._compared(read))
         if found.sameness is Sameness.UNDECIDED:
@@ -154,7 +210,24 @@ class EquationComparison:
             return right(shown, told)
         if found.sameness in _HALVES:
             return partly(HALF, shown, told, code)
-        return self._in_part(found, shown, told, code)
+        return self._in_part(found, read, shown, told, code)
+
+    def _others(self) -> Scene:
+        """Return the scene without the constraints that are asked for."""
+        pairs = zip(self.key.scene.constraints, self.key.constraints, strict=True)
+        kept = tuple(c for c, name in pairs if name not in self.names)
+        return self.key.scene.model_copy(update={"constraints": kept, "expect": {}, "energies": None})
+
+    def _by_rank(self, read: Read, shown: str, told: str, code: str) -> Judgement:
+        """Return what implied equations are worth, by the number of velocities that they leave free."""
+        scene = self._others()
+        free = classify(scene).velocity_dof
+        yours, system = classify(with_equations(scene, read, ANSWER)).velocity_dof, self.key.report.velocity_dof
+        if free is None or yours is None or system is None or free - system < 2 or not system < yours < free:
+            return wrong(shown, told, code)
+        more = "Your equations leave {yours} independent velocities; the system has {system}: equations are missing."
+        count = say(more, yours=yours, system=system)
+        return partly(Fraction(free - yours, free - system), shown, count, code)
 
     def _compared(self, read: Read) -> Compared:
         return with_answer(
@@ -163,9 +236,11 @@ class EquationComparison:
             lambda posed: compare(posed.system, posed.system.numbers_of(*self.names), posed.own, read.constants),
         )
 
-    def _in_part(self, found: Compared, shown: str, told: str, code: str) -> Judgement:
-        """Of several constraints, points in proportion to those that follow."""
+    def _in_part(self, found: Compared, read: Read, shown: str, told: str, code: str) -> Judgement:
+        """Return points in proportion to the constraints that are implied, or to the rank of what is."""
         share = Fraction(sum(found.met), len(found.met)) if len(self.names) > 1 and found.met else NOTHING
+        if found.sameness is Sameness.WEAKER and share == NOTHING and len(self.names) > 1:
+            return self._by_rank(read, shown, told, code)
         if not 0 < share < 1:
             return wrong(shown, told, code)
         missing = [n for n, met in zip(self.names, found.met, strict=True) if not met]
@@ -174,9 +249,81 @@ class EquationComparison:
         return partly(share, shown, told, code).saying(count)
 
 
-def undeclared(way: AnswerReading, key: Key) -> UnknownNameError:
-    """That an answer brings a name that stands for nothing."""
-    name = way.own[0]
-    known: Sequence[str] = [*sorted(key.names_with_also.coordinates), *key.names.parameters]
-    told = f"`{name}` is not declared"
-    return UnknownNameError(told, way.places.get(name, 1), f"the declared names are {', '.join(known[:12])}")
+def _is_rounded_angle(c: Comparison) -> bool:
+    """Return whether a relation has the sine, cosine or tangent of an angle in degrees with decimals."""
+    angles = (n.args[1] for e in (c.left, c.right) for n in ex.nodes(e) if n.op == "fn" and n.args[0] in _TURNING)
+    degrees = (ex.num(180) * angle / ex.PI for angle in angles)
+    return any(d.op == "num" and d.args[0].denominator > 1 for d in degrees)
+
+
+def undeclared(name: str) -> Said:
+    """Return that an answer brings a name that stands for nothing."""
+    return say("the name {name} is not declared.", name=name)
+
+
+def held_accelerations(way: AnswerReading, key: Key, names: tuple[str, ...]) -> bool | None:
+    """Is every equation a constant multiple of such a derivative of one of the constraints, and none left out?"""
+    system = lower(key.scene)
+    wanted = [r.expr for i in system.numbers_of(*names) for r in system.constraints[i].relations if r.sense == "="]
+    if not wanted or any(c.relation != "=" for c in way.relations):
+        return False
+    given = [c.left - c.right for c in way.relations]
+    twice = [by_time(_in_velocities(g)) for g in wanted]
+    told = [[_multiple(e, g) for g in twice] for e in given]
+    if any(True not in row and None in row for row in told):
+        return None
+    columns = [[row[j] for row in told] for j in range(len(twice))]
+    if any(True not in column and None in column for column in columns):
+        return None
+    return all(True in row for row in told) and all(True in column for column in columns)
+
+
+def _in_velocities(e: Expr) -> Expr:
+    """A relation between velocities: a finite one differentiated by time, a form divided by dt."""
+    if all(s.args[0] in ("coordinate", "parameter", "time") for s in e.symbols):
+        return by_time(e)
+    return in_time(e)
+
+
+def _multiple(e: Expr, g: Expr) -> bool | None:
+    """Is ``e`` a constant times ``g``, a constant that is not 0?"""
+    empty: frozenset[Expr] = frozenset()
+    for s in sorted((s for s in g.symbols if s.args[0] == "acceleration"), key=repr):
+        a, b = diff(e, s), diff(g, s)
+        if b.is_zero:
+            continue
+        told = is_zero(e * b - g * a, empty)
+        factor = [is_zero(diff(a, x) * b - diff(b, x) * a, empty) for x in (a.symbols | b.symbols) if _moves(x)]
+        if told is False or False in factor or a.is_zero:
+            return False
+        return None if told is None or None in factor else True
+    return False
+
+
+def _moves(symbol: Expr) -> bool:
+    return symbol.op == "sym" and symbol.args[0] != "parameter" and symbol != ex.TIME
+
+
+def equations_of(key: Key, names: tuple[str, ...]) -> str:
+    """The equations of these constraints, with semicolons between them; of one as it is written where it is a text.
+
+    Where they hold names that an answer cannot have, such as the turns of a body in space, their words stand instead.
+    """
+    return "; ".join(_equations(key, name) for name in names)
+
+
+def _equations(key: Key, name: str) -> str:
+    entry = key.constraints[name]
+    (constraint,) = (c for c in lower(key.scene).constraints if c.name == name)
+    if constraint.facts.written or not all(_sayable(key, relation.expr) for relation in constraint.relations):
+        return entry.text
+    texts = [f"{to_text(relation.expr)} {relation.sense} 0" for relation in constraint.relations]
+    return "; ".join(_UNNAMED.sub("const", text) for text in texts)
+
+
+def _sayable(key: Key, expr: Expr) -> bool:
+    """Are all names in it declared, lengths without a name apart?"""
+    known = {*key.names.coordinates, *key.names.parameters}
+    return all(
+        s.args[0] == "time" or str(s.args[-1]) in known or _UNNAMED.fullmatch(str(s.args[-1])) for s in expr.symbols
+    )

@@ -17,14 +17,14 @@ from typing import NamedTuple
 from flint import nmod_mat
 
 from dofkit.exact.errors import NoValueError, raising_no_value
-from dofkit.exact.matrices.modular import rank_of
+from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.independence import independent_generators
+from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr
 from dofkit.homework.key.right_motion import POINTS, RightMotion, is_zero, points
-from dofkit.motion.lagrange.rates import by_time
+from dofkit.motion.lagrange.elimination import by_time
 
 #: Systems up to this size are solved by Cramer's rule where points alone may mislead.
 BY_CRAMER = 3

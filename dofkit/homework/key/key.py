@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
 
 from dofkit.base.errors import DofkitError
 from dofkit.classification.dependence.equivalence import Compared
 from dofkit.expressions.text import Names
-from dofkit.expressions.tree import coordinate
+from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.key.right_motion import RightMotion, right_motion_or_why
 from dofkit.methods.classify import classify
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints.equations import Equation
-from dofkit.scene.names import coordinate_table, vocabulary_of
+from dofkit.scene.names import coordinate_table
 from dofkit.scene.scene import Scene
 
 #: A question about a set of names of a scene, whose report is known.
@@ -90,17 +90,14 @@ class Key:
         return known
 
     @cached_property
-    def names(self) -> Names:
+    def declared(self) -> DeclaredNames:
         """What an answer's texts may mention."""
-        names = vocabulary_of(self.scene).names
-        moving = {other: coordinate(name) for other, name in self.others.items() if name in names.coordinates}
-        still = {o: names.parameters[name] for o, name in self.others.items() if name in names.parameters}
-        return replace(names, parameters={**names.parameters, **moving, **still}) if moving or still else names
+        return DeclaredNames.of(self.scene, self.also, self.others)
 
-    @cached_property
-    def names_with_also(self) -> Names:
-        """The same with the further coordinates, which are read in every notation of a declared one."""
-        return replace(self.names, coordinates=self.names.coordinates | self.also.keys())
+    @property
+    def names(self) -> Names:
+        """The names of formulas."""
+        return self.declared.names
 
     @cached_property
     def coordinates(self) -> list[str]:
@@ -127,11 +124,6 @@ class Key:
                 return key
             self._extended[names, texts] = key
         return self._extended[names, texts]
-
-    @cached_property
-    def constants(self) -> list[str]:
-        """The names of the scene's parameters without a value."""
-        return [n for n, e in self.names.parameters.items() if e.op == "sym" and n not in self.others]
 
     @cached_property
     def motion(self) -> RightMotion | DofkitError:

@@ -5,7 +5,7 @@ A new error is a row of `ERRORS`: its code, what to say, and the degrees of free
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -126,7 +126,8 @@ ERRORS: tuple[Misconception, ...] = (
     ),
     Misconception(
         "NH_HALF",
-        "A non-holonomic constraint does not remove half a degree of freedom.",
+        "If half of each non-holonomic constraint was subtracted: it does not reduce the dimension of the "
+        "configuration space at all.",
         _less(lambda f: Fraction(f.nonholonomic, 2)),
         True,
     ),
@@ -163,7 +164,7 @@ ERRORS: tuple[Misconception, ...] = (
     ),
     Misconception(
         "CART_FIXED",
-        "The support moves freely along its guide: its motion is not prescribed.",
+        "Was the motion of the support taken as prescribed? It moves freely along its guide.",
         _less(lambda f: f.guides if f.dof > 1 else 0),
     ),
     Misconception(
@@ -186,7 +187,7 @@ ERRORS: tuple[Misconception, ...] = (
         "SUM_SQ", "A vanishing sum of squares stands for several equations: each square vanishes.", _sum_of_squares
     ),
     Misconception(
-        "GROUND", "The ground is a fixed link: it must be counted as a link, but it has no freedom.", _ground
+        "GROUND", "The ground is one of the n links in 3 (n - 1) - 2 j: count it there, but it cannot move.", _ground
     ),
     Misconception(
         "SPATIAL_GRUBLER",
@@ -307,3 +308,66 @@ def explain_label(part: str, entry: ConstraintEntry, key: Key) -> tuple[str, str
     if entry.holonomic:
         return "HOLONOMIC_MISSED", "It relates coordinates (and possibly time) only, so it is holonomic."
     return "NH_MISSED", "It constrains velocities and is not integrable."
+
+
+_OF_LABELS = {
+    "RHEO_MISSED": "Time occurs explicitly in the constraint or in its integral, so it is rheonomic; it was called "
+    "scleronomic.",
+    "RHEO_NH": "A constraint on velocities was called rheonomic, but time does not occur in it explicitly.",
+    "RHEO_MOVES": "A constraint in which time does not occur explicitly was called rheonomic.",
+    "EQ_AS_INEQ": "An equation, which is bilateral, was called unilateral.",
+    "HOLONOMIC_MISSED": "A relation between coordinates (and possibly time) was called non-holonomic.",
+    "NH_MISSED": "A constraint on velocities that is not integrable was called holonomic.",
+}
+_OF_NUMBERS = {
+    "CARRIED": "The number is consistent with an earlier answer that was wrong: the step itself is correct.",
+    "OTHER_CONVENTION": "The number of independent velocities was given instead of the dimension of the configuration "
+    "space, or vice versa.",
+}
+_OF_EQUATIONS = {
+    "SAME": "An equivalent form of the constraint.",
+    "IRREGULAR": "The same set of configurations, but the gradient vanishes on it, as for a squared equation.",
+    "ONE_BRANCH": "Only one branch of the constraint, such as a square root with one sign.",
+    "DIFFERENTIATED": "The time derivative of the constraint: its constant is lost.",
+    "INTEGRATED": "The integral of the differential constraint, with its constant.",
+    "INTEGRATED_NO_CONSTANT": "The integral of the differential constraint without its constant.",
+    "WEAKER": "A weaker condition: it is implied by the constraint but does not imply it.",
+    "STRONGER": "A stronger condition: it implies the constraint but is not implied by it.",
+    "DIFFERENT": "A different constraint.",
+    "ROUNDED": "The constraint with a rounded number instead of the exact one.",
+    "EMPTY": "No configuration satisfies it together with the other constraints.",
+    "UNDECIDED": "It could not be decided whether this is the same constraint.",
+    "INTEGRABLE": "The constraint is integrable but was said not to be.",
+    "NOT_INTEGRABLE": "The constraint is not integrable, but an integral was given.",
+    "NOT_INTEGRATED": "The answer still contains velocities instead of an integral.",
+    "WRONG_INTEGRAL": "A relation between coordinates that is not an integral of the constraint.",
+}
+_OF_NAMES = {
+    "REDUNDANT_MISSED": "A redundant constraint is missing from the answer.",
+    "INCOMPLETE": "The named coordinates do not determine the configuration.",
+    "DEPENDENT": "The named coordinates are not independent.",
+    "NOT_REDUNDANT": "Without the named constraints the system would have more freedom.",
+}
+_OF_MOTION = {
+    "TOTAL_ENERGY": "The energy T + V was given instead of the Lagrangian T - V.",
+    "SIGN": "The sign is wrong, for example V - T instead of the Lagrangian T - V.",
+    "WRONG_LAGRANGIAN": "A different Lagrangian: it does not give the equations of motion.",
+    "WRONG_MOMENTUM": "Not the derivative of the Lagrangian with respect to that velocity.",
+    "WRONG_FORCE": "Not the derivative of the Lagrangian with respect to that coordinate plus non-potential forces.",
+    "WRONG_MOTION": "An equation that is not satisfied by the motion.",
+    "SMALL_ANGLES": "The equations of motion linearized for small oscillations.",
+    "NO_ACCELERATION": "A correct equation that does not determine the acceleration.",
+    "INEQUALITY": "An inequality was given instead of an equation of motion.",
+    "OTHER_COORDINATE": "The equation of motion of another coordinate.",
+    "FOLLOWS": "An equation that is implied by the equations of motion.",
+}
+
+#: Code -> what it means.
+CODES: Mapping[str, str] = {
+    **{error.code: error.hint for error in ERRORS},
+    **_OF_LABELS,
+    **_OF_NUMBERS,
+    **_OF_EQUATIONS,
+    **_OF_NAMES,
+    **_OF_MOTION,
+}

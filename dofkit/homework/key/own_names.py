@@ -6,7 +6,6 @@ theta. A relation that is linear in a name of the student's own is solved for it
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from itertools import permutations
 
@@ -14,13 +13,11 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, replace_nodes, substitute
 from dofkit.expressions.text import Comparison
 from dofkit.expressions.tree import ONE, ZERO, Expr
-from dofkit.homework.answers.relations import AnswerReading
+from dofkit.homework.answers.relations import AnswerReading, is_constant_name
 from dofkit.scene.scene import Scene
 
 #: So many names of a student's own may stand for declared constants.
 MOST_RENAMED = 2
-#: What constants of integration are called: these are no declared ones under another name.
-_OF_INTEGRATION = re.compile(r"[CcKk](?:_?\d)?|const\w*|konst\w*")
 _TWO = 2
 _SINE, _COSINE = ex.parameter("own sine"), ex.parameter("own cosine")
 
@@ -210,7 +207,7 @@ def renamed(
     reading: AnswerReading, scene: Scene, constants: Sequence[str]
 ) -> Iterator[tuple[AnswerReading, dict[str, str]]]:
     """The reading with names of its own taken for declared ``constants`` that it does not mention, in every way."""
-    if any(_OF_INTEGRATION.fullmatch(name) for name in reading.own):
+    if any(map(is_constant_name, reading.own)):
         return
     if not reading.own or reading.moving or len(reading.own) > MOST_RENAMED:
         return

@@ -15,15 +15,14 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import Comparison, spelled, to_text
 from dofkit.expressions.tree import ZERO, Expr
-from dofkit.homework.answers.energies import with_energies
-from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of
+from dofkit.homework.answers.declared import DeclaredNames
+from dofkit.homework.answers.pieces import with_energies
+from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of, with_explained_names
 from dofkit.homework.answers.script import Script
-from dofkit.homework.judgement import Given
-from dofkit.homework.key.compared_equations import undeclared
+from dofkit.homework.judgement import Given, Reading
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_coordinates import extended, offered
 from dofkit.homework.key.own_names import renamed, with_constants
-from dofkit.scene.added_equations import as_text
 
 #: Names of an answer's own for multipliers.
 _MULTIPLIER = re.compile(r"(lambda|lam|mu|Lambda)_?\w{0,3}|(multiplier|mult)_?\d{0,2}")
@@ -42,17 +41,16 @@ _ZERO = re.compile(r"\A\s*(?:zero|null|zéro|cero)\s*\.?\s*\Z", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class PosedMotion:
-    """``key``: of the scene, with the coordinates that the answer defines; ``multipliers``: its names for them.
+    """A reading beside the scene: ``key`` has the coordinates that the answer defines.
 
-    ``guesses``: where names are not declared, what they may mean; ``error``: what is wrong where none is right.
+    ``multipliers``: the answer's names for them; ``guesses``: what undeclared names may mean; ``strange``: one of them.
     """
 
     key: Key
     relations: tuple[Comparison, ...]
-    shown: str
     multipliers: tuple[Expr, ...] = ()
     guesses: tuple[PosedMotion, ...] = ()
-    error: TextError | None = None
+    strange: str = ""
 
     @property
     def value(self) -> Expr:
@@ -60,13 +58,29 @@ class PosedMotion:
         return self.relations[0].left
 
 
-def posed_motions(answer: Given, key: Key, value: bool) -> list[PosedMotion]:
-    """Every way to read an answer, as a value or as equations. Raises TextError."""
-    vocabulary = AnswerNames(key.names_with_also, accelerations=True)
-    answer = with_energies(answer, key.names_with_also) if value else answer
+def motion_readings(answer: Given, names: DeclaredNames, value: bool) -> list[Reading]:
+    """Return every way to read an answer, as a value or as equations. Raises TextError."""
+    vocabulary = AnswerNames(names.with_also, accelerations=True)
+    answer = with_energies(answer, names.with_also) if value else answer
     ways = readings_of(answer, vocabulary, _without_lead if value else None)
     claims = [way.claim if way.derived else way for way in ways]
-    return [_posed(side, key, value) for way in claims for side in (_sides(way) if value else [way])]
+    sides = [side for way in claims for side in (_sides(way) if value else [way])]
+    for side in sides if value else ():
+        if sum(side.bare) != 1:
+            raise TextError("one expression is needed here", 1, "write the expression alone, such as L = ...")
+    sides = with_explained_names([s._replace(own=tuple(_strange(s, value))) for s in sides], names) and sides
+    return [Reading(side, _shown_reading(side, value), side.rank, not _strange(side, value)) for side in sides]
+
+
+def _strange(way: AnswerReading, value: bool) -> list[str]:
+    """Return the names of a reading that are not declared and no multipliers."""
+    return [n for n in way.own if value or n in way.moving or not _MULTIPLIER.fullmatch(spelled(n))]
+
+
+def _shown_reading(way: AnswerReading, value: bool) -> str:
+    if value and len(way.relations) == 1:
+        return to_text(way.relations[0].left)
+    return way.shown
 
 
 def _sides(way: AnswerReading) -> list[AnswerReading]:
@@ -86,31 +100,31 @@ def _without_lead(script: Script) -> Script:
     return script.replaced(_CONSTANT, "").replaced(_ZERO, "0")
 
 
-def _posed(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
+def posed_motion(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
+    """Return a reading beside the scene. Raises TextError if it defines coordinates that leave configurations out."""
     way = _defining_constants(way, key)
-    multipliers = [n for n in way.own if not value and n not in way.moving and _MULTIPLIER.fullmatch(spelled(n))]
+    strange = _strange(way, value)
+    multipliers = tuple(ex.parameter(n) for n in way.own if n not in strange)
     used = {n for c in way.relations for n in _names(c)} & key.also.keys()
-    other = (*(name for name in way.own if name not in multipliers), *sorted(used))
+    other = (*strange, *sorted(used))
     defining = [c for c in way.relations if c.relation == "=" and _defines(c, other)]
-    rest = [(c, bare) for c, bare in zip(way.relations, way.bare, strict=True) if c not in defining]
+    rest = [c for c in way.relations if c not in defining]
     defined = {n for c in defining for n in other if n in _names(c)}
-    known = tuple(ex.parameter(n) for n in multipliers)
-    if value and (len(rest) != 1 or not rest[0][1]):
+    if value and len(rest) != 1:
         raise TextError("one expression is needed here", 1, "write the expression alone, such as L = ...")
     if used - defined:
         key = offered(key, sorted(used - defined))
         other = tuple(name for name in other if name not in used - defined)
     if defined and defined == set(other):
         key = extended(key, other, defining)
-    if defined == set(other):
+    if defined == set(other) and rest:
         table = {ex.parameter(n): ex.coordinate(n) for n in other}
-        relations = tuple(_substituted(c, table) for c, _ in rest)
-        return PosedMotion(key, relations, _shown(relations, value), known)
+        return PosedMotion(key, tuple(_substituted(c, table) for c in rest), multipliers)
     guesses = tuple(
-        PosedMotion(key, guess.relations, _shown(guess.relations, value), known)
-        for guess, _ in renamed(way._replace(own=other), key.scene, key.constants)
+        PosedMotion(key, guess.relations, multipliers)
+        for guess, _ in renamed(way._replace(own=other), key.scene, key.declared.constants)
     )
-    return PosedMotion(key, way.relations, way.shown, known, guesses, undeclared(way._replace(own=other), key))
+    return PosedMotion(key, way.relations, multipliers, guesses, other[0])
 
 
 def _defining_constants(way: AnswerReading, key: Key) -> AnswerReading:
@@ -160,7 +174,3 @@ def _defines(c: Comparison, own: Sequence[str]) -> bool:
 
 def _substituted(c: Comparison, table: Mapping[Expr, Expr]) -> Comparison:
     return Comparison(substitute(c.left, table), c.relation, substitute(c.right, table), c.column)
-
-
-def _shown(relations: Sequence[Comparison], value: bool) -> str:
-    return to_text(relations[0].left) if value and relations else "; ".join(as_text(c) for c in relations)

@@ -11,17 +11,14 @@ from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.solving.triangular import TriangularSolver
-from dofkit.exact.zero.identity import zero_and_verdict
-from dofkit.exact.zero.independence import independent_generators
+from dofkit.exact.triangular import TriangularSolver
+from dofkit.exact.zero import independent_generators, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.motion.lagrange.derivation import derive
-from dofkit.motion.lagrange.elimination import ELIMINATIONS
+from dofkit.motion.lagrange.elimination import ELIMINATIONS, by_time, in_velocities
 from dofkit.motion.lagrange.equations import derived_of, read
-from dofkit.motion.lagrange.model import in_velocities
-from dofkit.motion.lagrange.rates import by_time
 from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.scene.scene import Scene
 

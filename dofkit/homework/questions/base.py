@@ -10,7 +10,8 @@ from typing import Annotated, ClassVar, get_args
 from pydantic import BeforeValidator, Field
 
 from dofkit.base.errors import Fault
-from dofkit.homework.judgement import Given, Judgement, Sentence
+from dofkit.homework.answers.declared import DeclaredNames
+from dofkit.homework.judgement import Given, Judgement, Reading, Sentence, shown_text_of, verdict
 from dofkit.homework.key.key import Key
 from dofkit.homework.sentences.translations import Said, say
 from dofkit.scene.fields import Number, WrittenModel, exact, fault_error
@@ -81,13 +82,21 @@ class QuestionBase(WrittenModel):
         del key
         yield from ()
 
-    def read(self, answer: Given, key: Key) -> str:
-        """The answer as it is understood. Raises TextError where it cannot be read."""
+    def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
+        """Return every way to understand an answer. Raises TextError, and DoubtError for what commits to nothing."""
+        raise NotImplementedError
+
+    def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
+        """Return what one reading is worth."""
         raise NotImplementedError
 
     def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
-        """What an answer is worth. Raises TextError where it cannot be read."""
-        raise NotImplementedError
+        """Return what an answer is worth: one verdict for all its readings. Raises TextError if it cannot be read."""
+        return verdict(self.readings(answer, key.declared), lambda reading: self.judged(reading, key, earlier))
+
+    def read(self, answer: Given, names: DeclaredNames) -> str:
+        """Return the answer as it is understood, the plainest readings only. Raises TextError if it cannot be read."""
+        return shown_text_of(self.readings(answer, names))
 
     def reveals(self, found: Judgement) -> bool:
         """Would an example that is judged so tell of the answer? What is half right does."""

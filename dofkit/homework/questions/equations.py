@@ -9,14 +9,14 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import BeforeValidator, Field
 
 from dofkit.base.errors import Fault
-from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of
+from dofkit.homework.answers.declared import DeclaredNames
+from dofkit.homework.answers.relations import AnswerNames, is_constant_name, readings_of, with_explained_names
 from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import is_none
-from dofkit.homework.judgement import Given, Judgement, Sentence, agreed, needs_review, right, wrong
-from dofkit.homework.key.compared_equations import EquationComparison
+from dofkit.homework.judgement import Given, Judgement, Reading, Sentence, needs_review, right, wrong
+from dofkit.homework.key.compared_equations import EquationComparison, equations_of
 from dofkit.homework.key.compared_integrals import integral_judgement
 from dofkit.homework.key.key import Key
-from dofkit.homework.key.stated_equations import equations_of
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.sentences.translations import say
 from dofkit.scene.fields import Listed, suggestion
@@ -47,20 +47,16 @@ class EquationQuestion(QuestionBase):
     def faults(self, key: Key) -> Iterator[Fault]:
         yield from _unknown(self.constraint, key)
 
-    def read(self, answer: Given, key: Key) -> str:
-        return " or ".join(dict.fromkeys(way.shown for way in self._ways(answer, key)))
-
-    def _ways(self, answer: Given, key: Key) -> list[AnswerReading]:
-        vocabulary = AnswerNames(key.names_with_also, free=True, accelerations=True)
-        return [way.with_own(key.also) for way in readings_of(answer, vocabulary)]
+    def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
+        ways = with_explained_names(readings_of(answer, AnswerNames(names.with_also, accelerations=True)), names)
+        return [Reading(way.with_own(names.also), way.shown, way.rank, not way.own) for way in ways]
 
     def solution(self, key: Key) -> Sentence:
         return say("A correct answer is {text}.", text=equations_of(key, self.constraint))
 
-    def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
+    def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        comparison = EquationComparison(key, self.constraint)
-        return agreed([comparison.judgement(way, answer) for way in self._ways(answer, key)])
+        return EquationComparison(key, self.constraint).judgement(reading.value)
 
 
 class IntegralQuestion(QuestionBase):
@@ -82,13 +78,11 @@ class IntegralQuestion(QuestionBase):
             hint = "`integral` asks about a differential constraint"
             yield Fault(f"'{self.constraint}' is not a differential constraint", ("constraint",), hint=hint)
 
-    def read(self, answer: Given, key: Key) -> str:
+    def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         if is_none(answer, _says_relation):
-            return "none"
-        return " or ".join(dict.fromkeys(way.shown for way in self._ways(answer, key)))
-
-    def _ways(self, answer: Given, key: Key) -> list[AnswerReading]:
-        return readings_of(answer, AnswerNames(key.names, signs_apart=True), _undifferentiated)
+            return [Reading(None, "none")]
+        ways = readings_of(answer, AnswerNames(names.names, signs_apart=True), _undifferentiated)
+        return [Reading(way, way.shown, way.rank, all(map(is_constant_name, way.own))) for way in ways]
 
     def solution(self, key: Key) -> Sentence:
         entry = key.constraints[self.constraint]
@@ -96,23 +90,21 @@ class IntegralQuestion(QuestionBase):
             return say("It is not integrable. {reason}", reason=entry.reason)
         return "" if entry.integral is None else say("A correct answer is {text}.", text=entry.integral)
 
-    def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
+    def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
         entry = key.constraints[self.constraint]
-        if is_none(answer, _says_relation):
+        if reading.value is None:
             if entry.holonomic is None:
                 return needs_review("none", "it is not known whether the constraint is integrable.")
             told = "The constraint is integrable, on its own or together with the other constraints."
             return wrong("none", told, "INTEGRABLE") if entry.holonomic else right("none")
-        ways = self._ways(answer, key)
         if entry.holonomic is False:
-            shown = ways[0].shown
             return wrong(
-                shown,
+                reading.shown,
                 ("This is not an integral of the constraint: its differential is a different condition."),
                 "NOT_INTEGRABLE",
             )
-        return agreed([integral_judgement(way, key, self.constraint) for way in ways])
+        return integral_judgement(reading.value, key, self.constraint)
 
 
 #: `d(x y) = 0` says that x y is constant.

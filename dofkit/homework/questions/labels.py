@@ -11,8 +11,18 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from dofkit.base.errors import Fault
+from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.answers.label_words import TERMS, Labels, label_text, mentions, read_labels, word_of
-from dofkit.homework.judgement import Given, JudgedReading, Judgement, Sentence, needs_review, partly
+from dofkit.homework.judgement import (
+    DoubtError,
+    Given,
+    JudgedReading,
+    Judgement,
+    Reading,
+    Sentence,
+    needs_review,
+    partly,
+)
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.misconceptions import explain_label
 from dofkit.homework.questions.base import Earlier, QuestionBase
@@ -53,9 +63,13 @@ class LabelQuestion(QuestionBase):
             self.wanted, about=about, parts=", ".join(f"{TERMS[p].holds} / {TERMS[p].fails}" for p in self.parts)
         )
 
-    def read(self, answer: Given, key: Key) -> str:
-        del key
-        return label_text(read_labels(answer))
+    def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
+        del names
+        labels = read_labels(answer)
+        hinted = [p for p in self.parts if p not in labels and mentions(p, answer)]
+        if hinted:
+            raise DoubtError("a property is described but not named.", 1, None)
+        return [Reading(labels, label_text(labels))]
 
     def reveals(self, found: Judgement) -> bool:
         return found.status in ("right", "needs_review")
@@ -66,15 +80,12 @@ class LabelQuestion(QuestionBase):
         reason = key.constraints[self.constraint].reason
         return say("The constraint is {labels}. {reason}", labels=", ".join(known), reason=reason) if known else ""
 
-    def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
+    def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        given, entry = read_labels(answer), key.constraints[self.constraint]
-        truth, shown = truths(entry), label_text(given)
+        given, entry = reading.value, key.constraints[self.constraint]
+        truth, shown = truths(entry), reading.shown
         if any(truth[p] is None for p in self.parts):
             return needs_review(shown, "the classification of this constraint is not known for certain.")
-        hinted = [p for p in self.parts if p not in given and mentions(p, answer)]
-        if hinted:
-            return needs_review(shown, "a property is described but not named.")
         twice = [p for p in self.parts if len(given.get(p, ())) > 1]
         if twice:
             return self._contradictory(given, twice, key)

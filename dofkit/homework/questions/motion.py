@@ -12,12 +12,14 @@ from pydantic import Field
 from dofkit.base.errors import DofkitError, Fault
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.homework.judgement import HALF, Given, Judgement, Sentence, agreed, needs_review, partly, right, wrong
+from dofkit.homework.answers.declared import DeclaredNames
+from dofkit.homework.judgement import HALF, Given, Judgement, Reading, Sentence, needs_review, partly, right, wrong
+from dofkit.homework.key.compared_equations import undeclared
 from dofkit.homework.key.compared_motion import AnsweredMotion, Followed, same_lagrangian
 from dofkit.homework.key.compared_motion import MotionSameness as Found
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_coordinates import offered
-from dofkit.homework.key.posed_motion import PosedMotion, posed_motions
+from dofkit.homework.key.posed_motion import PosedMotion, motion_readings, posed_motion
 from dofkit.homework.key.right_motion import RightMotion, is_zero
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.sentences.translations import Said, say
@@ -33,31 +35,26 @@ class _MotionQuestion(QuestionBase):
             hint = suggestion(coordinate, key.coordinates, "coordinates")
             yield Fault(f"the scene has no coordinate '{coordinate}'", ("coordinate",), hint=hint)
 
-    def read(self, answer: Given, key: Key) -> str:
-        return " or ".join(dict.fromkeys(posed.shown for posed in self._posed(answer, key)))
+    def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
+        return motion_readings(answer, names, value=isinstance(self, _Value))
 
-    def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
+    def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        return agreed([self._judged(posed) for posed in self._posed(answer, key)])
+        return self._judged(posed_motion(reading.value, key, isinstance(self, _Value)), reading.shown)
 
-    def _posed(self, answer: Given, key: Key) -> list[PosedMotion]:
-        return posed_motions(answer, key, value=isinstance(self, _Value))
-
-    def _judged(self, posed: PosedMotion) -> Judgement:
+    def _judged(self, posed: PosedMotion, shown: str) -> Judgement:
         for guess in posed.guesses:
-            found = self._judged(guess)
+            found = self._judged(guess, shown)
             if found.status == "right":
                 return found.saying("The names differ from those of the problem; they were matched to them.")
-        if posed.error is not None:
-            raise posed.error
+        if posed.strange:
+            return needs_review(shown, undeclared(posed.strange))
         motion = posed.key.motion
         if isinstance(motion, DofkitError):
-            return needs_review(
-                posed.shown, say(("the equations of motion could not be derived ({reason})."), reason=motion)
-            )
-        return self._judgement(posed, motion)
+            return needs_review(shown, say("the equations of motion could not be derived ({reason}).", reason=motion))
+        return self._judgement(posed, motion, shown)
 
-    def _judgement(self, posed: PosedMotion, known: RightMotion) -> Judgement:
+    def _judgement(self, posed: PosedMotion, known: RightMotion, shown: str) -> Judgement:
         raise NotImplementedError
 
     def solution(self, key: Key) -> Sentence:
@@ -75,8 +72,8 @@ class _MotionQuestion(QuestionBase):
 class _Value(_MotionQuestion):
     """One expression; a leading name is read over."""
 
-    def _judgement(self, posed: PosedMotion, known: RightMotion) -> Judgement:
-        return self._comparison(known.in_kept(posed.value), known, posed.shown)
+    def _judgement(self, posed: PosedMotion, known: RightMotion, shown: str) -> Judgement:
+        return self._comparison(known.in_kept(posed.value), known, shown)
 
     def _comparison(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
         raise NotImplementedError
@@ -210,8 +207,8 @@ class MotionQuestion(_MotionQuestion):
         one = "What is the equation of motion for {about}?"
         return say(one, about=about) if self.coordinate is not None else super().asked(about)
 
-    def _judgement(self, posed: PosedMotion, known: RightMotion) -> Judgement:
-        relations, own, shown, key = posed.relations, posed.multipliers, posed.shown, posed.key
+    def _judgement(self, posed: PosedMotion, known: RightMotion, shown: str) -> Judgement:
+        relations, own, key = posed.relations, posed.multipliers, posed.key
         if any(c.relation != "=" for c in relations):
             return wrong(shown, "An equation of motion is an equation, not an inequality.", "INEQUALITY")
         equations = tuple(c.left - c.right for c in relations)
@@ -275,6 +272,9 @@ def _all(found: Followed, known: RightMotion, shown: str) -> Judgement:
     good = Found.NOT not in told
     if good and rank >= wanted:
         return right(shown)
+    if good and rank <= 0:
+        why = "No acceleration is determined by this: write accelerations such as {name}."
+        return wrong(shown, say(why, name=f"{known.names[0]}ddot"), "WEAKER")
     if good:
         share = Fraction(max(rank, 0), wanted)
         told_why = say(

@@ -6,10 +6,11 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
+from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.answers.words import alternatives, is_none, lists_only, names_of
-from dofkit.homework.judgement import Given, Judgement, Sentence, agreed, needs_review, right, wrong
+from dofkit.homework.judgement import Given, Judgement, Reading, Sentence, needs_review, right, wrong
 from dofkit.homework.key.key import Key
-from dofkit.homework.key.own_coordinates import chosen_coordinates
+from dofkit.homework.key.own_coordinates import chosen_coordinates, with_chosen
 from dofkit.homework.key.selection import can_be_dropped, determine
 from dofkit.homework.questions.base import Earlier, QuestionBase
 from dofkit.homework.sentences.translations import say
@@ -23,22 +24,18 @@ class Coordinates(QuestionBase):
     examples: ClassVar[tuple[str, ...]] = ("u, w", "chi, where u = a cos(chi), w = a sin(chi)")
     ask: Literal["coordinates"] = Field(description="an independent and complete set of generalized coordinates")
 
-    def read(self, answer: Given, key: Key) -> str:
-        chosen = [", ".join(chosen_coordinates(one, key).names) or "none" for one in alternatives(answer)]
-        return " or ".join(chosen)
+    def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
+        chosen = [chosen_coordinates(part, names) for part in alternatives(answer)]
+        return [Reading(one, ", ".join(one.names) or "none", certain=not one.own) for one in chosen]
 
     def solution(self, key: Key) -> Sentence:
         names = key.report.generalized_coordinates
         return "" if names is None else say("A correct answer is {text}.", text=", ".join(names) or "none")
 
-    def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
+    def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        return agreed([self._judged(one, key) for one in alternatives(answer)])
-
-    def _judged(self, answer: Given, key: Key) -> Judgement:
-        dof = key.report.dof
-        names, key = chosen_coordinates(answer, key)
-        shown = ", ".join(names) or "none"
+        dof, shown, names = key.report.dof, reading.shown, list(reading.value.names)
+        key = with_chosen(key, reading.value)
         if dof is None:
             return needs_review(shown, "the number of degrees of freedom is not known for certain.")
         if len(names) < dof:
@@ -63,25 +60,22 @@ class Redundant(QuestionBase):
     examples: ClassVar[tuple[str, ...]] = ("bar_17, bar_23",)
     ask: Literal["redundant"] = Field(description="a largest set of redundant constraints")
 
-    def read(self, answer: Given, key: Key) -> str:
-        return " or ".join(", ".join(self._names(one, key)) or "none" for one in alternatives(answer))
+    def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
+        known = list(names.constraints)
+        return [self._reading(part, known, names) for part in alternatives(answer, known)]
 
-    def _names(self, answer: Given, key: Key) -> list[str]:
-        known = list(key.constraints)
+    def _reading(self, answer: Given, known: list[str], names: DeclaredNames) -> Reading:
         none = is_none(answer, lambda part: lists_only(part, known), known, every=True)
-        return [] if none else names_of(answer, known, "constraint", key.others)
+        chosen = [] if none else names_of(answer, known, "constraint", names.others)
+        return Reading(chosen, ", ".join(chosen) or "none")
 
     def solution(self, key: Key) -> Sentence:
         redundant = key.report.redundant
         return "" if redundant is None else say("A correct answer is {text}.", text=", ".join(redundant) or "none")
 
-    def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
+    def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        return agreed([self._judged(one, key) for one in alternatives(answer)])
-
-    def _judged(self, answer: Given, key: Key) -> Judgement:
-        names, report = self._names(answer, key), key.report
-        shown = ", ".join(names) or "none"
+        names, report, shown = reading.value, key.report, reading.shown
         if report.dof is None or report.redundant is None:
             return needs_review(shown, "it is not known for certain which constraints are redundant.")
         if set(names) == set(report.redundant):

@@ -9,7 +9,9 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from dofkit.homework.answers.counts import number
-from dofkit.homework.judgement import HALF, Given, Judgement, Sentence, needs_review, partly, right, wrong
+from dofkit.homework.answers.declared import DeclaredNames
+from dofkit.homework.answers.prose import CONSTRAINT_NOUNS, FREEDOM_NOUNS
+from dofkit.homework.judgement import HALF, Given, Judgement, Reading, Sentence, needs_review, partly, right, wrong
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.misconceptions import explain
 from dofkit.homework.questions.base import Earlier, QuestionBase
@@ -41,8 +43,11 @@ class NumberQuestion(QuestionBase):
         {"f", "dof", "ndof", "df", "fg", "fhg", "ddl", "gdl", "s", "freiheitsgrade", "degrees of freedom"}
     )
 
+    #: Nouns of other quantities: a number with one of them answers another question.
+    foreign: ClassVar[frozenset[str]] = CONSTRAINT_NOUNS
+
     def truth(self, key: Key) -> int | None:
-        """The right number; None where dofkit does not know it."""
+        """Return the correct number, or None if it is not known for certain."""
         raise NotImplementedError
 
     def other(self, key: Key) -> int | None:
@@ -64,19 +69,19 @@ class NumberQuestion(QuestionBase):
         yield from ()
 
     def number(self, answer: Given) -> Fraction | None:
-        return number(answer, self.letters)
+        return number(answer, self.letters, self.foreign)
 
-    def read(self, answer: Given, key: Key) -> str:
-        del key
-        return as_written(number(answer, self.letters))
+    def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
+        del names
+        found = number(answer, self.letters, self.foreign)
+        return [Reading(found, as_written(found))]
 
     def solution(self, key: Key) -> Sentence:
         found = self.truth(key)
         return "" if found is None else say("The correct answer is {number}.", number=found)
 
-    def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
-        given, truth = number(answer, self.letters), self.truth(key)
-        shown = as_written(given)
+    def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
+        given, truth, shown = reading.value, self.truth(key), reading.shown
         if truth is None:
             return needs_review(shown, "the correct number is not known for certain.")
         if given == truth:
@@ -145,6 +150,7 @@ class CountQuestion(NumberQuestion):
     """k: the number of independent holonomic equations, coordinates less the configuration's dimension."""
 
     letters: ClassVar[frozenset[str]] = frozenset({"k", "r", "m", "nc", "constraints", "bindungen"})
+    foreign: ClassVar[frozenset[str]] = FREEDOM_NOUNS
     wanted: ClassVar[str] = "How many independent holonomic constraint equations are there?"
     how: ClassVar[str] = "The number of constraint equations: write an integer."
     examples: ClassVar[tuple[str, ...]] = ("k = 12", "k = 15", "k = 18")

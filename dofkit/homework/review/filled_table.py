@@ -12,8 +12,7 @@ from pathlib import Path
 
 from dofkit.base.errors import DofkitError, Fault
 from dofkit.base.wording import nearest
-from dofkit.homework.review.identity import mark_of, question_mark
-from dofkit.homework.review.rows import COLUMNS, SOMEONE, Decision, ReviewRow
+from dofkit.homework.review.queue import COLUMNS, SOMEONE, Decision, ReviewRow, mark_of, question_mark
 
 #: What a person writes may be so long; faults of a table that are told; bytes that are read.
 MOST_REMARKED, MOST_FAULTS, MOST_BYTES = 2000, 50, 200_000_000

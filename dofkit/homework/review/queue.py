@@ -1,13 +1,103 @@
-"""The queue of a review, gathered from results: every different answer that is open or was decided by a person."""
+"""The queue of a review: every different answer that waits for a person or was decided by one, and its identity.
+
+The identity of an answer stands for the question and for what was answered, not for the student. Vowels and digits do
+not occur in it, so that no spreadsheet takes it for a number, a date, a formula or a word; its last letter reveals a
+mistyped one.
+"""
 
 from __future__ import annotations
 
+import hashlib
+import re
+import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import NamedTuple
 
 from dofkit.homework.result import Item, Result
-from dofkit.homework.review.identity import answer_id
-from dofkit.homework.review.rows import ReviewRow
+
+#: The columns of the table, in order; those that a person fills in come last.
+COLUMNS = (
+    "id", "problem", "question", "variant", "text", "why", "readings", "would_earn", "max_points", "students",
+    "given_by", "points", "remark", "decided_by",
+)  # fmt: skip
+#: Who decided, where the table does not say.
+SOMEONE = "review"
+
+
+class Decision(NamedTuple):
+    """The points that a person gave an answer, what the person says to it, and who that is."""
+
+    points: Fraction
+    remark: str = ""
+    by: str = SOMEONE
+
+
+#: What a person decided, by the answer's identity.
+Decisions = Mapping[str, Decision]
+
+
+@dataclass(frozen=True)
+class ReviewRow:
+    """One row, every cell as text; ``decision`` is what its last columns say, None while it is open."""
+
+    cells: Mapping[str, str]
+    decision: Decision | None = None
+
+    @property
+    def id(self) -> str:
+        """The answer's identity."""
+        return self.cells["id"]
+
+    @property
+    def filled(self) -> bool:
+        """Has a person written anything into it?"""
+        return self.decision is not None or bool(self.cells.get("remark"))
+
+
+_LETTERS = "bcdfghjkmnpqrstvwxz"
+_OF_QUESTION, _OF_ANSWER = 5, 10
+_SHAPE = re.compile(f"([{_LETTERS}]{{{_OF_QUESTION}}})-([{_LETTERS}]{{{_OF_ANSWER}}})-([{_LETTERS}])")
+
+
+def question_mark(problem: str, question: str) -> str:
+    """The part of an identity that stands for the question.
+
+    >>> question_mark("p", "f") != question_mark("p", "g")
+    True
+    """
+    return _letters(_OF_QUESTION, problem, question)
+
+
+def answer_id(problem: str, question: str, text: str, variant: str = "") -> str:
+    """The identity of an answer; blanks tell nothing. ``variant``: of the problem, where students have different ones.
+
+    >>> answer_id("p", "f", "x  = 1") == answer_id("p", "f", " x = 1\\n") != answer_id("p", "f", "x = 2")
+    True
+    """
+    said = " ".join(unicodedata.normalize("NFC", text).split())
+    body = f"{question_mark(problem, question)}-{_letters(_OF_ANSWER, problem, question, variant, said)}"
+    return f"{body}-{_letters(1, body)}"
+
+
+def mark_of(identity: str) -> str | None:
+    """The question's part of an identity; None of what is none.
+
+    >>> mark_of(answer_id("p", "f", "1")) == question_mark("p", "f"), mark_of("bcdfg-bcdfghjkmn-x")
+    (True, None)
+    """
+    found = _SHAPE.fullmatch(identity)
+    if found is None or _letters(1, f"{found[1]}-{found[2]}") != found[3]:
+        return None
+    return found[1]
+
+
+def _letters(count: int, *parts: str) -> str:
+    data = "\0".join(parts).encode("utf-8", "surrogatepass")
+    number = int.from_bytes(hashlib.blake2b(data, digest_size=16).digest(), "big")
+    return "".join(_LETTERS[number // len(_LETTERS) ** i % len(_LETTERS)] for i in range(count))
+
 
 #: Students of one answer who are named.
 MOST_NAMED = 20

@@ -1,8 +1,9 @@
-"""What was handed in at one place, in a worker: read, graded, and returned as lines of JSON."""
+"""What was submitted at one place, graded by a worker that can be killed: an answer that breaks it needs a review."""
 
 from __future__ import annotations
 
 import pickle
+import threading
 from collections.abc import Generator, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -10,20 +11,23 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 from dofkit.base.process_limits import allow_processor
-from dofkit.base.workers import Json
+from dofkit.base.runs import Pool, StoppedError
+from dofkit.base.workers import Job, JobOutcome, Json
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.answers.submission import Submission
 from dofkit.homework.assignment import Prepared
-from dofkit.homework.echo import Echo, echo
-from dofkit.homework.grading import ANSWER_SECONDS, Grader, Spot
-from dofkit.homework.result import Result
+from dofkit.homework.grading import ANSWER_SECONDS, Echo, Grader, Spot, echo
+from dofkit.homework.result import Result, one_line
+
+#: What a worker imports before its first job.
+MODULES = ("dofkit.homework.runs.batch",)
+_TOO_MUCH = "grading it took too long or too much memory."
+#: What a student reads of an answer that broke its worker, by how that ended.
+_ENDED = {"overrun": _TOO_MUCH, "memory": _TOO_MUCH, "died": _TOO_MUCH, "failed": "an internal error occurred."}
 
 
 class ResultLine(NamedTuple):
-    """What is written of a submission: whose it is, whether it could not be graded, and the JSON.
-
-    ``doubted``: whether a person has to say whose it is.
-    """
+    """The JSON of a result, whose it is, whether it could not be graded, and whether its owner is in doubt."""
 
     student: str
     failed: bool
@@ -32,8 +36,8 @@ class ResultLine(NamedTuple):
 
     @classmethod
     def of(cls, result: Result | Echo) -> ResultLine:
-        """The line of a result."""
-        return cls(result.student, result.error is not None, result.model_dump_json())
+        """Return the line of a result."""
+        return cls(result.student, result.error is not None, one_line(result.model_dump_json()))
 
 
 @dataclass(frozen=True)
@@ -53,12 +57,12 @@ class Orders:
 
     @classmethod
     def of(cls, prepared: Prepared, check_only: bool = False) -> Orders:
-        """Orders to grade an assignment."""
+        """Return the orders to grade an assignment."""
         points = sum((question.points for _, question in prepared.questions()), Fraction(0))
         return cls(pickle.dumps(prepared), float(points), check_only)
 
     def refused(self, student: str, error: str) -> ResultLine:
-        """The line of a submission that could not be graded."""
+        """Return the line of a submission that could not be graded."""
         if self.check_only:
             return ResultLine.of(Echo(student=student, items=[], error=error))
         return ResultLine.of(Result(student=student, score=None, max_score=self.max_score, items=[], error=error))
@@ -66,7 +70,7 @@ class Orders:
 
 @dataclass(frozen=True)
 class GradingTask:
-    """Something handed in, to be graded. ``condemned``: why some answers are not to be judged."""
+    """Something submitted, to be graded. ``condemned``: why some answers are not to be judged."""
 
     orders: Orders
     handed: Handed
@@ -103,3 +107,41 @@ def _steps(grader: Grader, submission: Submission, check_only: bool) -> Generato
 def _grader(orders: Orders) -> Grader:
     prepared: Prepared = pickle.loads(orders.assignment)
     return Grader(prepared, orders.seconds)
+
+
+class Keeper:
+    """Grades submissions from any thread by the workers of a pool."""
+
+    def __init__(self, orders: Orders, pool: Pool) -> None:
+        self.orders = orders
+        self.pool = pool
+        self._condemned: dict[Spot, str] = {}
+        self._lock = threading.Lock()
+
+    def grade(self, handed: Handed) -> list[ResultLine]:
+        """Return the line of each submission. Raises StoppedError.
+
+        An answer that breaks two workers, of which the second is a fresh one, is not judged again.
+        """
+        suspects: list[Spot | None] = []
+        while True:
+            with self._lock:
+                condemned = dict(self._condemned)
+            task = GradingTask(self.orders, handed, condemned)
+            outcome = self.pool.run(Job(graded_lines, task, self.orders.wall))
+            if outcome.ended == "absent":
+                raise StoppedError(outcome.reason)
+            if outcome.finished:
+                return [ResultLine(*line) for line in outcome.value["lines"]]
+            spot = outcome.value["next"] if outcome.value else None
+            if spot not in suspects:
+                suspects.append(spot)
+            elif spot is None or spot in condemned:
+                return [self._refusal(handed, outcome)]
+            else:
+                with self._lock:
+                    self._condemned[spot] = _ENDED[outcome.ended]
+
+    def _refusal(self, handed: Handed, outcome: JobOutcome) -> ResultLine:
+        error = f"{handed.place}: it could not be graded: {_ENDED[outcome.ended]}"
+        return self.orders.refused(handed.name, error)

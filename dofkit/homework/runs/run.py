@@ -1,56 +1,49 @@
-"""``dofkit grade``: from the files that are named to the results, wherever they go."""
+"""``dofkit grade``: from the files that are named to the results, wherever they go; and results in another format."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, closing, contextmanager
+from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager, closing, nullcontext
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
-from typing import TypeAlias
 
+from pydantic import ValidationError
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from dofkit.base import __version__
-from dofkit.base.runs import Cluster, Journal, Pool, files_of, in_order
+from dofkit.base.runs import Journal, Pool, files_of, in_order
 from dofkit.base.workers import MEMORY
 from dofkit.homework.answers.roster import Roster, load_roster
 from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
-from dofkit.homework.formats.unplaced_results import apart_path
+from dofkit.homework.formats.gradebooks import apart_path
+from dofkit.homework.formats.review import PAGE, TABLE, ReviewPaths, RunReview
 from dofkit.homework.result import Result
-from dofkit.homework.runs.appeals import Appeals
-from dofkit.homework.runs.batch import Orders, ResultLine
-from dofkit.homework.runs.keeper import MODULES, Keeper, grade_there
-from dofkit.homework.runs.repeats import without_repeats
-from dofkit.homework.runs.review_files import ReviewPaths, RunReview
-from dofkit.homework.runs.rostered import named_by, rostered
-from dofkit.homework.sheet_owners import people_of, with_names
+from dofkit.homework.runs.batch import MODULES, Keeper, Orders, ResultLine
+from dofkit.homework.runs.owners import OwnedLine, named_by, owned, settled
+from dofkit.homework.variants import with_roster
 
 NATIVE = "native"
-#: What results in our own format are called in a folder.
+#: The name of the results in dofkit's own format in a folder.
 RESULTS = "results.jsonl"
 
 
 @dataclass(frozen=True)
 class GradingOptions:
-    """What the command line says besides the files. ``out``: where results go, None for standard output.
+    """The options of the command line. ``out``: where results go, or None for standard output.
 
-    ``certificates``: the folder of what the keys rest on, for appeals. ``reviewed``: a table that a person filled in.
-    ``roster``: the table of who is in the course.
+    ``reviewed``: a table that a person filled in. ``roster``: the table of who is in the course.
     """
 
     form: str = NATIVE
     out: Path | None = None
     workers: int | None = None
-    scheduler: str | None = None
     check_only: bool = False
-    certificates: Path | None = None
     reviewed: Path | None = None
     roster: Path | None = None
 
@@ -109,7 +102,7 @@ def unfinished(results: Path) -> Path:
 
 
 def fingerprint(prepared: Prepared, check_only: bool, roster: Roster | None = None) -> str:
-    """What tells a run from others: the assignment with its scenes, who is in the course, and who grades it how."""
+    """Return what distinguishes a run from others: the assignment with its scenes, the roster, and how it grades."""
     course = "" if roster is None else roster.digest
     parts = [__version__, str(check_only), course, prepared.assignment.model_dump_json()]
     parts += [f"{identity} {decision}" for identity, decision in sorted(prepared.decisions.items())]
@@ -118,7 +111,7 @@ def fingerprint(prepared: Prepared, check_only: bool, roster: Roster | None = No
 
 
 def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
-    """Grade everything, in the order given; was every submission read?
+    """Grade all submissions, in the order given, and return whether every one was read.
 
     Raises AssignmentError, FormatError, OSError for what cannot be written, and StoppedError.
     """
@@ -129,121 +122,70 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
         if path.resolve() in [Path(given).resolve() for given in (assignment, *sources, options.roster or "")]:
             raise FormatError(f"--out would overwrite the input file {path}")
     review = RunReview.read(prepared, options.reviewed, options.review)
-    prepared = review.applied(with_names(prepared, roster))
-    people = people_of(prepared, roster)
+    prepared, people = with_roster(review.applied(prepared), roster)
     orders = Orders.of(prepared, options.check_only)
     others: list[str | Path] = [assignment, *options.written, *filter(None, (options.reviewed, options.roster))]
     stream = hand_ins(sources, prepared.columns(), others)
     if people is not None:
         stream = (named_by(people, one) for one in stream)
-    with _graders(orders, options) as grade:
-        appeals = None if options.certificates is None or options.check_only else Appeals(prepared)
-        one = _Run(form, prepared, orders, grade, roster, people, sources, appeals)
-        if options.out is None or options.native is None:
-            one.to_stdout(stream)
-        else:
-            one.to_path(stream, options.out, options.native, review)
-    if one.doubted:
-        print(
-            f"{one.doubted} of the submissions have a 'doubt': a person has to decide whose they are", file=sys.stderr
-        )
-    if options.certificates is not None:
-        (appeals or Appeals(prepared)).write(options.certificates)
-    return one.failed == 0
-
-
-#: Yields everything handed in with its results, in order; a journal keeps them.
-Grade: TypeAlias = Callable[[Iterator[Handed], Journal | None], Iterator[tuple[Handed, list[ResultLine]]]]
-
-
-@contextmanager
-def _graders(orders: Orders, options: GradingOptions) -> Iterator[Grade]:
-    """Workers of this machine, or of a cluster. Raises StoppedError."""
-    if options.scheduler is not None:
-        with Cluster(options.scheduler) as cluster:
-            yield partial(in_order, cluster, partial(grade_there, orders))
-        return
+    native = options.native
+    mark = fingerprint(prepared, options.check_only, roster)
     with Pool(options.workers, MEMORY, MODULES) as pool:
         pool.fork()
-        yield partial(in_order, pool, Keeper(orders, pool).grade)
+        if native is not None and not native.exists():
+            unfinished(native).unlink(missing_ok=True)
+        with nullcontext() if native is None else closing(Journal(unfinished(native), mark)) as journal:
+            lines = settled(orders, _graded(Keeper(orders, pool), stream, people, journal))
+            if options.out is None or native is None:
+                _to_stdout(lines, form, prepared, roster)
+            else:
+                native.parent.mkdir(parents=True, exist_ok=True)
+                native.write_text("".join(f"{line.text}\n" for line in lines), encoding="utf-8", newline="\n")
+                _finished(native, form, prepared, options.out, roster, review)
+                if journal is not None:
+                    journal.remove()
+    doubted = sum(line.doubted for line in lines)
+    if doubted:
+        print(f"{doubted} of the submissions have a 'doubt': a person has to decide whose they are", file=sys.stderr)
+    return not any(line.failed for line in lines)
 
 
-@dataclass
-class _Run:
-    """One run; ``failed`` counts the submissions that could not be graded, ``doubted`` those that may be another's.
-
-    ``people``: by whom submissions are told apart, the roster or those who have sheets of their own; ``sources``: what
-    was handed in. ``appeals``: what may be asked about answers later.
-    """
-
-    form: Format
-    prepared: Prepared
-    orders: Orders
-    grade: Grade
-    roster: Roster | None = None
-    people: Roster | None = None
-    sources: Sequence[str] = ()
-    appeals: Appeals | None = None
-    failed: int = 0
-    doubted: int = 0
-
-    def to_stdout(self, stream: Iterator[Handed]) -> None:
-        """Print results as they come."""
-        lines = self._kept(line.text for _, found in self._with_lines(stream, sys.stdout.isatty()) for line in found)
-        if self.form.name != NATIVE:
-            self.form.written(
-                map(Result.model_validate_json, lines), self.prepared, sys.stdout, self.roster, self.sources
-            )
-            return
-        utf8 = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
-        for text in lines:
-            print(text if utf8 else json.dumps(json.loads(text)), flush=True)
-
-    def to_path(self, stream: Iterator[Handed], out: Path, path: Path, review: RunReview) -> None:
-        """Write to a path what is not there yet; a format other than our own is made of our own at the end.
-
-        ``path``: where results stand in our own.
-        """
-        if not path.exists():
-            unfinished(path).unlink(missing_ok=True)
-        mark = fingerprint(self.prepared, self.orders.check_only, self.roster)
-        with closing(Journal(unfinished(path), mark)) as journal, path.open("w", 1, "utf-8", newline="\n") as results:
-            for _, lines in self._with_lines(stream, False, journal):
-                results.writelines(f"{line.text}\n" for line in lines)
-        if self.appeals is not None:
-            self.appeals.gather(_results(path))
-        if self.form.name != NATIVE:
-            self.form.written(_results(path), self.prepared, out, self.roster, self.sources)
-        review.write(path, self.prepared)
-        if self.form.name != NATIVE:
-            path.unlink()
-        journal.remove()
-
-    def _kept(self, lines: Iterator[str]) -> Iterator[str]:
-        """Lines, of which answers are kept."""
-        for text in lines:
-            if self.appeals is not None:
-                self.appeals.add(Result.model_validate_json(text))
-            yield text
-
-    def _with_lines(
-        self, stream: Iterator[Handed], quiet: bool, journal: Journal | None = None
-    ) -> Iterator[tuple[Handed, list[ResultLine]]]:
-        """Everything with its results, counted, and shown on a terminal how far it is."""
-        with _bar(quiet) as bar:
-            task = bar.add_task("graded", total=None)
-            graded = ((one, [ResultLine(*line) for line in lines]) for one, lines in self.grade(stream, journal))
-            for one, lines in without_repeats(self.orders, rostered(self.people, graded)):
-                self.failed += sum(line.failed for line in lines)
-                self.doubted += sum(line.doubted for line in lines)
-                yield one, lines
-                bar.update(task, advance=len(lines))
+def _finished(
+    path: Path, form: Format, prepared: Prepared, out: Path, roster: Roster | None, review: RunReview
+) -> None:
+    """Write the results, which are in ``path`` in dofkit's own format, in the one asked for, and the review."""
+    if form.name != NATIVE:
+        form.write(_results(path), prepared, out, roster)
+    review.write(path, prepared)
+    if form.name != NATIVE:
+        path.unlink()
 
 
-def _bar(quiet: bool) -> AbstractContextManager[Progress]:
-    """A progress bar on standard error, where that is a terminal and nothing else is printed to it."""
+def _graded(
+    keeper: Keeper, stream: Iterator[Handed], people: Roster | None, journal: Journal | None
+) -> Iterator[OwnedLine]:
+    """Yield every result with its owner; a bar on a terminal shows how far it is."""
+    with _bar() as bar:
+        task = bar.add_task("graded", total=None)
+        for one, lines in in_order(keeper.pool, keeper.grade, stream, journal):
+            yield from owned(people, one, [ResultLine(*line) for line in lines])
+            bar.update(task, advance=len(lines))
+
+
+def _to_stdout(lines: Iterable[ResultLine], form: Format, prepared: Prepared, roster: Roster | None) -> None:
+    if form.name != NATIVE:
+        results = (Result.model_validate_json(line.text) for line in lines)
+        form.write(results, prepared, sys.stdout, roster)
+        return
+    utf8 = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
+    for line in lines:
+        print(line.text if utf8 else json.dumps(json.loads(line.text)), flush=True)
+
+
+def _bar() -> AbstractContextManager[Progress]:
+    """Return a progress bar on standard error, if that is a terminal."""
     console = Console(stderr=True)
-    shown = console.is_terminal and not console.is_jupyter and not quiet
+    shown = console.is_terminal and not console.is_jupyter
     columns = (SpinnerColumn(), BarColumn(), TextColumn("{task.completed:.0f} graded"), TimeElapsedColumn())
     return Progress(*columns, console=console, transient=True, disable=not shown)
 
@@ -251,3 +193,42 @@ def _bar(quiet: bool) -> AbstractContextManager[Progress]:
 def _results(path: Path) -> Iterator[Result]:
     with path.open(encoding="utf-8", newline="\n") as lines:
         yield from map(Result.model_validate_json, lines)
+
+
+def convert(assignment: str, results: Path, options: GradingOptions) -> int:
+    """Write the results of a run, or those in its folder, in another format, and return how many there are.
+
+    Raises AssignmentError, RosterError, OSError, and FormatError for what are no results of this assignment.
+    """
+    form, path = options.format, results / RESULTS if results.is_dir() else results
+    if options.out is None or form.name == NATIVE:
+        raise FormatError(f"--format must be one of {', '.join(name for name in FORMATS if name != NATIVE)}")
+    read = [Path(given).resolve() for given in (assignment, path, options.roster or "")]
+    if any(target.resolve() in read for target in options.written):
+        raise FormatError(f"--out would overwrite an input file: {options.out}")
+    prepared = load_assignment(assignment)
+    roster = None if options.roster is None else load_roster(options.roster)
+    most = float(sum(prepared.most_points().values()))
+    found = list(_checked(path, most))
+    form.write(iter(found), prepared, options.out, roster)
+    if (options.out / PAGE).exists():
+        beside = ReviewPaths(path.parent / TABLE, options.out / PAGE, True)
+        RunReview.read(prepared, None, beside).write_page(path, prepared)
+    return len(found)
+
+
+def _checked(path: Path, most: float) -> Iterator[Result]:
+    """Yield the results of a file. Raises FormatError for a line that is no result of this assignment."""
+    with path.open(encoding="utf-8", newline="\n") as lines:
+        for number, line in enumerate(lines, 1):
+            try:
+                result = Result.model_validate_json(line)
+            except ValidationError:
+                hint = "name the results.jsonl that `dofkit grade ... --out FOLDER` wrote"
+                raise FormatError(f"{path}, line {number}: this is not a result of dofkit ({hint})") from None
+            if abs(result.max_score - most) > 1e-9:
+                raise FormatError(
+                    f"{path}, line {number}: this result has {result.max_score:g} points, the assignment "
+                    f"{most:g}: run `dofkit grade` again"
+                )
+            yield result

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from html import escape
 
 from dofkit.base.display import schemes
-from dofkit.expressions.text.typesetting import Typeset, typeset
+from dofkit.expressions.text.typesetting import mathml, typeset
 from dofkit.interface.show.faults import safe
 from dofkit.interface.show.sheet import Fact, Grid, Matrix, Remark, Sheet, SheetSection, Told
 
@@ -96,27 +96,26 @@ def _set(told: Told) -> str:
     """A formula as mathematics where it is one; everything else as text."""
     if isinstance(told, str):
         return _plain(told)
-    found = _matrix(told) if isinstance(told, Matrix) else _formula(told.text)
-    if found is None:
+    formula = _matrix(told) if isinstance(told, Matrix) else _formula(told.text)
+    if formula is None:
         return _plain(str(told))
-    return f'<math displaystyle="true" aria-label="{_plain(str(told))}">{found.mathml}</math>'
+    return f'<math displaystyle="true" aria-label="{_plain(str(told))}">{formula}</math>'
 
 
-def _formula(text: str) -> Typeset | None:
-    """What is written as mathematics; None for words, such as those of a joint."""
-    return None if _WORDS.search(text) else typeset(text)
+def _formula(text: str) -> str | None:
+    """What is written as mathematics, in MathML; None for words, such as those of a joint."""
+    latex = None if _WORDS.search(text) else typeset(text)
+    return None if latex is None else mathml(latex)
 
 
-def _matrix(matrix: Matrix) -> Typeset | None:
-    """Rows and columns in brackets; None where an entry is no formula."""
-    rows = []
-    for row in matrix.rows:
-        cells = [typeset(text) for text in row]
-        rows.append("".join(f"<mtd>{cell.mathml}</mtd>" for cell in cells if cell is not None))
-        if None in cells:
-            return None
-    table = f"<mtable>{''.join(f'<mtr>{row}</mtr>' for row in rows)}</mtable>"
-    return Typeset("", f"<mi>{_plain(matrix.name)}</mi><mo>=</mo><mrow><mo>[</mo>{table}<mo>]</mo></mrow>")
+def _matrix(matrix: Matrix) -> str | None:
+    """Rows and columns in brackets, in MathML; None where an entry is no formula."""
+    rows = [[_formula(text) for text in row] for row in matrix.rows]
+    if any(None in row for row in rows):
+        return None
+    table = "".join(f"<mtr>{''.join(f'<mtd>{cell}</mtd>' for cell in row)}</mtr>" for row in rows)
+    name = f"<mi>{_plain(matrix.name)}</mi><mo>=</mo>"
+    return f"{name}<mrow><mo>[</mo><mtable>{table}</mtable><mo>]</mo></mrow>"
 
 
 def _plain(text: str) -> str:

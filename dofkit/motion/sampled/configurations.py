@@ -19,8 +19,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.motion.sampled.continuation import STRAIGHT, Follower, Reached
 from dofkit.motion.sampled.poses import Pose, PoseRelations, number
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
-from dofkit.relations.reduced import Reduced
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.scene.lowering import lower
 from dofkit.scene.reading import SceneLike, scene_or_system

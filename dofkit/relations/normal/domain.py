@@ -5,19 +5,22 @@ A relation that is rewritten (a factor dropped, a square root squared) is the ol
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product as cartesian
+from typing import Any
 
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.real_search import RealSearch
-from dofkit.exact.ring.canonical import Canon, lowest_terms
+from dofkit.exact.ring.canonical import Canon, lowest_terms, square_root
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.identity import is_proved_zero
+from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
-from dofkit.expressions.domains import DomainSense, of_function, of_power
+from dofkit.expressions.calculus import DomainSense, of_function, of_power, substitute
+from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.normal.zero_set import never_vanishes
@@ -25,14 +28,10 @@ from dofkit.relations.normal.zero_set import never_vanishes
 
 @dataclass(frozen=True)
 class DomainCondition:
-    """``expr`` >= 0, > 0 or != 0: no relation, but a part of the space outside of which the relation says nothing.
-
-    ``adjoining``: > 0 or != 0, and where it is 0 the branch goes on into another, which says what holds there.
-    """
+    """``expr`` >= 0, > 0 or != 0: no relation, but a part of the space outside of which the relation says nothing."""
 
     expr: Expr
     sense: DomainSense
-    adjoining: bool = False
 
     @property
     def strict(self) -> bool:
@@ -87,26 +86,22 @@ def _always(c: DomainCondition, positive: frozenset[Expr]) -> bool:
     return never_holds(-c.expr, c.sense == ">=", positive)
 
 
-def holds_at(c: DomainCondition, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> bool | None:
-    """Does a condition hold at a configuration? None where its sign there is not known."""
+def holds_at(
+    c: DomainCondition, configuration: Mapping[Expr, Expr], positive: frozenset[Expr], strictly: bool = False
+) -> bool | None:
+    """Return whether a condition is satisfied at a configuration, ``strictly`` for > also in place of >=.
+
+    None where its sign there is not known.
+    """
     try:
-        sign = _sign(substitute(c.expr, known), positive)
+        sign = _sign(substitute(c.expr, configuration), positive)
     except NoValueError:
         return False
     if sign is None:
         return None
     if sign == 0:
-        return c.adjoining or c.sense == ">="
+        return c.sense == ">=" and not strictly
     return sign > 0 or c.sense == "!="
-
-
-def has_value(c: DomainCondition, known: Mapping[Expr, Expr], positive: frozenset[Expr]) -> bool:
-    """Has what is asked for a value at a configuration? A pole has none."""
-    try:
-        _sign(substitute(c.expr, known), positive)
-    except NoValueError:
-        return False
-    return True
 
 
 def _sign(e: Expr, positive: frozenset[Expr]) -> int | None:
@@ -118,3 +113,117 @@ def _sign(e: Expr, positive: frozenset[Expr]) -> int | None:
     if not value.contains(0):
         return 1 if value > 0 else -1
     return 0 if is_proved_zero(e, positive) else None
+
+
+#: Arguments whose signs are tried.
+MAX_ARGUMENTS = 4
+
+
+def arguments_of(e: Expr) -> list[Expr]:
+    """What stands in absolute values and in roots of squares."""
+    if e.functions.isdisjoint(("abs", "pow")):
+        return []
+    every = list(ex.nodes(e))
+    found = [node.args[1] for node in every if node.op == "fn" and node.args[0] == "abs"]
+    found += [node.args[0].args[0] for node in every if _root_of_square(node)]
+    return list(dict.fromkeys(found))
+
+
+def with_absolute_values(e: Expr, positive: frozenset[Expr]) -> Expr:
+    """``e`` with roots of squares that are written out as absolute values: sqrt(x^2 + 2 x y + y^2) is abs(x + y)."""
+    if "pow" not in e.functions or not any(_root_of_sum(node) for node in ex.nodes(e)):
+        return e
+
+    def folded(node: Expr) -> Expr:
+        parts = ex.children(node)
+        base = square_root(node.args[0], positive) if _root_of_sum(node) else None
+        if base is not None:
+            return ex.power(ex.fn("abs", base), ex.num(2 * node.args[1].args[0]))
+        return ex.rebuild(node, tuple(map(folded, parts))) if parts else node
+
+    return folded(e)
+
+
+def _root_of_sum(node: Expr) -> bool:
+    return node.op == "pow" and node.args[0].op == "add" and _is_half(node.args[1])
+
+
+def _is_half(exponent: Expr) -> bool:
+    return exponent.op == "num" and exponent.args[0].denominator == 2
+
+
+def holds_on_a_region(e: Expr, positive: frozenset[Expr]) -> bool:
+    """Is ``e`` identically 0 for some signs of the arguments of its absolute values (x + abs(x) for x <= 0)?"""
+    arguments = arguments_of(e)
+    if not arguments or len(arguments) > MAX_ARGUMENTS:
+        return False
+    return any(is_proved_zero(signed, positive) for signed, _ in by_signs(e, arguments, positive))
+
+
+def by_signs(
+    e: Expr, arguments: Sequence[Expr], positive: frozenset[Expr]
+) -> Iterator[tuple[Expr, tuple[DomainCondition, ...]]]:
+    """``e`` for every choice of the signs of some arguments that can be, and the conditions that say the signs."""
+    for signs in cartesian((1, -1), repeat=len(arguments)):
+        mapping = dict(zip(arguments, signs, strict=True))
+        plain = {u: with_signs(u, mapping) * s for u, s in mapping.items()}
+        if not any(never_holds(u, True, positive) for u in plain.values()):
+            yield with_signs(e, mapping), tuple(DomainCondition(u, ">=") for u in plain.values())
+
+
+def up_to_a_number(e: Expr) -> frozenset[tuple[Expr, Fraction]]:
+    """Equal for expressions that are multiples of each other."""
+    terms = linear_terms(e)
+    first = terms[min(terms, key=repr)] if terms else 1
+    return frozenset((s, c / first) for s, c in terms.items())
+
+
+def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] | None:
+    """a sqrt(u) + b = 0 as a^2 u - b^2 = 0 where -a b >= 0; None where there is not one square root, linearly."""
+    try:
+        ring = Ring([e], positive)
+        node = ring.node(e)
+        canon = Canon(ring)
+        top, _ = canon.quotient(node)
+        roots = [v for v in ring.vars if v.kind == "root" and ring.var_expr[v.index].symbols]
+        if len(roots) != 1 or roots[0].degree != 2 or not _outside(ring, roots[0].index):
+            return None
+        place = len(ring.vars) - 1 - roots[0].index
+        a: Any = canon.ctx.from_dict({_lowered(m, place): c for m, c in top.to_dict().items() if m[place] == 1})
+        b: Any = canon.ctx.from_dict({m: c for m, c in top.to_dict().items() if m[place] == 0})
+        u, below = canon.quotient(roots[0].args[0])
+        if a == 0 or a * canon.gens[roots[0].index] + b != top:
+            return None
+        norm, sided = canon.reduce(a * a * u - b * b * below), canon.reduce(-a * b)
+    except NoValueError:
+        return None
+    return canon.to_expr(norm), DomainCondition(canon.to_expr(sided), ">=")
+
+
+def _outside(ring: Ring, index: int) -> bool:
+    """Does no other generator have the root in its argument?"""
+    shown = ring.var_expr[index]
+    return all(shown not in ex.nodes(ring.var_expr[v.index]) for v in ring.vars if v.index != index)
+
+
+def _lowered(exponents: Sequence[int], place: int) -> tuple[int, ...]:
+    return tuple(int(k) - (i == place) for i, k in enumerate(exponents))
+
+
+def _root_of_square(node: Expr) -> bool:
+    """sqrt(u^2) and the like."""
+    if node.op != "pow" or not _is_half(node.args[1]):
+        return False
+    inner = node.args[0]
+    return bool(inner.op == "pow" and inner.args[1].op == "num" and inner.args[1].args[0] == 2)
+
+
+def with_signs(e: Expr, signs: Mapping[Expr, int]) -> Expr:
+    """``e`` with every absolute value replaced by its argument times the given sign."""
+    if e.op == "fn" and e.args[0] == "abs" and e.args[1] in signs:
+        return with_signs(e.args[1], signs) * signs[e.args[1]]
+    if _root_of_square(e) and e.args[0].args[0] in signs:
+        inner = e.args[0].args[0]
+        return ex.power(with_signs(inner, signs) * signs[inner], ex.num(2 * e.args[1].args[0]))
+    parts = ex.children(e)
+    return ex.rebuild(e, tuple(with_signs(part, signs) for part in parts)) if parts else e

@@ -1,9 +1,4 @@
-"""Exact zeros of analytic functions of one coordinate, and those that have no other: x = sin(x) says x = 0.
-
-Where its derivative has one sign a function that is not constant is monotone, so it has one zero at most; and so it has
-where it and its derivative vanish at one place and the derivative nowhere else, for then it is monotone on both sides
-[IsolatedZeros].
-"""
+"""Candidates for exact zeros of analytic functions of one coordinate: short numbers and multiples of pi."""
 
 from __future__ import annotations
 
@@ -11,65 +6,15 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from dofkit.base.deadline import check
-from dofkit.exact.errors import NoValueError
-from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero.analyticity import ENTIRE, is_analytic
-from dofkit.exact.zero.identity import is_proved_zero
+from dofkit.exact.analyticity import is_analytic
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.semidefinite import Signs, weak_sign
-from dofkit.relations.normal.zero_set import never_vanishes
 
-SOLE_NOTE = (
-    "it is satisfied at one value only, where its gradient may vanish: it is replaced by the equation that "
-    "the coordinate has this value"
-)
-#: Functions beside which an equation of one coordinate is no polynomial.
-TRANSCENDENTAL = ENTIRE | {"atan"}
 #: Where zeros are looked for: up to this size, at so many places to a unit; steps to halve an interval.
 REACH, PLACES, HALVINGS = 10, 8, 40
 #: Zeros that are tried have at most this denominator, or are such a multiple of pi.
 MAX_DENOMINATOR = 24
-#: Derivatives that are looked at until one has one sign.
-ORDERS = 4
-
-
-def sole_zero(e: Expr) -> Expr | None:
-    """The value of its only coordinate at which ``e`` vanishes, and it does so nowhere else; None where not seen."""
-    if len(e.symbols) != 1 or not e.functions & TRANSCENDENTAL or not is_analytic_in_coordinates(e, poles=False):
-        return None
-    (s,) = e.symbols
-    derivatives = [e]
-    while len(derivatives) <= ORDERS:
-        derivatives.append(diff(derivatives[-1], s))
-        if _has_one_sign(derivatives[-1]):
-            break
-    else:
-        return None
-    vanishing = derivatives[:-1]
-    for value in candidates([e], s):
-        if all(is_proved_zero(substitute(d, {s: value}), frozenset()) for d in vanishing):
-            return value
-    return None
-
-
-def _has_one_sign(e: Expr) -> bool:
-    """Is it proved to be nowhere negative, or nowhere positive, and is it not 0 everywhere?"""
-    if e.is_zero:
-        return False
-    try:
-        ring = Ring([e])
-        node = ring.node(e)
-        canon = Canon(ring)
-        top, bottom = canon.quotient(node)
-        if bottom.is_constant() and top != 0 and weak_sign(canon, Signs(canon, frozenset()), top):
-            return True
-    except NoValueError:
-        return False
-    return never_vanishes(e, frozenset())
 
 
 def is_analytic_in_coordinates(e: Expr, *, poles: bool) -> bool:

@@ -1,33 +1,34 @@
 """Relations without a real solution: a proof by exclusion.
 
-All of space is cut into boxes; a box goes where the relations, run over it in intervals, leave nothing [Moore1966].
-Where every box goes there is no solution. Three descriptions of the same set are tried, all of which only forget: the
-relations as written; polynomials in their generators, with their linear combinations and resultants; and those in
-projective charts, x = 1/w and x_j = u_j/w, which are compact, so that a form that is definite at infinity is seen to be
-so.
+Space is cut into boxes; a box is excluded where interval evaluation of the relations leaves nothing [Moore1966]. If
+every box is excluded there is no solution. Two descriptions of the same set are tried: the relations as written, and
+polynomials in their generators with linear combinations and resultants of these.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+import random
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import lru_cache
 from itertools import combinations, islice
-from typing import Any
+from typing import Any, NamedTuple
 
-from flint import ctx, fmpq_mat, fmpz_poly
+from flint import arb, ctx, fmpq_mat, fmpz_poly
 
-from dofkit.base.deadline import check
-from dofkit.exact.boxes.box_program import Box, BoxProgram
-from dofkit.exact.boxes.functions import constant
-from dofkit.exact.boxes.intervals import NON_NEGATIVE, WHOLE, EmptyError, Interval, middle
-from dofkit.exact.errors import NoValueError
+from dofkit.base.deadline import OutOfTimeError, check
+from dofkit.exact.boxes import NON_NEGATIVE, UNIT, WHOLE, Box, BoxProgram, EmptyError, Interval, bounds, middle
+from dofkit.exact.errors import NoValueError, PoleError
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.instructions import Var
+from dofkit.exact.ring.program import Var, values
 from dofkit.exact.ring.radicals import known_signs
 from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
+from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.semidefinite import never_holds
@@ -39,14 +40,9 @@ MAX_STEPS, BITS = 60_000, 64
 SOON = 6_000
 #: A box thinner than this, or this far out, is not cut any further.
 THINNEST, FARTHEST = 1e-7, 1e7
-#: Polynomials are combined up to this size.
-MAX_TABLE, MAX_RESULTANT_TERMS, MAX_RESULTANT_DEGREE = 4000, 40, 8
-#: Pairs of polynomials of which resultants are taken.
-MAX_PAIRS = 60
-#: Projective charts are tried for up to this many unbounded unknowns.
-MAX_CHARTS = 6
+#: Polynomials are combined up to this size, and resultants are taken of so many pairs.
+MAX_TABLE, MAX_RESULTANT_TERMS, MAX_RESULTANT_DEGREE, MAX_PAIRS = 4000, 40, 8, 60
 ZERO: Interval = (0.0, 0.0)
-UNIT: Interval = (-1.0, 1.0)
 
 #: An expression and where its value must lie.
 Wanted = tuple[Expr, Interval]
@@ -66,7 +62,7 @@ def no_solution(relations: Sequence[Expr], positive: frozenset[Expr], conditions
             soon = _excluded(wanted, ranges, SOON)
             system = None if soon else _system(relations, positive)
             excluded = _excluded(wanted, ranges) if soon is None else soon
-            return bool(excluded or (system is not None and _algebraically(system, excluded is None)))
+            return bool(excluded or (excluded is None and system is not None and _is_excluded(system)))
         except EmptyError:
             return True
         except NoValueError:
@@ -128,23 +124,12 @@ def _widest(box: Box) -> int | None:
 Poly = Any
 
 
-@dataclass(frozen=True)
-class PolynomialSystem:
-    """Polynomials that vanish wherever the relations hold; ``ranges`` of the generators, ``free`` unbounded ones."""
+class PolynomialSystem(NamedTuple):
+    """Polynomials that vanish wherever the relations hold, and the ``ranges`` of the generators."""
 
     polynomials: tuple[Poly, ...]
     symbols: tuple[Expr, ...]
     ranges: Mapping[Expr, Interval]
-
-    @property
-    def free(self) -> list[int]:
-        """The generators that occur and are not bounded."""
-        present = {i for p in self.polynomials for i, k in enumerate(p.degrees()) if k}
-        return [i for i in sorted(present) if math.isinf(_width(self.ranges.get(self.symbols[i], WHOLE)))]
-
-
-def _width(x: Interval) -> float:
-    return x[1] - x[0]
 
 
 def _faithful(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
@@ -175,7 +160,7 @@ def _system(relations: Sequence[Expr], positive: frozenset[Expr]) -> PolynomialS
 
 
 def _polynomials(relations: Sequence[Expr], positive: frozenset[Expr]) -> PolynomialSystem:
-    """Numerators in the canonical ring, the generators' own relations, linear combinations and resultants."""
+    """Return numerators in the canonical ring, the generators' relations and linear combinations of both."""
     ring = Ring(relations, positive)
     nodes = [ring.node(e) for e in relations]
     canon = Canon(ring)
@@ -184,7 +169,7 @@ def _polynomials(relations: Sequence[Expr], positive: frozenset[Expr]) -> Polyno
         own = [p for p in own if p != 0]
     present = {i for p in own for i in canon.generators_in(p)}
     own += [g for g in canon.relations if not present.isdisjoint(canon.generators_in(g))]
-    everything = _resultants(_combined(canon, _at_rest(canon, own)))
+    everything = _resultants(_combined(canon, own))
     count = len(ring.vars)
     symbols = tuple(ex.parameter(f"generator {count - 1 - i}") for i in range(count))
     ranges = {symbols[count - 1 - v.index]: _range(v, ring) for v in ring.vars}
@@ -208,55 +193,10 @@ def _range(var: Var, ring: Ring) -> Interval:
     if var.kind == "atan2":
         return -3.2, 3.2
     if var.kind == "pi":
-        return constant("pi")
+        return bounds(arb.pi())
     if var.kind == "exp" or (var.kind == "root" and var.degree % 2 == 0):
         return NON_NEGATIVE
     return NON_NEGATIVE if var.kind == "symbol" and var.key in ring.positive else WHOLE
-
-
-def _at_rest(canon: Canon, polynomials: list[Poly]) -> list[Poly]:
-    """Where all polynomials are unchanged by translations along some directions, the solutions with pivots 0 suffice.
-
-    The directions d have sum d_i dp/dx_i = 0 for every p.
-    """
-    ring = canon.ring
-    inside = frozenset().union(*(ring.var_expr[v.index].symbols for v in ring.vars if v.kind != "symbol"))
-    symbols = [v for v in ring.vars if v.kind == "symbol" and v.key not in inside and v.key not in ring.positive]
-    places = [len(ring.vars) - 1 - v.index for v in symbols]
-    rows = [_directional(p, places) for p in polynomials]
-    system = [row for part in rows for row in part]
-    if not places or len(system) * len(places) > MAX_TABLE:
-        return polynomials
-    directions, nullity = _nullspace(system, len(places))
-    fixed = {places[c] for c in _pivots(directions, nullity)}
-    if not fixed:
-        return polynomials
-    return [
-        canon.ctx.from_dict({m: c for m, c in p.to_dict().items() if not any(m[i] for i in fixed)}) for p in polynomials
-    ]
-
-
-def _directional(p: Poly, places: Sequence[int]) -> list[list[Any]]:
-    """One row for every monomial of the derivatives: their coefficients, by the variable."""
-    slopes = [p.derivative(i).to_dict() for i in places]
-    return [[s.get(m, 0) for s in slopes] for m in {m for s in slopes for m in s}]
-
-
-def _nullspace(system: list[list[Any]], n: int) -> tuple[fmpq_mat, int]:
-    """Vectors d with row . d = 0 for every row, as rows in echelon form, and how many."""
-    reduced, rank = fmpq_mat(system).rref() if system else (fmpq_mat(0, n), 0)
-    pivots = _pivots(reduced, rank)
-    free = [c for c in range(n) if c not in pivots]
-    basis: list[list[Any]] = [[0] * n for _ in free]
-    for row, c in zip(basis, free, strict=True):
-        row[c] = 1
-        for r, pivot in enumerate(pivots):
-            row[pivot] = -reduced[r, c]
-    return (fmpq_mat(basis).rref()[0], len(free)) if basis else (fmpq_mat(0, n), 0)
-
-
-def _pivots(reduced: fmpq_mat, rank: int) -> list[int]:
-    return [next(c for c in range(reduced.ncols()) if reduced[r, c] != 0) for r in range(rank)]
 
 
 def _combined(canon: Canon, polynomials: Sequence[Poly]) -> list[Poly]:
@@ -301,17 +241,9 @@ def _without_real_roots(p: Poly) -> bool:
     return all(not root.imag.contains(0) for root, _ in roots)
 
 
-def _algebraically(system: PolynomialSystem, search: bool) -> bool:
-    """No real solution of the polynomials: every box of space or of its charts goes."""
-    plain = [(_expression(p, system.symbols), ZERO) for p in system.polynomials]
-    excluded = _excluded(plain, system.ranges) if search else False
-    if excluded or excluded is False:
-        return bool(excluded)
-    free = system.free
-    return 0 < len(free) <= MAX_CHARTS and all(
-        _excluded([(_in_chart(p, system, free, k), ZERO) for p in system.polynomials], _chart_ranges(system, free, k))
-        for k in (None, *free)
-    )
+def _is_excluded(system: PolynomialSystem) -> bool:
+    """Return whether every box of the space of the generators is excluded."""
+    return bool(_excluded([(_expression(p, system.symbols), ZERO) for p in system.polynomials], system.ranges))
 
 
 def _expression(p: Poly, symbols: Sequence[Expr]) -> Expr:
@@ -323,25 +255,112 @@ def _term(coefficient: Any, exponents: Sequence[int], symbols: Sequence[Expr]) -
     return ex.mul(ex.num(Fraction(int(coefficient.p), int(coefficient.q))), *powers)
 
 
-def _in_chart(p: Poly, system: PolynomialSystem, free: Sequence[int], k: int | None) -> Expr:
-    """p times w^degree with x_k = 1/w and x_j = u_j/w for the other unbounded ones; ``w`` stands in x_k's place."""
-    if k is None:
-        return _expression(p, system.symbols)
-    table = p.to_dict()
-    degree = max(sum(m[i] for i in free) for m in table)
-    terms = []
-    for m, c in table.items():
-        moved = list(m)
-        moved[k] = degree - sum(m[i] for i in free)
-        terms.append(_term(c, moved, system.symbols))
-    return ex.add(*terms)
+#: Values that are tried for every symbol, and for all alike.
+_SIMPLE = (ex.ZERO, ex.ONE, ex.MINUS_ONE, ex.TWO, ex.PI, ex.PI * ex.HALF, -ex.PI * ex.HALF)
+#: Functions that are defined and continuous everywhere.
+_TOTAL = frozenset({"sin", "cos", "exp", "sinh", "cosh", "tanh", "atan", "abs"})
+#: Random points, and how far out they lie.
+POINTS, SCALES = 40, (1, 10, 1000, Fraction(1, 1000))
+#: Starts of the search along a slack variable.
+SEARCHES = 4
 
 
-def _chart_ranges(system: PolynomialSystem, free: Sequence[int], k: int | None) -> dict[Expr, Interval]:
-    """Every unbounded generator within -1 and 1; where it is never negative, so it is beside the largest one."""
-    found = dict(system.ranges)
-    for i in free:
-        s = system.symbols[i]
-        known = k is None or system.ranges.get(system.symbols[k]) == NON_NEGATIVE
-        found[s] = (0.0, 1.0) if known and system.ranges.get(s) == NON_NEGATIVE else UNIT
-    return found
+@lru_cache(maxsize=512)
+def holds_somewhere(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool | None:
+    """Is ``e >= 0`` (or > 0) at some real point? None where neither a point nor a proof was found.
+
+    Parameters may have any value, those of ``positive`` a positive one; an unknown function may be any.
+    """
+    try:
+        plain = _with_constant_functions(e)
+    except PoleError:  # a divisor holds derivatives of unknown functions only
+        plain = None
+    if plain is not None and any(_holds_at(plain, strict, point) for point in _points(plain, positive)):
+        return True
+    if never_holds(e, strict, positive) or _never_by_bounds(e, strict, positive) or no_solution([], positive, [e]):
+        return False
+    if _negative_everywhere(e, positive):
+        return False
+    return True if plain is not None and _holds_along_slack(plain, strict, positive) else None
+
+
+def _with_constant_functions(e: Expr) -> Expr:
+    """``e`` where every unknown function is 1 everywhere: its derivatives are 0."""
+    if e.op in ("num", "sym", "const"):
+        return e
+    if e.op == "call":
+        return ex.ZERO if any(e.args[1]) else ex.ONE
+    return ex.rebuild(e, tuple(_with_constant_functions(child) for child in ex.children(e)))
+
+
+def _points(e: Expr, positive: frozenset[Expr]) -> Iterator[dict[Expr, Expr]]:
+    """Simple points, then random ones, the same in every run."""
+    symbols = sorted(e.symbols, key=repr)
+    for value in _SIMPLE:
+        yield {s: ex.ONE if s in positive and value != ex.TWO else value for s in symbols}
+    rng = random.Random("dofkit inequality")
+    for k in range(POINTS):
+        scale = SCALES[k % len(SCALES)]
+        drawn = {s: Fraction(rng.randrange(-512, 513), 256) * scale for s in symbols}
+        yield {s: ex.num(abs(v) or scale if s in positive else v) for s, v in drawn.items()}
+        yield {s: ex.ONE if s in positive else rng.choice(_SIMPLE) for s in symbols}
+
+
+def _holds_at(e: Expr, strict: bool, point: dict[Expr, Expr]) -> bool:
+    check()
+    try:
+        there = substitute(e, point)
+        value = interval_of(there)
+        if value is None:
+            return False
+        return bool(value > 0) or (not strict and is_proved_zero(there, frozenset()))
+    except (NoValueError, ArithmeticError, ValueError):
+        return False
+
+
+def _never_by_bounds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
+    """Is an upper bound of ``e`` over all of space below 0, or 0 where it is asked to be above?"""
+    try:
+        program = BoxProgram([(e, WHOLE)])
+        box = [NON_NEGATIVE if v in positive else WHOLE for v in program.variables]
+        top = program.forward(box)[e][1]
+    except (EmptyError, NoValueError):
+        return False
+    return top <= 0 if strict else top < 0
+
+
+def _negative_everywhere(e: Expr, positive: frozenset[Expr]) -> bool:
+    """Continuous on all of space, without a zero, and below 0 at one point (the intermediate value theorem)."""
+    if not all(map(_continuous, ex.nodes(e))):
+        return False
+    point = dict.fromkeys(e.symbols, ex.ONE)
+    return _holds_at(-e, True, point) and (never_vanishes(e, positive) or no_solution([e], positive))
+
+
+def _continuous(node: Expr) -> bool:
+    """Is an operation defined and continuous everywhere?"""
+    if node.op == "pow":
+        exponent = node.args[1]
+        return exponent.op == "num" and bool(exponent.args[0] > 0) and exponent.args[0].denominator == 1
+    return node.op in ("num", "const", "sym", "add", "mul") or (node.op == "fn" and node.args[0] in _TOTAL)
+
+
+def _holds_along_slack(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
+    """Is there a certified zero of e - s^2, for a strict inequality one with s apart from 0?"""
+    slack = ex.coordinate("_slack")
+    unknowns: Sequence[Expr] = [*sorted(e.symbols, key=repr), slack]
+    try:
+        ring = Ring([e - slack * slack], positive)
+        search = RealSearch(ring, [ring.node(e - slack * slack)], unknowns, positive)
+        for seed in range(SEARCHES):
+            found = search.search(seed)
+            if found is not None and found.certified and found.consistent:
+                at = values(ring, found.point)
+                signs = [at[ring.node(p)] > 0 for p in positive & e.symbols]
+                if all(signs) and not (strict and at[ring.node(slack)].contains(0)):
+                    return True
+    except OutOfTimeError:
+        raise
+    except (NoValueError, ArithmeticError, ValueError):
+        return False
+    return False

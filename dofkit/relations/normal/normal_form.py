@@ -8,40 +8,155 @@ Differentials are read through dq = qdot dt: a relation homogeneous of degree k 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from fractions import Fraction
 from itertools import product as cartesian
+from math import gcd, isqrt, lcm, prod
+from typing import Any, NamedTuple
+
+from flint import fmpq
 
 from dofkit.base.errors import TextError
-from dofkit.exact.zero.identity import is_proved_zero
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon, divided, lowest_terms
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff, substitute
-from dofkit.expressions.combinations import Combined, combined
-from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, cleared, in_velocities
-from dofkit.expressions.terms import without_cancelled
+from dofkit.expressions.calculus import SOLVE_FOR_IT, accelerations_of, cleared, diff, in_velocities, substitute
+from dofkit.expressions.terms import Combined, combined, without_cancelled
 from dofkit.expressions.tree import Expr
-from dofkit.relations.normal.domain import DomainCondition, conditions_of
-from dofkit.relations.normal.exact_zeros import SOLE_NOTE, sole_zero
-from dofkit.relations.normal.linear_branches import linear_branches, squares_compared, without_arctangent
-from dofkit.relations.normal.no_solution import no_solution
-from dofkit.relations.normal.notes import (
-    COMPARED_NOTE,
-    NOWHERE_NOTE,
-    QUADRATIC_NOTE,
-    REGION_NOTE,
-    SQUARED_NOTE,
-    UNDONE_NOTE,
-)
-from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian, Piece, with_constants
-from dofkit.relations.normal.polynomial_zeros import Conjunction
-from dofkit.relations.normal.signs import (
+from dofkit.relations.normal.domain import (
+    DomainCondition,
     arguments_of,
     by_signs,
+    conditions_of,
     holds_on_a_region,
     squared,
     up_to_a_number,
     with_absolute_values,
 )
-from dofkit.relations.normal.zero_set import zero_set
+from dofkit.relations.normal.no_solution import no_solution
+from dofkit.relations.normal.pieces import (
+    NOWHERE_NOTE,
+    QUADRATIC_NOTE,
+    REGION_NOTE,
+    SQUARED_NOTE,
+    Finite,
+    Nonlinear,
+    Normal,
+    Pfaffian,
+    Piece,
+    with_constants,
+)
+from dofkit.relations.normal.polynomial_zeros import Conjunction
+from dofkit.relations.normal.semidefinite import Signs, weak_sign
+from dofkit.relations.normal.zero_set import never_vanishes, zero_set
+
+#: A monomial in what depends on velocities: (generator, exponent) pairs.
+Monomial = tuple[tuple[int, int], ...]
+
+
+class _Square(NamedTuple):
+    """``linear``^2 = ``radicand`` ``root``^2; ``sign`` of the radicand: 1 (>= 0), -1 (<= 0) or 0 (not known)."""
+
+    linear: Expr
+    radicand: Expr
+    root: Expr
+    sign: int
+
+
+def linear_branches(e: Expr, velocities: Sequence[Expr], positive: frozenset[Expr]) -> list[Conjunction] | None:
+    """Return the branches of ``e = 0``; None where it is not known to consist of branches linear in the velocities.
+
+    A branch consists of expressions linear in the velocities, or free of them, that vanish together. The branches are
+    those of the numerator of ``e``: its denominator vanishes nowhere that ``e`` has a value.
+    """
+    ring = Ring([e], positive)
+    node = ring.node(e)
+    try:
+        canon = Canon(ring)
+        whole = canon.quotient(node)[0]
+        terms = _by_velocities(canon, whole)
+        if any(sum(k for _, k in m) > 2 or any(ring.var_expr[i] not in velocities for i, _ in m) for m in terms):
+            return None
+        squares = (_completed(canon, whole, i, velocities, positive) for m in terms for i, k in m if k == 2)
+        square = next((found for found in squares if found is not None), None)
+    except NoValueError:
+        return None
+    return None if square is None else _branches(square, positive)
+
+
+def _by_velocities(canon: Canon, polynomial: Any) -> dict[Monomial, Any]:
+    """A polynomial as coefficients of the monomials in what depends on velocities."""
+    n = len(canon.ring.vars)
+    moves = [any(s.args[0] == "velocity" for s in e.symbols) for e in canon.ring.var_expr]
+    coefficients: dict[Monomial, Any] = {}
+    for exponents, coefficient in polynomial.to_dict().items():
+        moving = tuple((n - 1 - i, int(k)) for i, k in enumerate(exponents) if k and moves[n - 1 - i])
+        rest = tuple(0 if moves[n - 1 - i] else k for i, k in enumerate(exponents))
+        term = canon.ctx.from_dict({rest: coefficient})
+        coefficients[moving] = coefficients[moving] + term if moving in coefficients else term
+    return coefficients
+
+
+def _completed(
+    canon: Canon, whole: Any, index: int, velocities: Sequence[Expr], positive: frozenset[Expr]
+) -> _Square | None:
+    """Return 4 a e = L^2 - D less the common factors of L and D, for the velocity of a generator.
+
+    None where D is no square of an expression linear in the velocities, or what is left of a may vanish.
+    """
+    place = len(canon.ring.vars) - 1 - index
+    slope = whole.derivative(place)
+    lead = slope.derivative(place)
+    discriminant = canon.reduce(slope * slope - 2 * lead * whole)
+    content = canon.one * _square_content(discriminant)
+    root = prod((f ** (k // 2) for f, k in canon.factors(discriminant)), start=content)
+    radicand = divided(discriminant, root * root)
+    common = slope.gcd(root)
+    left, under = lowest_terms(lead, common * common)
+    linear, single = divided(slope, common), divided(root, common)
+    sign = weak_sign(canon, Signs(canon, positive), radicand)
+    square = _Square(canon.to_expr(linear), canon.to_expr(radicand), canon.to_expr(single), sign)
+    factors = [canon.to_expr(left), canon.to_expr(under)]
+    slopes = [diff(square.root, v) for v in velocities]
+    if any(_has(u, velocities) for u in (square.radicand, *factors, *slopes)):
+        return None
+    return square if all(_vanishes_nowhere(u, positive) for u in factors) else None
+
+
+def _square_content(poly: Any) -> fmpq:
+    """Return a rational number whose square, divided out of a polynomial, leaves integer coefficients."""
+    coefficients = [Fraction(int(c.p), int(c.q)) for c in poly.to_dict().values()]
+    below = lcm(*(c.denominator for c in coefficients))
+    whole = gcd(*(int(c * below) for c in coefficients)) * below
+    is_square = whole > 0 and isqrt(whole) ** 2 == whole
+    return fmpq(isqrt(whole) if is_square else 1, below)
+
+
+def _branches(square: _Square, positive: frozenset[Expr]) -> list[Conjunction] | None:
+    """Return the branches of L^2 = r s^2; None where the sign of r depends on the configuration."""
+    linear, radicand, root, sign = square
+    if sign == 1 or (sign == 0 and not _varying(radicand)):
+        size = ex.sqrt(radicand) * root
+        return [(linear - size,), (linear + size,)]
+    if sign == 0:
+        return None
+    factors = [root, *([radicand] if _varying(radicand) else [])]
+    return [(*zeros, linear) for factor in factors for zeros in zero_set(factor, positive, _varying(factor))[0]]
+
+
+def _has(e: Expr, symbols: Collection[Expr]) -> bool:
+    return not e.symbols.isdisjoint(symbols)
+
+
+def _varying(e: Expr) -> frozenset[Expr]:
+    return frozenset(s for s in e.symbols if s.args[0] != "parameter")
+
+
+def _vanishes_nowhere(e: Expr, positive: frozenset[Expr]) -> bool:
+    """Return whether ``e`` is not 0 anywhere; parameters are generic."""
+    return never_vanishes(e, positive) if _varying(e) else not is_proved_zero(e, positive)
 
 
 def velocities_of(e: Expr) -> list[Expr]:
@@ -111,10 +226,6 @@ def _finite(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
     folded = with_absolute_values(e, positive)
     if holds_on_a_region(folded, positive):
         return _by_signs(folded, positive)
-    value = sole_zero(folded)
-    if value is not None:
-        (s,) = e.symbols
-        return Normal(((Finite(s - value),),), (SOLE_NOTE,))
     branches, notes = zero_set(e, positive, _moving(e))
     if branches == ((e,),):
         return _squared(e, positive)
@@ -167,9 +278,6 @@ def _squared(e: Expr, positive: frozenset[Expr]) -> Normal:
 
 def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
     """What a relation nonlinear in the velocities says, by its factors; one with velocities in abs() stays whole."""
-    polynomial = squares_compared(e, velocities_of(e), positive)
-    if polynomial is not None and polynomial != e:
-        return _with_note(normalise(polynomial, positive, True), COMPARED_NOTE)
     if any(velocities_of(u) for u in arguments_of(e)):
         return Normal(((Nonlinear(e),),))
     moving = frozenset(s for s in e.symbols if s.args[0] in ("velocity", "coordinate", "time"))
@@ -183,10 +291,6 @@ def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
     return Normal(tuple(found), tuple(dict.fromkeys(said)))
 
 
-def _with_note(normal: Normal, note: str) -> Normal:
-    return normal._replace(notes=tuple(dict.fromkeys((note, *normal.notes))))
-
-
 def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Piece, ...]], str]:
     """The branches of one irreducible relation in velocities, and what was done."""
     velocities = velocities_of(e)
@@ -195,13 +299,10 @@ def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Pie
     form = linear_form(e)
     if form is not None:
         return [(form if form.coefficients else Finite(form.dt),)], ""
-    undone = without_arctangent(e, velocities, positive)
-    if undone is not None:
-        return [(*b, *undone[1]) for b in normalise(undone[0], positive, True).branches], UNDONE_NOTE
-    found = linear_branches(e, velocities, positive)
-    if found is None:
+    branches = linear_branches(e, velocities, positive)
+    if branches is None:
         return [(Nonlinear(e),)], ""
-    return [(*map(_linear_piece, b.relations), *b.conditions) for b in found], QUADRATIC_NOTE
+    return [tuple(map(_linear_piece, branch)) for branch in branches], QUADRATIC_NOTE
 
 
 def _linear_piece(e: Expr) -> Finite | Pfaffian:

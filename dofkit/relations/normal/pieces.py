@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
+from dofkit.expressions.renaming import Unwritten
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
+from dofkit.system import Constraint, Relation
+
+REGION_NOTE = (
+    "for one sign of the argument of abs() or of the root it is satisfied on a whole region, where it does "
+    "not reduce the number of degrees of freedom"
+)
+NOWHERE_NOTE = "no real configuration satisfies it, because it has no real value anywhere"
+SQUARED_NOTE = "the root was removed by squaring, with the sign of the other side as a condition"
+UNDONE_NOTE = "the arctangent of the velocities was inverted"
+QUADRATIC_NOTE = "over the real numbers the relation between velocities splits into linear ones"
+INSTANT_NOTE = "a factor that vanishes only at instants of time was taken out"
 
 
 @dataclass(frozen=True)
@@ -67,14 +79,12 @@ class Normal(NamedTuple):
     """What a relation says, and what was done to see it.
 
     ``constants``: coordinates that stand for constants of an integration by time, which ``once`` tells.
-    ``kinked``: told apart by the signs of what vanishes at the reference configuration: there is no gradient there.
     """
 
     branches: Branches
     notes: tuple[str, ...] = ()
     constants: tuple[str, ...] = ()
     once: str = ""
-    kinked: bool = False
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
@@ -93,3 +103,57 @@ def with_constants(piece: Piece, values: Mapping[str, Expr]) -> Piece:
         named = {name: substitute(e, mapping) for name, e in piece.coefficients.items()}
         return Pfaffian(named, substitute(piece.dt, mapping))
     return replace(piece, expr=substitute(piece.expr, mapping))
+
+
+class JointEquation(Finite):
+    """g(q) = 0: equation ``number`` of the ``joint``, whose ``expr`` is written out when it is asked for."""
+
+    def __init__(self, joint: Unwritten[Relation], number: int) -> None:
+        object.__setattr__(self, "joint", joint)
+        object.__setattr__(self, "number", number)
+
+    joint: Unwritten[Relation]
+    number: int
+
+    def __getattr__(self, name: str) -> Expr:
+        if name != "expr":
+            raise AttributeError(name)
+        written = self.joint[self.number].expr
+        object.__setattr__(self, "expr", written)
+        return written
+
+
+def unwritten(joint: Unwritten[Relation]) -> tuple[Normal, ...]:
+    """The equations of a joint as they stand: each says one thing over the reals."""
+    return tuple(Normal(((JointEquation(joint, k),),)) for k in range(len(joint)))
+
+
+#: The kinds of symbols that a configuration gives values.
+FINITE = frozenset({"coordinate", "parameter", "time"})
+
+
+class Reduced(NamedTuple):
+    """A constraint with every relation reduced; ``inequalities`` apart. ``written``: the relation of each normal."""
+
+    constraint: Constraint
+    normals: tuple[Normal, ...]
+    inequalities: tuple[Inequality, ...]
+    written: Sequence[Relation] = ()
+
+    @property
+    def equations(self) -> int:
+        return len(self.normals)
+
+    @property
+    def constants(self) -> tuple[str, ...]:
+        """What stands for constants of an integration by time."""
+        return tuple([c for normal in self.normals for c in normal.constants])
+
+    @property
+    def domain(self) -> tuple[DomainCondition, ...]:
+        """Where its equations, as they were written, have a value; velocities have one wherever there is a motion."""
+        relations = self.constraint.relations
+        if isinstance(relations, Unwritten) or not (self.normals or self.inequalities):
+            return ()
+        written = (DomainCondition(*required) for r in relations if r.sense == "=" for required in r.domain)
+        return tuple(dict.fromkeys(c for c in written if {s.args[0] for s in c.expr.symbols} <= FINITE))

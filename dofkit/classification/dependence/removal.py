@@ -1,0 +1,277 @@
+"""What can go without changing the set: constraints left out one by one, the last in the order first.
+
+Where leaving a constraint out gives freedom, it is needed. Where it gives none, what the constraint says must follow
+from what is left: the set may lose a part and keep its dimension.
+
+How many equations are independent of all before them where relations are dependent at the drawing only.
+
+An equation is independent of others where it is no combination of them, with coefficients that are analytic near the
+drawing. One after another they are held against those before. A row that is no sum of rows before it at the drawing is
+of an independent equation. One that is such a sum is of a dependent equation where that vanishes on the manifold of the
+independent ones before it [ImplicitFunctions]; the first that does not is independent, and so is a later one that takes
+freedom away. Of several of one constraint all but one are dependent where they hold, in numbers, at the points near the
+drawing where that one does: creases that meet in a point close up by one condition of the second order, told by several
+equations. What was counted must be what the freedom says.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import combinations, groupby
+from typing import NamedTuple
+
+from dofkit.base.components import components
+from dofkit.base.deadline import OutOfTimeError, check, limited
+from dofkit.base.verdicts import Verdict, weakest
+from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets, is_drawn
+from dofkit.classification.dependence.circuits import Redundancies
+from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
+from dofkit.classification.freedom.block import answer
+from dofkit.classification.freedom.preparation import all_of
+from dofkit.exact.matrices.sparse import echelon
+from dofkit.relations.answer import Answer
+from dofkit.relations.blocks import Block, Row, split
+from dofkit.relations.setting import Setting
+
+
+def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered: Sequence[int]) -> Redundancies:
+    """Return what is redundant in a block of finite equations whose rank does not tell, the last written first.
+
+    ``nullity``: dependent rows by the freedom; ``numbered``: the equation each row belongs to.
+    """
+    owners = owners_of(block)
+    order = list(dict.fromkeys(owners))
+    removal = Removal(block, setting, a)
+    with limited(LEAVING_SECONDS):
+        redundancies = _largest_redundant_set(removal, order)
+        circuits = _circuits(removal, order, redundancies.redundant)
+    nullity = max(nullity, sum(o in redundancies.redundant for o in owners))
+    groups = [(nullity, sorted(order))] if redundancies.redundant else []
+    answer = replace(redundancies, groups=groups, circuits=circuits, verdict=removal.verdict)
+    count = counted(block, setting, a, numbered) if is_drawn(block, a, setting) else None
+    if count is not None:
+        verdict = weakest(answer.verdict, "numeric" if count.seen else "proved")
+        counts = replace(answer, independent=count.independent, equations=count.equations, seen=count.seen)
+        return replace(counts, groups=groups or count.groups, verdict=verdict)
+    independent = {o: 0 for o, circuit in circuits.items() if circuit and max(circuit) < o}
+    open_ = {*redundancies.redundant, *redundancies.undecided}
+    independent |= {o: 1 for o in order if owners.count(o) == 1 and o not in open_}
+    uncounted = tuple(o for o in order if o not in independent and o not in redundancies.undecided)
+    return replace(answer, independent=independent, uncounted=uncounted)
+
+
+def _largest_redundant_set(removal: Removal, order: Sequence[int]) -> Redundancies:
+    """As many constraints as can go together, the last in the order first, and those of which it is not known.
+
+    What can go together can go one by one. Of constraints that can go one by one as many are tried as could be more.
+    """
+    gone, single, open_ = list[int](), list[int](), list[int]()
+    try:
+        for owner in reversed(order):
+            alone = removal.is_redundant([owner])
+            together = removal.is_redundant([*gone, owner]) if alone else alone
+            single += [owner] if alone else []
+            gone += [owner] if together else []
+            open_ += [owner] if together is None else []
+        while len(gone) < len(single):
+            more = combinations(single, len(gone) + 1)
+            better = next((choice for choice in more if removal.is_redundant(choice) is not False), None)
+            if better is None or removal.is_redundant(better) is None:
+                open_ += better or ()
+                break
+            gone = list(better)
+    except OutOfTimeError:
+        open_ += [o for o in order if o not in gone]
+    return Redundancies({}, sorted(gone), [], {}, tuple(sorted(set(open_) - set(gone))))
+
+
+def _circuits(removal: Removal, order: Sequence[int], redundant: Sequence[int]) -> dict[int, list[int]]:
+    """For each constraint that can go a minimal set of those kept from which it follows; none where that is open."""
+    found = {}
+    for owner in redundant:
+        kept = [o for o in order if o not in redundant]
+        try:
+            for other in reversed(kept):
+                if removal.is_redundant([owner], [o for o in kept if o != other]):
+                    kept = [o for o in kept if o != other]
+        except OutOfTimeError:
+            break
+        found[owner] = sorted(kept)
+    return found
+
+
+def owners_of(block: Block) -> list[int]:
+    """The constraint that wrote each row."""
+    return [r.constraint for r in block.rows]
+
+
+@dataclass
+class Removal:
+    """A block without some of its constraints; ``verdict``: that of the weakest argument so far."""
+
+    block: Block
+    setting: Setting
+    whole: Answer
+    verdict: Verdict = "proved"
+    _answers: dict[tuple[frozenset[int], frozenset[int]], bool | None] = field(default_factory=dict)
+    _dofs: dict[frozenset[int], int | None] = field(default_factory=dict)
+
+    def is_redundant(self, owners: Collection[int], others: Collection[int] | None = None) -> bool | None:
+        """Return whether the set near the reference is the same without some constraints; None: undecided.
+
+        ``others``: the constraints that remain; without it all others of the block.
+        """
+        removed = frozenset(owners)
+        kept = frozenset(owners_of(self.block)) - removed if others is None else frozenset(others)
+        if (removed, kept) not in self._answers:
+            check()
+            before, after = self._dof(removed | kept), self._dof(kept)
+            same = None if before is None or after is None else before == after
+            self._answers[removed, kept] = self._is_same_set(removed, kept) if same else same
+        return self._answers[removed, kept]
+
+    def _dof(self, kept: frozenset[int]) -> int | None:
+        """Return the freedom that some constraints leave."""
+        if kept not in self._dofs:
+            rows = [r for r in self.block.rows if r.constraint in kept]
+            whole = len(rows) == len(self.block.rows)
+            self._dofs[kept] = self.whole.dof if whole else freedom(self.block.coordinates, rows, self.setting)
+        return self._dofs[kept]
+
+    def _is_same_set(self, removed: frozenset[int], kept: frozenset[int]) -> bool | None:
+        """Return whether what is removed is implied: always where only rigid motions of the system are left."""
+        rows, others = ([i for i, r in enumerate(self.block.rows) if r.constraint in own] for own in (removed, kept))
+        if not is_drawn(self.block, self.whole, self.setting):
+            self.verdict = weakest(self.verdict, "probable")
+            return all_of(Everywhere(self.block, self.setting).follows(i, others) for i in rows)
+        near = NearDrawing(self.block, self.setting)
+        if near.is_orbit(others, self._dof(kept)):
+            return True
+        if near.imply(others, rows, self.whole):
+            self.verdict = weakest(self.verdict, "probable")
+            return True
+        self.verdict = weakest(self.verdict, "numeric")
+        return near.seem_to_imply(others, rows) or None
+
+
+def freedom(coordinates: Sequence[str], rows: Sequence[Row], setting: Setting) -> int | None:
+    """Return the freedom that some rows leave; None where it is undecided."""
+    blocks, untouched = split(coordinates, rows)
+    dofs = [answer(block, setting).dof for block in blocks]
+    return None if None in dofs else len(untouched) + sum(dof for dof in dofs if dof is not None)
+
+
+class EquationCount(NamedTuple):
+    """Equations of each constraint that are independent of all before, those that are not, and groups.
+
+    ``seen``: the constraints of whose equations some were seen in numbers to follow.
+    """
+
+    independent: dict[int, int]
+    equations: dict[int, tuple[int, ...]]
+    groups: list[tuple[int, list[int]]]
+    seen: tuple[int, ...]
+
+
+def counted(block: Block, setting: Setting, a: Answer, numbered: Sequence[int]) -> EquationCount | None:
+    """The count for a block that was answered at the drawing; ``numbered``: the equation that each row is of.
+
+    None where it was not decided, or is not what the freedom says.
+    """
+    if a.dof is None or len(a.matrix) != len(block.rows):
+        return None
+    counting = _Counting(block, setting, a)
+    supports = counting.supports()
+    if supports is None or len(supports) != max(0, len(block.rows) - (len(block.coordinates) - a.dof)):
+        return None
+    owners = [r.constraint for r in block.rows]
+    following = Counter(owners[i] for i in supports)
+    circuits = [{owners[i], *(owners[j] for j in support)} for i, support in supports.items()]
+    joined = [{o for k in numbers for o in circuits[k]} for numbers in components(circuits)]
+    groups = [(sum(following[o] for o in c), sorted(c)) for c in joined]
+    equations = {o: tuple(numbered[i] for i in supports if owners[i] == o) for o in owners}
+    independent = {o: k - following[o] for o, k in Counter(owners).items()}
+    return EquationCount(independent, equations, sorted(groups, key=lambda g: g[1]), tuple(counting.seen))
+
+
+@dataclass
+class _Counting:
+    """What follows from what, row by row; ``bent``: rows dependent at the drawing only; ``seen``: as in the count."""
+
+    block: Block
+    setting: Setting
+    a: Answer
+    seen: list[int] = field(default_factory=list)
+    bent: list[int] = field(default_factory=list)
+    following: dict[int, list[int]] = field(default_factory=dict)
+
+    @cached_property
+    def _near(self) -> NearDrawing:
+        return NearDrawing(self.block, self.setting)
+
+    @cached_property
+    def _owners(self) -> list[int]:
+        return [r.constraint for r in self.block.rows]
+
+    @cached_property
+    def _dependent(self) -> Mapping[int, Sequence[int]]:
+        """Rows that are sums of rows before them at the drawing, and of which."""
+        return echelon(self.a.matrix, self.a.modulus, supports=True).supports
+
+    def supports(self) -> dict[int, list[int]] | None:
+        """For every row that follows from those before it rows from which it does; None where that is open.
+
+        The rows of one constraint stand in no order: of those that say the same beside others any may be the first.
+        """
+        for owner, rows in groupby(sorted(self._dependent), key=self._owners.__getitem__):
+            left = self._left(rows)
+            if left is None or not (self._by_one(owner, left) or self._by_freedom(left)):
+                return None
+        return self.following
+
+    def _left(self, rows: Iterable[int]) -> list[int] | None:
+        """Those of some dependent rows that follow from no independent ones; None where that is not known of one."""
+        found = []
+        for i in rows:
+            check()
+            pivots = [k for k in range(i) if k not in self._dependent]
+            enough = SufficientSets(self._near, self._owners, pivots).enough(i, self._dependent[i])
+            if enough is not None:
+                self.following[i] = enough
+            elif self._near.follows(i, pivots) is None:
+                return None
+            else:
+                found.append(i)
+        return found
+
+    def _by_one(self, owner: int, rows: Sequence[int]) -> bool:
+        """Do several rows of a constraint hold where one of them does beside those before, as far as numbers tell?"""
+        if len(rows) < 2:
+            return False
+        pivots = [k for k, o in enumerate(self._owners) if o <= owner and k not in self._dependent]
+        for first in rows:
+            others = [i for i in rows if i != first]
+            given = [*pivots, *self.bent, first]
+            if self._near.seem_to_imply(given, others) and (not self.bent or self._takes_freedom(first)):
+                self.bent.append(first)
+                self.following |= dict.fromkeys(others, given)
+                self.seen.append(owner)
+                return True
+        return False
+
+    def _by_freedom(self, rows: Sequence[int]) -> bool:
+        """Does each of some rows take freedom away, the first of all apart? They are independent then."""
+        for i in rows:
+            if self.bent and not self._takes_freedom(i):
+                return False
+            self.bent.append(i)
+        return True
+
+    def _takes_freedom(self, row: int) -> bool:
+        """Do the rows before this one, but for those that follow, leave less freedom with it than without it?"""
+        rows = [self.block.rows[k] for k in range(row + 1) if k not in self.following]
+        before, after = (freedom(self.block.coordinates, some, self.setting) for some in (rows[:-1], rows))
+        return before is not None and after is not None and after < before

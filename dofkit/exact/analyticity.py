@@ -1,0 +1,115 @@
+"""Analyticity: whether a function that is not identically zero vanishes on no open set [IsolatedZeros].
+
+A quotient is analytic on the complex numbers without its poles, which are a connected set, so poles are no obstacle.
+Inside a root, a logarithm, an absolute value or an inverse function they are one: t*sqrt(1 + 1/t^2) - sqrt(1 + t^2)
+is 0 for t > 0 only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import partial
+
+from dofkit.exact.boxes import NON_NEGATIVE, WHOLE, BoxProgram, EmptyError, Interval
+from dofkit.exact.errors import NoValueError
+from dofkit.expressions.tree import Expr
+
+#: Functions that are analytic on the whole real line, and have one value at every complex number but their poles.
+ENTIRE = frozenset({"exp", "sin", "cos", "sinh", "cosh", "tanh"})
+#: Functions that have real poles besides.
+POLAR = frozenset({"tan", "cot", "sec", "csc"})
+
+
+def is_analytic(
+    e: Expr, symbols: Iterable[Expr], positive: frozenset[Expr] = frozenset(), *, poles: bool = True
+) -> bool:
+    """Return whether ``e`` is proved to be one analytic function of ``symbols``; False means that it is not known.
+
+    It is where no absolute value, root, logarithm or inverse function has an argument that can reach the edge of its
+    domain or of its branch. An argument of the first degree may reach the edge of the domain, because what it leaves is
+    a convex set. Other symbols are constants, those of ``positive`` are greater than 0, and unknown functions are
+    generic ones. With ``poles=False`` it must also have a value at all real points.
+
+    >>> from dofkit.expressions import tree as ex
+    >>> x, t = ex.coordinate("x"), ex.TIME
+    >>> is_analytic(t + ex.fn("abs", t), [t]), is_analytic(t + ex.fn("abs", x), [t])
+    (False, True)
+    >>> [is_analytic(ex.sqrt(u), [t]) for u in (t**2, t**2 - 1, 2 + ex.fn("cos", t), t - 3)]
+    [False, False, True, True]
+    >>> is_analytic(ex.fn("acos", ex.fn("cos", t)) - t, [t]), is_analytic(ex.fn("log", ex.fn("cosh", t)), [t])
+    (False, True)
+    >>> is_analytic(1 / t, [t]), is_analytic(1 / t, [t], poles=False), is_analytic(ex.sqrt(1 + 1 / t**2), [t])
+    (True, False, False)
+    """
+    moving = frozenset(symbols)
+    if e.op == "sym" or moving.isdisjoint(e.symbols):
+        return True
+    within = partial(is_analytic, symbols=moving, positive=positive, poles=poles)
+    without_poles = partial(is_analytic, symbols=moving, positive=positive, poles=False)
+    if e.op == "call":
+        return all(map(without_poles, e.args[2]))
+    if e.op in ("add", "mul"):
+        return all(map(within, e.args))
+    if e.op == "fn":
+        name, *arguments = e.args
+        if name in ENTIRE or (poles and name in POLAR):
+            return within(arguments[0])
+        ends = poles and name in ("log", "asin", "acos") and _is_affine(arguments[0], moving)
+        return ends or (all(map(without_poles, arguments)) and _is_inside_branch(name, arguments, positive))
+    base, exponent = e.args
+    if exponent.op == "num" and exponent.args[0].denominator == 1:
+        return within(base) and (poles or exponent.args[0] > 0 or _excludes_zero(base, positive))
+    ends = poles and (exponent.op != "num" or exponent.args[0].denominator % 2 == 0) and _is_affine(base, moving)
+    return (ends or (without_poles(base) and _is_positive(base, positive))) and within(exponent)
+
+
+def _is_affine(e: Expr, moving: frozenset[Expr]) -> bool:
+    """Return whether ``e`` is a sum of constants and constant multiples of the symbols."""
+    if e in moving or moving.isdisjoint(e.symbols):
+        return True
+    if e.op not in ("add", "mul"):
+        return False
+    variable = [part for part in e.args if not moving.isdisjoint(part.symbols)]
+    return (e.op == "add" or len(variable) == 1) and all(_is_affine(part, moving) for part in variable)
+
+
+def _is_inside_branch(name: str, arguments: Sequence[Expr], positive: frozenset[Expr]) -> bool:
+    """Return whether the arguments of a function stay away from the edges of its domain and of its branch."""
+    u = arguments[0]
+    if name in ("asin", "acos"):
+        low, high = _bounds(u, positive)
+        return low > -1 and high < 1
+    if name == "atan2":
+        return _excludes_zero(u, positive) or _is_positive(arguments[1], positive)
+    return (
+        name == "atan"
+        or (name == "log" and _is_positive(u, positive))
+        or (name == "abs" and _excludes_zero(u, positive))
+    )
+
+
+def _is_positive(e: Expr, positive: frozenset[Expr]) -> bool:
+    return _bounds(e, positive)[0] >= 0 and _excludes_zero(e, positive)
+
+
+def _excludes_zero(e: Expr, positive: frozenset[Expr]) -> bool:
+    """Return whether ``e`` is proved to be 0 at no real point."""
+    excludes = partial(_excludes_zero, positive=positive)
+    low, high = _bounds(e, positive)
+    if low > 0 or high < 0 or e in positive or (e.op == "fn" and e.args[0] == "exp"):
+        return True
+    if e.op == "add":
+        bounds = [_bounds(term, positive) for term in e.args]
+        of_one_sign = all(low >= 0 for low, _ in bounds) or all(high <= 0 for _, high in bounds)
+        return of_one_sign and any(map(excludes, e.args))
+    return (e.op == "mul" and all(map(excludes, e.args))) or (e.op == "pow" and excludes(e.args[0]))
+
+
+def _bounds(e: Expr, positive: frozenset[Expr]) -> Interval:
+    """Return an interval that holds all values of ``e``."""
+    try:
+        program = BoxProgram([(e, WHOLE)])
+        box = [NON_NEGATIVE if v in positive else WHOLE for v in program.variables]
+        return program.forward(box)[e]
+    except (EmptyError, NoValueError):
+        return WHOLE

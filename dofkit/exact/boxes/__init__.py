@@ -1,1 +1,0 @@
-"""Exclusion by boxes: interval arithmetic and contraction."""

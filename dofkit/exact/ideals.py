@@ -1,0 +1,207 @@
+"""Ideals of polynomials in a ring's generators, by Groebner bases [Buchberger1965].
+
+Elimination divides by what it solves for and sees no part of a set where that is 0; a Groebner basis sees every part.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from itertools import combinations
+from math import lcm
+from typing import Any
+
+from flint import Ordering, fmpq_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
+
+from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.program import ADD, MUL, NUM
+from dofkit.exact.ring.ring import Ring
+
+#: Relations, unknowns, degree and terms of what is looked at.
+MAX_RELATIONS, MAX_UNKNOWNS, MAX_DEGREE, MAX_LENGTH = 8, 12, 6, 40
+#: Polynomials of a basis, terms and bits of each: past that it is given up.
+LIMITS = (60, 200, 400)
+#: Parameters stand for numbers up to this size.
+LARGEST = 10**4
+
+#: Relations are combined while their coefficients fit a matrix of this many entries.
+COMBINED_ENTRIES = 20_000
+
+Poly = Any
+Table = dict[tuple[int, ...], Fraction]
+
+
+def complex_dimension(ring: Ring, nodes: Sequence[int], moving: Sequence[int]) -> int | None:
+    """The dimension of the complex points at which the nodes vanish, for generic parameters; -1 where there are none.
+
+    ``moving``: the generators that are coordinates. It is that of the ideal of leading monomials: the largest number
+    of unknowns of which no leading monomial is a product. None where other functions than sines and cosines of single
+    coordinates occur, or where it would take long.
+    """
+    if not 2 <= len(nodes) <= MAX_RELATIONS:
+        return None
+    canon = Canon(ring)
+    try:
+        own = [canon.quotient(node)[0] for node in nodes]
+    except NoValueError:
+        return None
+    return None if sum(map(_is_curved, own)) < 2 else dimension_of(canon, own, moving)
+
+
+def dimension_of(canon: Canon, own: Sequence[Poly], moving: Sequence[int]) -> int | None:
+    """The same for polynomials of a canonical ring."""
+    made = _Polynomials.of(canon, own, moving)
+    basis = None if made is None else _basis(made.polynomials)
+    if made is None or basis is None:
+        return None
+    leading = [frozenset(i for i, k in enumerate(p.monomial(0)) if k) for p in basis]
+    if frozenset() in leading:
+        return -1
+    every = range(made.unknowns)
+    for size in range(made.unknowns, -1, -1):
+        check()
+        if any(all(not used <= set(free) for used in leading) for free in combinations(every, size)):
+            return size + made.unseen
+    return -1
+
+
+class _Polynomials:
+    """Polynomials over the integers, and how many coordinates they do not mention."""
+
+    def __init__(self, polynomials: list[Poly], unknowns: int, unseen: int) -> None:
+        self.polynomials, self.unknowns, self.unseen = polynomials, unknowns, unseen
+
+    @classmethod
+    def of(cls, canon: Canon, own: Sequence[Poly], moving: Sequence[int]) -> _Polynomials | None:
+        ring = canon.ring
+        used = sorted({i for p in own for i in canon.generators_in(p)})
+        if any(len(p) > MAX_LENGTH or p.total_degree() > MAX_DEGREE for p in own):
+            return None
+        kept = _unknowns(ring, used, moving)
+        if kept is None or len(kept) > MAX_UNKNOWNS:
+            return None
+        seen, pairs = _coordinates_and_pairs(ring, kept)
+        rng = random.Random("dofkit ideals")
+        values = _constants(ring, [i for i in used if i not in kept], rng)
+        place = {i: k for k, i in enumerate(kept)}
+        ctx = fmpz_mpoly_ctx.get([f"u{k}" for k in range(len(kept))], Ordering.degrevlex)
+        gens = ctx.gens()
+        polynomials = [ctx.from_dict(_whole(_table(p, len(ring.vars), place, values))) for p in own]
+        circles = [gens[place[c]] ** 2 + gens[place[s]] ** 2 - 1 for c, s in pairs]
+        return cls([*polynomials, *circles], len(kept), len(moving) - len(seen))
+
+
+def _is_curved(p: Poly) -> bool:
+    return bool(p.total_degree() > 1)
+
+
+def _unknowns(ring: Ring, used: Sequence[int], moving: Sequence[int]) -> list[int] | None:
+    """The generators that are unknown: coordinates, cosines and sines of angles; None where there are others."""
+    kept: set[int] = set()
+    for i in used:
+        var = ring.vars[i]
+        if var.kind == "symbol":
+            kept |= {i} & set(moving)
+        elif var.kind in ("cos", "sin") and _angle(ring, i) in moving:
+            kept |= {i, var.partner}
+        elif var.kind not in ("cos", "sin", "exp") or any(
+            ring.var_index(s) in moving for s in ring.var_expr[i].symbols
+        ):
+            return None
+    angles = {_angle(ring, i) for i in kept if ring.vars[i].kind != "symbol"}
+    return None if angles & kept else sorted(kept)
+
+
+def _constants(ring: Ring, others: Sequence[int], rng: random.Random) -> dict[int, Fraction]:
+    """Random values of parameters and functions of them: a cosine and its sine are a point of the circle."""
+    found = dict[int, Fraction]()
+    for i in others:
+        var = ring.vars[i]
+        if var.kind in ("cos", "sin") and i not in found:
+            half = Fraction(rng.randint(2, LARGEST), LARGEST)
+            pair = {"cos": (1 - half**2) / (1 + half**2), "sin": 2 * half / (1 + half**2)}
+            found |= {i: pair[var.kind], var.partner: pair[ring.vars[var.partner].kind]}
+        else:
+            found.setdefault(i, Fraction(rng.randint(2, LARGEST)))
+    return found
+
+
+def _angle(ring: Ring, index: int) -> int | None:
+    """The coordinate of which a generator is the cosine or sine."""
+    return ring.var_index(ring.vars[index].key[0])
+
+
+def _coordinates_and_pairs(ring: Ring, kept: Sequence[int]) -> tuple[set[int | None], list[tuple[int, int]]]:
+    """The coordinates that are seen, and the pairs of cosine and sine."""
+    pairs = [(i, ring.vars[i].partner) for i in kept if ring.vars[i].kind == "cos"]
+    seen = {i if ring.vars[i].kind == "symbol" else _angle(ring, i) for i in kept}
+    return seen, pairs
+
+
+def _table(p: Poly, count: int, place: Mapping[int, int], values: Mapping[int, Fraction]) -> Table:
+    """The terms of a polynomial of the canonical ring in the unknowns, with numbers for the rest."""
+    found: Table = {}
+    for exponents, c in p.to_dict().items():
+        number = Fraction(int(c.p), int(c.q))
+        monomial = [0] * len(place)
+        for position, k in enumerate(exponents):
+            index = count - 1 - position
+            if k and index in place:
+                monomial[place[index]] = int(k)
+            elif k:
+                number *= values[index] ** int(k)
+        key = tuple(monomial)
+        found[key] = found.get(key, Fraction(0)) + number
+    return found
+
+
+def _whole(table: Table) -> dict[tuple[int, ...], int]:
+    scale = lcm(*(c.denominator for c in table.values()))
+    return {m: int(c * scale) for m, c in table.items() if c}
+
+
+def _basis(polynomials: Sequence[Poly]) -> list[Poly] | None:
+    """A Groebner basis in degree reverse lexicographic order; None where it would be too large."""
+    given = [p for p in polynomials if p != 0]
+    if not given:
+        return []
+    vector: Any = fmpz_mpoly_vec(given, given[0].context())
+    basis, complete = vector.buchberger_naive(limits=LIMITS)
+    return list(basis) if complete else None
+
+
+# -- linear combinations of lower degree -----------------------------------------------------------
+
+
+def echelon_by_degree(canon: Canon, relations: Sequence[int]) -> list[dict[tuple[int, ...], Any]] | None:
+    """Return an echelon form of the numerators, or None where it is too large.
+
+    Terms of the highest degree are eliminated first: two circles meet on a line.
+    """
+    try:
+        tables = [canon.quotient(node)[0].to_dict() for node in relations]
+    except NoValueError:
+        return None
+    monomials = sorted({m for table in tables for m in table}, key=lambda m: (-sum(m), m))
+    if not monomials or len(monomials) * len(tables) > COMBINED_ENTRIES:
+        return None
+    reduced, rank = fmpq_mat([[table.get(m, 0) for m in monomials] for table in tables]).rref()
+    return [{m: reduced[r, c] for c, m in enumerate(monomials) if reduced[r, c] != 0} for r in range(rank)]
+
+
+def combined(ring: Ring, relations: Sequence[int]) -> list[int] | None:
+    """Return nodes that vanish together where the relations do, of the lowest degrees; None where that is too large."""
+    rows = echelon_by_degree(Canon(ring), relations)
+    return None if rows is None else [_polynomial_node(ring, row) for row in rows]
+
+
+def _polynomial_node(ring: Ring, table: dict[tuple[int, ...], Any]) -> int:
+    n, terms = len(next(iter(table))), []
+    for exponents, value in table.items():
+        factors = [ring.emit(NUM, Fraction(int(value.p), int(value.q)))]
+        factors += [ring.power_node(ring.var_node[n - 1 - i], int(k)) for i, k in enumerate(exponents) if k]
+        terms.append(ring.emit(MUL, tuple(factors)))
+    return ring.emit(ADD, tuple(terms))

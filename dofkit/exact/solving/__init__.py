@@ -1,1 +1,0 @@
-"""Polynomial systems: triangular solving modulo p, ideals."""

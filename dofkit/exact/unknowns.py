@@ -1,0 +1,200 @@
+"""The unknowns of relations over GF(p), and a relation as a polynomial in one of them.
+
+A root is an unknown with root^d = radicand, a basic angle an unknown point of the circle, by the tangent of its half.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from flint import nmod, nmod_poly
+
+from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError, PoleError, raising_no_value
+from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, reachable
+from dofkit.exact.ring.ring import Ring
+
+#: Denominators past this degree are reduced; quotients past this one are given up.
+LOW, LARGEST = 48, 4096
+
+
+class Rational:
+    """A quotient of polynomials in one unknown over GF(p)."""
+
+    __slots__ = ("bottom", "top")
+
+    def __init__(self, top: Any, bottom: Any) -> None:
+        self.top = top
+        self.bottom = bottom
+
+    def _pair(self, other: Any) -> Rational:
+        return other if isinstance(other, Rational) else Rational(self.top * 0 + other, self.bottom * 0 + 1)
+
+    def __add__(self, other: Any) -> Rational:
+        b = self._pair(other)
+        if self.bottom == b.bottom:
+            return Rational(self.top + b.top, self.bottom)
+        return _lowest(self.top * b.bottom + b.top * self.bottom, self.bottom * b.bottom)
+
+    def __mul__(self, other: Any) -> Rational:
+        b = self._pair(other)
+        return _lowest(self.top * b.top, self.bottom * b.bottom)
+
+    __radd__ = __add__
+    __rmul__ = __mul__
+
+    def __neg__(self) -> Rational:
+        return Rational(-self.top, self.bottom)
+
+    def __pow__(self, n: int) -> Rational:
+        return Rational(self.top**n, self.bottom**n)
+
+    def __rtruediv__(self, other: Any) -> Rational:
+        if self.top == 0:
+            raise PoleError
+        return self._pair(other) * Rational(self.bottom, self.top)
+
+    def numerator(self) -> Any:
+        """In lowest terms."""
+        return self.top // self.top.gcd(self.bottom) if self.top != 0 else self.top
+
+
+def _lowest(top: Any, bottom: Any) -> Rational:
+    """A quotient, in lowest terms where it is large. Raises NoValueError where it stays too large to go on with."""
+    if bottom.degree() <= LOW:
+        return Rational(top, bottom)
+    check()
+    common = top.gcd(bottom)
+    top, bottom = top // common, bottom // common
+    if max(top.degree(), bottom.degree()) > LARGEST:
+        raise NoValueError("a quotient of polynomials is too large")
+    return Rational(top, bottom)
+
+
+Unit = tuple[str, int]
+
+
+def unit_of(ring: Ring, index: int) -> Unit:
+    """The unknown that a generator belongs to: sin and cos are one."""
+    var = ring.vars[index]
+    return ("angle", min(index, var.partner)) if var.kind in ("cos", "sin") else ("var", index)
+
+
+def units_in(ring: Ring, node: int) -> frozenset[Unit]:
+    """The unknowns of a relation."""
+    found = set()
+    for i in reachable(ring, [node], through_generators=False):
+        op, payload = ring.code[i]
+        if op == VAR and ring.vars[payload].kind != "sign" and not stands_for_number(ring, payload):
+            found.add(unit_of(ring, payload))
+    return frozenset(found)
+
+
+def stands_for_number(ring: Ring, index: int) -> bool:
+    """True for generators that stand for one number: pi, roots and angles of numbers."""
+    var = ring.vars[index]
+    if var.kind in ("symbol", "call"):
+        return False
+    return all(ring.code[i][0] != VAR or stands_for_number(ring, ring.code[i][1]) for i in reachable(ring, var.args))
+
+
+def root_relations(ring: Ring, relations: list[int]) -> list[int]:
+    """root^d - radicand for every root that the relations reach."""
+    found, seen = [], set()
+    pending = list(relations)
+    while pending:
+        for i in reachable(ring, [pending.pop()], through_generators=False):
+            op, payload = ring.code[i]
+            if op != VAR or payload in seen:
+                continue
+            seen.add(payload)
+            var = ring.vars[payload]
+            if var.kind == "root" and not stands_for_number(ring, payload):
+                relation = ring.emit(ADD, (ring.power_node(i, var.degree), ring.negative(var.args[0])))
+                found.append(relation)
+                pending.append(relation)
+    return found
+
+
+@raising_no_value
+def univariate(ring: Ring, node: int, unit: Unit, point: FieldPoint) -> nmod_poly:
+    """The numerator of a relation as a polynomial in one unknown. Raises NoValueError."""
+    check()
+    x = nmod_poly([0, 1], point.p)
+    one = nmod_poly([1], point.p)
+    if unit[0] == "angle":
+        below = 5 * (one + x * x)
+        cos, sin = (Rational(top, below) for top in circle(x, one))
+        var = ring.vars[unit[1]]
+        pair = {var.index: cos if var.kind == "cos" else sin, var.partner: sin if var.kind == "cos" else cos}
+    else:
+        pair = {unit[1]: Rational(x, one)}
+    result = value_along(ring, node, pair, point)
+    top: nmod_poly = result.numerator() if isinstance(result, Rational) else nmod_poly([result], point.p)
+    return top
+
+
+@raising_no_value
+def value_along(ring: Ring, node: int, pair: dict[int, Rational], point: FieldPoint) -> Any:
+    """The value of a relation where some generators are functions of one unknown. Raises NoValueError."""
+    values: dict[int, Any] = {}
+    for i in reversed(reachable(ring, [node], through_generators=False)):
+        values[i] = _step(ring, i, values, pair, point)
+    return values[node]
+
+
+def _step(ring: Ring, i: int, values: dict[int, Any], pair: dict[int, Rational], point: FieldPoint) -> Any:
+    op, payload = ring.code[i]
+    if op == NUM:
+        return point.number(payload)
+    if op == ADD:
+        total = values[payload[0]]
+        for j in payload[1:]:
+            total = values[j] + total if isinstance(values[j], Rational) else total + values[j]
+        return total
+    if op == MUL:
+        total = values[payload[0]]
+        for j in payload[1:]:
+            total = values[j] * total if isinstance(values[j], Rational) else total * values[j]
+        return total
+    if op == POW:
+        base, n = values[payload[0]], payload[1]
+        return base**n if n > 0 else 1 / base**-n
+    if payload in pair:
+        return pair[payload]
+    return _independent(ring, payload, point)
+
+
+def _independent(ring: Ring, index: int, point: FieldPoint) -> Any:
+    """A generator's value where its argument is not looked at."""
+    var = ring.vars[index]
+    found = point.given.get((var.kind, var.key))
+    if found is not None:
+        return found
+    if not stands_for_number(ring, index):
+        return point.whatever(var)
+    return point.generator(var, [value_along(ring, a, {}, point) for a in var.args])
+
+
+def is_linear(ring: Ring, node: int, index: int, point: FieldPoint) -> bool:
+    """Is the relation a polynomial of degree 1 in a generator, with no denominator in it? Raises NoValueError."""
+    x, one = nmod_poly([0, 1], point.p), nmod_poly([1], point.p)
+    result = value_along(ring, node, {index: Rational(x, one)}, point)
+    return isinstance(result, Rational) and result.bottom.degree() == 0 and result.top.degree() == 1
+
+
+def roots_of(polynomial: nmod_poly) -> list[nmod]:
+    """The roots of a polynomial over GF(p)."""
+    if polynomial.degree() > 1:
+        return [root for root, _ in polynomial.roots()]
+    if polynomial.degree() < 1:
+        return []
+    p = polynomial.modulus()
+    return [-nmod(int(polynomial[0]), p) / nmod(int(polynomial[1]), p)]
+
+
+def circle(w: Any, one: Any) -> tuple[Any, Any]:
+    """5 (1 + w^2) times cos and sin of 2 atan(w) + atan(4/3): the point that no w gives is no special one."""
+    cos, sin = one - w * w, 2 * w
+    return 3 * cos - 4 * sin, 4 * cos + 3 * sin

@@ -1,1 +1,0 @@
-"""Is a number or an expression zero, and can non-zero be trusted?"""

@@ -1,0 +1,87 @@
+"""Powers, roots and values of functions that are rational numbers."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from dofkit.base.errors import PoleError
+
+#: A power of numbers is folded only while the result stays below this many bits.
+FOLD_BITS = 4096
+#: Higher roots are not looked for.
+MAX_DEGREE = 64
+
+
+def exact_power(base: Fraction, exponent: Fraction) -> Fraction | None:
+    """A number to a power, where that is a number of bounded size. Raises PoleError for 0 to a negative power."""
+    if base == 0:
+        if exponent < 0:
+            raise PoleError
+        return Fraction(exponent == 0)
+    if base == 1:
+        return base
+    if exponent.denominator == 1:
+        bits = max(base.numerator.bit_length(), base.denominator.bit_length())
+        return base ** int(exponent) if bits * abs(exponent) <= FOLD_BITS else None
+    if base > 0 and abs(exponent.numerator) <= 64:
+        root = exact_root(base, exponent.denominator)
+        return None if root is None else exact_power(root, Fraction(exponent.numerator))
+    return None
+
+
+def exact_root(value: Fraction, degree: int) -> Fraction | None:
+    """The root of a positive number; None where it is not rational, or the degree is above `MAX_DEGREE`."""
+    if degree > MAX_DEGREE:
+        return None
+    top, bottom = _integer_root(value.numerator, degree), _integer_root(value.denominator, degree)
+    return None if top is None or bottom is None else Fraction(top, bottom)
+
+
+def _integer_root(value: int, degree: int) -> int | None:
+    low, high = 0, 1 << (value.bit_length() // degree + 1)
+    while low < high:
+        middle = (low + high + 1) // 2
+        low, high = (middle, high) if middle**degree <= value else (low, middle - 1)
+    return low if low**degree == value else None
+
+
+_ZERO, _HALF, _ONE = Fraction(0), Fraction(1, 2), Fraction(1)
+_AT_ZERO: dict[str, Fraction] = {
+    **dict.fromkeys(("sin", "tan", "asin", "atan", "sinh", "tanh"), _ZERO),
+    **dict.fromkeys(("cos", "sec", "cosh", "exp"), _ONE),
+}
+#: The rational values at multiples of pi/12 in the first half turn (Niven: sine and cosine have no others).
+_AT_TWELFTHS: dict[str, dict[int, Fraction]] = {
+    "sin": {0: _ZERO, 2: _HALF, 6: _ONE, 10: _HALF},
+    "cos": {0: _ONE, 4: _HALF, 6: _ZERO, 8: -_HALF},
+    "tan": {0: _ZERO, 3: _ONE, 9: -_ONE},
+}
+#: The functions that are rational at some multiples of pi.
+TURNING = frozenset(_AT_TWELFTHS)
+
+
+def value_at(name: str, argument: Fraction) -> Fraction | None:
+    """The value of a function of one argument, where that is known to be rational; else None.
+
+    >>> value_at("cos", Fraction(0)), value_at("abs", Fraction(-2, 3)), value_at("sin", Fraction(1))
+    (Fraction(1, 1), Fraction(2, 3), None)
+    """
+    if name == "abs":
+        return abs(argument)
+    if name == "log" and argument == 1:
+        return _ZERO
+    return None if argument else _AT_ZERO.get(name)
+
+
+def value_at_turn(name: str, multiple: Fraction) -> Fraction | None:
+    """The value of a function of `TURNING` at ``multiple`` times pi, where it is rational; else None.
+
+    >>> value_at_turn("sin", Fraction(1, 6)), value_at_turn("cos", Fraction(-2, 3))
+    (Fraction(1, 2), Fraction(-1, 2))
+    """
+    place = multiple * 12
+    if place.denominator != 1:
+        return None
+    half_turns, within = divmod(int(place), 12)
+    value = _AT_TWELFTHS[name].get(within)
+    return -value if value is not None and half_turns % 2 and name != "tan" else value

@@ -1,0 +1,105 @@
+"""The names that a sheet declares, and what students call quantities of theirs: all that reading an answer may use.
+
+The key is not here: an answer reads alike whether it is right or wrong.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from dofkit.expressions.text import Names
+from dofkit.expressions.text.characters import GREEK
+from dofkit.expressions.text.names import in_words
+from dofkit.expressions.tree import Expr, coordinate, sym, velocity
+from dofkit.scene.names import coordinate_table, vocabulary_of
+from dofkit.scene.scene import Scene
+
+#: Stems of coordinates that are angles; every other coordinate is taken for a length.
+_ANGLES = frozenset({"alpha", "beta", "gamma", "theta", "phi", "psi", "chi", "varphi", "vartheta"})
+#: Usual names of velocities and accelerations: of angles or not, and which derivative.
+_USUAL = {"v": (False, 1), "a": (False, 2), "omega": (True, 1), "alpha": (True, 2)}
+_WORD = re.compile(r"(?P<stem>omega|alpha|v|a)(?:_?(?P<index>\w+))?")
+_DIFFERENCE = re.compile(r"(?:Δ|Delta)_?(?P<name>\w+)")
+
+
+@dataclass(frozen=True)
+class DeclaredNames:
+    """What the texts of answers may mention.
+
+    ``names``: for formulas, with the other names of a problem; ``also``: further coordinates that the sheet offers;
+    ``others``: other name -> declared name; ``constants``: parameters without a value.
+    """
+
+    names: Names
+    coordinates: tuple[str, ...]
+    constraints: tuple[str, ...]
+    also: frozenset[str]
+    others: Mapping[str, str]
+    constants: tuple[str, ...]
+
+    @classmethod
+    def of(cls, scene: Scene, also: Mapping[str, str], others: Mapping[str, str]) -> DeclaredNames:
+        """Return the names of a scene: nothing that its constraints say is kept."""
+        names = vocabulary_of(scene).names
+        more = {o: coordinate(name) for o, name in others.items() if name in names.coordinates}
+        more |= {o: names.parameters[name] for o, name in others.items() if name in names.parameters}
+        constraints = tuple(c.name or f"c{n}" for n, c in enumerate(scene.constraints, 1))
+        return cls(
+            replace(names, parameters={**names.parameters, **more}) if more else names,
+            tuple(c.name for c in coordinate_table(scene).coordinates),
+            constraints,
+            frozenset(also),
+            others,
+            tuple(n for n, e in names.parameters.items() if e.op == "sym"),
+        )
+
+    @cached_property
+    def with_also(self) -> Names:
+        """The names with the further coordinates, which are read in every notation of a declared one."""
+        return replace(self.names, coordinates=self.names.coordinates | self.also)
+
+
+def usual_name(word: str, names: Names) -> Expr | None:
+    """Return the quantity that an undeclared word usually names, or None if there is none or more than one.
+
+    `v_x` and `vx` are the velocity of x, `a_x` is its acceleration; `v` and `a` are those of the only coordinate if it
+    is a length, `omega` and `alpha` those of the only angle; `omega_1` belongs to the only angle with the index 1.
+    `Δx` is the differential of x, or the difference x_2 - x_1.
+    """
+    word = in_words(word)
+    if (difference := _DIFFERENCE.fullmatch(word)) is not None:
+        return _difference(difference["name"], names)
+    match = _WORD.fullmatch(word)
+    if match is None:
+        return None
+    turning, order = _USUAL[match["stem"]]
+    index = match["index"] or ""
+    alike = [q for q in names.coordinates if _is_angle(q) == turning]
+    if not index:
+        chosen = alike if turning or len(names.coordinates) == 1 else []
+    elif index in names.coordinates:
+        chosen = [index] if _is_angle(index) == turning else []
+    else:
+        chosen = [q for q in alike if q.partition("_")[2] == index or _digits(q) == index]
+    if len(chosen) != 1 or (order == 2 and not names.allow_accelerations):
+        return None
+    return velocity(chosen[0]) if order == 1 else sym("acceleration", chosen[0])
+
+
+def _difference(name: str, names: Names) -> Expr | None:
+    if name in names.coordinates:
+        return sym("differential", name) if names.allow_velocities else None
+    ends = sorted(q for q in names.coordinates if q.partition("_")[0] == name)
+    return coordinate(ends[1]) - coordinate(ends[0]) if len(ends) == 2 else None
+
+
+def _is_angle(name: str) -> bool:
+    stem = in_words(name).partition("_")[0].rstrip("0123456789")
+    return stem in _ANGLES or (stem in GREEK.values() and stem not in ("xi", "eta", "rho", "sigma", "lambda"))
+
+
+def _digits(name: str) -> str:
+    return name[len(name.rstrip("0123456789")) :]

@@ -1,0 +1,174 @@
+"""Tables that gradebooks import: Canvas's and Moodle's, each a row of columns and who a student is in them.
+
+What a table does is written by the importers' sources: Canvas's ``lib/gradebook_importer.rb`` and
+``process_gradebook_upload.js``, Moodle's ``grade/import/csv/classes/load_data.php`` and ``grade/import/lib.php``.
+
+* A blank grade erases the one in the gradebook (both), so a student without a final grade has no row.
+* A row of nobody in the course makes Canvas ask about all rows and stops Moodle's import, so with a roster only its
+  members have rows.
+* Canvas finds a student by ``ID``, else by the SIS columns, else by the name; a first cell with "Points Possible" is
+  the row of points, whoever has that name; headers with words such as "Final Grade" are no assignments.
+* Moodle maps rows by one column: ``userid``, ``useridnumber``, ``username`` or ``useremail``; a first cell that is
+  blank or 0 means the student of the row before. It shows feedback as HTML, so markup is escaped.
+
+Results without a row are listed with the reason in ``TABLE.apart.csv``.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import sys
+from collections.abc import Callable, Iterator
+from html import escape
+from itertools import chain
+from pathlib import Path
+
+from dofkit.homework.answers.roster import Participant, Roster
+from dofkit.homework.assignment import Prepared
+from dofkit.homework.formats.base import Format, FormatError, Target, cell, opened, table
+from dofkit.homework.formats.wording import decided, feedback, identity, line, number, open_points
+from dofkit.homework.result import Result
+
+POINTS = "Points Possible"
+#: Headers that Canvas does not take for those of assignments: anywhere in a title, and as the whole of it.
+_TAKEN = re.compile(r"(Current|Final) (Score|Points|Grade)|Override (Score|Grade|Status)")
+_CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
+_RESERVED = frozenset({*_CANVAS, "LastName", "FirstName", "Integration ID", "Root Account"})
+#: Moodle's name for a column, and what a member has in it; the platform's own number first.
+_MOODLE: dict[str, Callable[[Participant], str]] = {
+    "userid": lambda member: member.moodle,
+    "useridnumber": lambda member: member.number,
+    "username": lambda member: member.username,
+    "useremail": lambda member: member.email,
+}
+
+
+def apart_path(out: Path) -> Path:
+    """Return where the results without a row are listed: ``grades.apart.csv`` beside ``grades.csv``."""
+    return out.with_name(f"{out.stem}.apart.csv")
+
+
+def _write_apart(apart: list[tuple[Result, str]], target: Target) -> None:
+    """List the results without a row; of a gradebook on a stream they are lines on standard error."""
+    if not isinstance(target, Path):
+        for result, why in apart:
+            print(f"not in the table: {line(result.student)}: {why}", file=sys.stderr)
+        return
+    path = apart_path(target)
+    path.unlink(missing_ok=True)
+    if not apart:
+        return
+    with opened(path) as stream:
+        rows = table(stream)
+        rows.writerow(["student", "points so far", "of", "open points", "why"])
+        for result, why in apart:
+            points = "" if result.score is None else number(result.score)
+            shown = [number(result.max_score), number(open_points(result)), cell(why)]
+            rows.writerow([cell(identity(result.student)), points, *shown])
+
+
+def _unfit(result: Result) -> str | None:
+    """Return why a result has no grade that may stand in a gradebook, or None if it has one."""
+    if result.error is not None:
+        return f"it could not be graded: {line(result.error)}"
+    if result.doubt is not None:
+        return line(result.doubt)
+    if not decided(result):
+        return f"it is not final: {number(open_points(result))} points are undecided"
+    return None
+
+
+def is_cell(student: str) -> bool:
+    """Return whether a name can stand in a cell unchanged, so that it is recognized again.
+
+    >>> is_cell("Ada B"), is_cell("=1"), is_cell("ada\u200e"), is_cell(" ")
+    (True, False, False, False)
+    """
+    return bool(student.strip()) and cell(identity(student)) == student
+
+
+def _with_rows(
+    results: Iterator[Result], roster: Roster | None, apart: list[tuple[Result, str]]
+) -> Iterator[tuple[Result, Participant | None]]:
+    """Yield the results that have a row, one for each student, with their member of the roster."""
+    seen: set[bytes] = set()
+    for result in results:
+        member = None if roster is None else roster.find(result.student)
+        why = _unfit(result)
+        if roster is not None and member is None:
+            why = "the student is not in the roster" + (f"; {why}" if why else "")
+        if why is None and member is None and not is_cell(result.student):
+            why = "the name cannot be written to a table unchanged"
+        student = result.student if member is None else member.student
+        mark = hashlib.blake2b(student.encode("utf-8", "surrogatepass"), digest_size=12).digest()
+        if why is None and mark in seen:
+            why = "the student already has a row"
+        if why is not None:
+            apart.append((result, why))
+            continue
+        seen.add(mark)
+        yield result, member
+
+
+def write_canvas(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+    """Write Canvas's table. Raises FormatError for a title that Canvas does not take for an assignment's."""
+    title, apart = line(prepared.assignment.title), list[tuple[Result, str]]()
+    if title in _RESERVED or _TAKEN.search(title):
+        raise FormatError(f"Canvas takes no column '{title}' for an assignment: give the assignment another title")
+    exported = re.compile(re.escape(title) + r"\s*\(\d+\)")  # as an exported gradebook has it, with Canvas's own id
+    column = next((name for name in (roster.columns if roster else ()) if exported.fullmatch(name)), title)
+    with opened(target) as stream:
+        rows = table(stream)
+        rows.writerow([*_CANVAS, cell(column)])
+        rows.writerow([POINTS, "", "", "", "", number(float(sum(prepared.most_points().values())))])
+        for result, member in _with_rows(results, roster, apart):
+            found = _canvas_identity(result.student, member)
+            if POINTS in found[0]:
+                apart.append((result, f"Canvas would take a row of '{found[0]}' for that of the points"))
+            else:
+                rows.writerow([*map(cell, found), number(result.score or 0.0)])
+    _write_apart(apart, target)
+
+
+def _canvas_identity(student: str, member: Participant | None) -> list[str]:
+    """Return a student's cells of ``Student, ID, SIS User ID, SIS Login ID, Section``."""
+    if member is None:
+        return [student, "", "", student, ""]
+    login = member.username or ("" if member.canvas or member.number else member.email)
+    numbers = [member.canvas, member.number, login]
+    name = member.name or member.student
+    if POINTS in name:
+        name = next(filter(None, numbers), name)
+    return [name, *numbers, member.section]
+
+
+def write_moodle(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+    """Write Moodle's table: a column that identifies the student, the grade, and the feedback."""
+    title, apart = line(prepared.assignment.title), list[tuple[Result, str]]()
+    with opened(target) as stream:
+        table_rows = table(stream)
+        rest = _with_rows(results, roster, apart)
+        first = next(rest, None)
+        column = _moodle_column(roster, "" if first is None else first[0].student)
+        table_rows.writerow([column, cell(title), cell(f"{title} (feedback)")])
+        for result, member in chain([] if first is None else [first], rest):
+            who = result.student if member is None else _MOODLE[column](member)
+            if not is_cell(who) or who == "0" or (member is None and ("@" in who) != (column == "useremail")):
+                apart.append((result, f"the student has no {column}"))
+                continue
+            remarks = escape(feedback(result, prepared.assignment.language), quote=False)
+            table_rows.writerow([who, number(result.score or 0.0), cell(remarks)])
+    _write_apart(apart, target)
+
+
+def _moodle_column(roster: Roster | None, first: str) -> str:
+    """Return the column that most of the roster have; without a roster the first student's kind of name decides."""
+    if roster is None:
+        return "useremail" if "@" in first else "useridnumber"
+    having = {name: sum(bool(of(member)) for member in roster.members) for name, of in _MOODLE.items()}
+    return max(having, key=lambda name: having[name])
+
+
+CANVAS = Format("canvas", write_canvas, endings=("csv",), folders=False)
+MOODLE = Format("moodle", write_moodle, endings=("csv",), folders=False)

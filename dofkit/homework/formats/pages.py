@@ -1,0 +1,149 @@
+"""A student's page, and how pages are made of templates: whatever a student wrote is escaped."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from dofkit.homework.assignment import Prepared
+from dofkit.homework.formats.wording import STATUSES, line, number, open_points, plain, stop_of
+from dofkit.homework.problem import Problem
+from dofkit.homework.questions import QuestionBase
+from dofkit.homework.result import Item, Result, Status
+from dofkit.homework.sentences.translations import Language, in_language
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+TEMPLATES = Path(__file__).parent / "templates"
+_NAME = re.compile("`([^`\n]+)`")
+
+
+class Badge(NamedTuple):
+    """How a status looks: its ``mark`` and its ``label``, so that colour is never all there is."""
+
+    mark: str
+    label: str
+
+
+BADGES: dict[Status, Badge] = {
+    "right": Badge("✓", STATUSES["right"]),
+    "partly": Badge("◐", STATUSES["partly"]),
+    "wrong": Badge("✗", STATUSES["wrong"]),
+    "unreadable": Badge("?", STATUSES["unreadable"]),
+    "missing": Badge("–", STATUSES["missing"]),
+    "needs_review": Badge("…", STATUSES["needs_review"]),
+}
+
+
+@dataclass(frozen=True)
+class AnswerRow:
+    """One answer beside what was asked."""
+
+    item: Item
+    asked: str
+
+    @property
+    def points(self) -> str:
+        given = "–" if self.item.score is None else number(self.item.score)
+        return f"{given} / {number(self.item.max_score)}"
+
+
+@dataclass(frozen=True)
+class Section:
+    """The answers to one problem."""
+
+    title: str
+    rows: list[AnswerRow]
+
+
+@dataclass(frozen=True)
+class StudentPage:
+    """A student's page."""
+
+    title: str
+    result: Result
+    sections: list[Section]
+    language: Language
+
+    def told(self, sentence: str, **values: object) -> str:
+        """Return a sentence in the page's language."""
+        return in_language(self.language, sentence, **values)
+
+    @property
+    def open_points(self) -> float:
+        return open_points(self.result)
+
+    @property
+    def percent(self) -> float:
+        return percent(self.result.score, self.result.max_score)
+
+    @property
+    def open_percent(self) -> float:
+        return percent(self.open_points, self.result.max_score)
+
+
+def percent(score: float | None, most: float) -> float:
+    """A share in percent, from 0 to 100."""
+    return min(max(100 * (score or 0.0) / most, 0.0), 100.0) if most else 0.0
+
+
+def student_page(result: Result, prepared: Prepared) -> StudentPage:
+    """The page of one submission: its answers by problem, those to nothing that was asked at the end."""
+    found = {(item.problem, item.question): item for item in result.items}
+    sections, language = [], prepared.assignment.language
+    for problem in prepared.assignment.problems:
+        rows = [
+            AnswerRow(found.pop((problem.id, q.id)), plain(q.asked(", ".join(q.about)).told(language)))
+            for q in problem.questions
+            if (problem.id, q.id) in found
+        ]
+        if rows:
+            sections.append(Section(problem_title(problem), rows))
+    if found:
+        unasked = in_language(language, "Answers to questions that were not asked")
+        sections.append(Section(unasked, [AnswerRow(item, "") for item in found.values()]))
+    return StudentPage(prepared.assignment.title, result, sections, language)
+
+
+def problem_title(problem: Problem) -> str:
+    """What a problem is called."""
+    return problem.id if problem.title is None else f"{problem.id}: {problem.title}"
+
+
+def question_text(question: QuestionBase) -> str:
+    """What a question asks for, in words."""
+    told = type(question).model_fields["ask"].description or question.kind()
+    about = getattr(question, "constraint", None) or getattr(question, "coordinate", None)
+    if about:
+        told += f" ({about if isinstance(about, str) else ', '.join(about)})"
+    return plain(told)
+
+
+def rendered(template: str, **values: Any) -> str:
+    """A page."""
+    return _environment().get_template(template).render(**values)
+
+
+@cache
+def _environment() -> Environment:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters.update(plain=plain, line=line, number=number, stop=stop_of, pieces=_pieces)
+    environment.globals["badges"] = BADGES
+    return environment
+
+
+def _pieces(text: str) -> list[str]:
+    """A text cut at the names between backquotes: what is around them and, at every second place, a name."""
+    return _NAME.split(plain(text))

@@ -1,0 +1,184 @@
+"""The review beside the results: a table in which a person fills in points, and a page that shows the same answers.
+
+The table is in UTF-8 with the mark by which Excel recognizes it, and has semicolons where Excel of the assignment's
+language expects them, or what the table had before. No cell in it begins as a formula does, and answers begin with a
+letter or an apostrophe, so that no spreadsheet takes ``1/2`` for a date.
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import groupby
+from pathlib import Path
+from typing import NamedTuple
+
+from dofkit.homework.assignment import Prepared
+from dofkit.homework.formats.base import cell
+from dofkit.homework.formats.pages import problem_title, question_text, rendered
+from dofkit.homework.formats.wording import unmarked
+from dofkit.homework.result import Result
+from dofkit.homework.review.filled_table import FilledTable, read_table
+from dofkit.homework.review.queue import COLUMNS, Queue, QueuedAnswer, ReviewRow
+
+TABLE, PAGE = "review.csv", "review.html"
+#: Answers of each list that are shown; how many more there are is said.
+MOST_SHOWN = 1000
+#: Of languages whose Excel takes commas for decimal signs.
+_SEMICOLONS = frozenset({"de", "fr", "es"})
+_ANSWERS = frozenset({"text", "readings"})
+_FILLED = frozenset({"remark", "decided_by"})
+
+
+def write_table(rows: Iterable[ReviewRow], prepared: Prepared, path: Path, delimiter: str | None) -> None:
+    """Write the table whole: it never stands there in part. ``delimiter``: the one it had before. Raises OSError."""
+    chosen = delimiter or (";" if prepared.assignment.language in _SEMICOLONS else ",")
+    beside = path.with_name(f".{path.name}.new")
+    with beside.open("w", encoding="utf-8-sig", newline="") as stream:
+        writer = csv.writer(stream, delimiter=chosen, lineterminator="\r\n")
+        writer.writerow(COLUMNS)
+        for row in rows:
+            writer.writerow(_cells(row.cells, chosen))
+    os.replace(beside, path)
+
+
+def _cells(cells: Mapping[str, str], delimiter: str) -> list[str]:
+    """The cells of a row; what a person wrote stays as it is."""
+    found = []
+    for name in COLUMNS:
+        text = cells.get(name, "")
+        if name in _ANSWERS:
+            text = cell(text) if text[:1].isalpha() or not text else f"'{cell(text).removeprefix(chr(39))}"
+        elif name == "would_earn" and delimiter == ";":
+            text = text.replace(".", ",")
+        elif name != "points":
+            text = cell(text if name in _FILLED else unmarked(text))
+        found.append(text)
+    return found
+
+
+class ReviewedQuestion(NamedTuple):
+    """The open answers to one question."""
+
+    name: str
+    problem: str
+    asked: str
+    most: float
+    answers: list[QueuedAnswer]
+
+
+class ReviewPage(NamedTuple):
+    """``more``: answers that are not shown; ``decided``: rows that a person filled in."""
+
+    title: str
+    questions: list[ReviewedQuestion]
+    waiting: int
+    students: int
+    more: int
+    decided: list[ReviewRow]
+    table: str
+
+
+def write_page(queue: Queue, rows: Iterable[ReviewRow], prepared: Prepared, path: Path, table: str) -> None:
+    """Write the page whole. ``table``: what the file is called in which points are filled in. Raises OSError."""
+    waiting = queue.open_answers()
+    decided = [row for row in rows if row.decision is not None]
+    page = ReviewPage(
+        prepared.assignment.title,
+        list(_questions(waiting[:MOST_SHOWN], prepared)),
+        len(waiting),
+        sum(queued.count for queued in waiting),
+        max(0, len(waiting) - MOST_SHOWN),
+        decided[:MOST_SHOWN],
+        table,
+    )
+    beside = path.with_name(f".{path.name}.new")
+    beside.write_text(rendered("review.html", page=page), encoding="utf-8")
+    os.replace(beside, path)
+
+
+def _questions(waiting: Sequence[QueuedAnswer], prepared: Prepared) -> Iterator[ReviewedQuestion]:
+    known = {(problem.id, question.id): (problem, question) for problem, question in prepared.questions()}
+    for place, answers in groupby(waiting, key=lambda queued: (queued.item.problem, queued.item.question)):
+        if place in known:
+            problem, question = known[place]
+            name = f"{problem.id}.{question.id}"
+            shown = list(answers)
+            yield ReviewedQuestion(name, problem_title(problem), question_text(question), float(question.points), shown)
+
+
+@dataclass(frozen=True)
+class ReviewPaths:
+    """The paths of the table and the page; ``shared``: the folder may contain other files, too."""
+
+    table: Path
+    page: Path
+    shared: bool
+
+    @classmethod
+    def beside(cls, out: Path, folder: bool) -> ReviewPaths:
+        """Return the paths in a folder of results, or beside a file of results and named after it."""
+        if folder:
+            return cls(out / TABLE, out / PAGE, False)
+        return cls(out.with_name(f"{out.stem}.{TABLE}"), out.with_name(f"{out.stem}.{PAGE}"), True)
+
+
+@dataclass(frozen=True)
+class RunReview:
+    """The rows of the tables that exist: those of ``--reviewed`` go before those beside the results."""
+
+    paths: ReviewPaths | None
+    rows: Mapping[str, ReviewRow]
+    delimiter: str | None
+
+    @classmethod
+    def read(cls, prepared: Prepared, reviewed: Path | None, paths: ReviewPaths | None) -> RunReview:
+        """Return the rows of both tables. Raises ReviewError and OSError."""
+        asked = prepared.most_points()
+        beside, named = FilledTable(), FilledTable()
+        if paths is not None and paths.table.exists():
+            beside = read_table(paths.table, asked)
+        if reviewed is not None:
+            named = read_table(reviewed, asked)
+        rows = {**beside.rows, **{i: row for i, row in named.rows.items() if row.filled or i not in beside.rows}}
+        return cls(paths, rows, beside.delimiter or named.delimiter)
+
+    def applied(self, prepared: Prepared) -> Prepared:
+        """Return the assignment with the decisions."""
+        return replace(prepared, decisions=FilledTable(self.rows).decisions)
+
+    def write(self, results: Path, prepared: Prepared) -> None:
+        """Write the queue of these results and say on standard error where it is. Raises OSError."""
+        if self.paths is None:
+            return
+        queue = queue_of(results, prepared)
+        rows = list(queue.rows(self.rows))
+        if not rows and self.paths.shared and not self.paths.table.exists():
+            return
+        self.paths.table.parent.mkdir(parents=True, exist_ok=True)
+        write_table(rows, prepared, self.paths.table, self.delimiter)
+        write_page(queue, rows, prepared, self.paths.page, self.paths.table.name)
+        waiting = len(queue.open_answers())
+        if waiting:
+            different = "1 answer awaits" if waiting == 1 else f"{waiting} different answers await"
+            again = f"fill in points, then grade again with --reviewed {self.paths.table}"
+            print(f"{different} review in {self.paths.table}: {again}", file=sys.stderr)
+
+    def write_page(self, results: Path, prepared: Prepared) -> None:
+        """Write the page alone, of results whose table is elsewhere. Raises OSError."""
+        if self.paths is not None:
+            queue = queue_of(results, prepared)
+            write_page(queue, queue.rows(self.rows), prepared, self.paths.page, str(self.paths.table))
+
+
+def queue_of(results: Path, prepared: Prepared) -> Queue:
+    """Return the queue of results in dofkit's own format."""
+    queue = Queue([(problem.id, question.id) for problem, question in prepared.questions()])
+    with results.open(encoding="utf-8", newline="\n") as lines:
+        for line in lines:
+            if '"needs_review":0' not in line or '"decided_by":"' in line:
+                queue.add(Result.model_validate_json(line))
+    return queue

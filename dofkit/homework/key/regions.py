@@ -1,0 +1,155 @@
+"""Inequalities of an answer beside those asked for: the regions that they describe, compared as sets.
+
+Two regions are the same if neither has a point that the other lacks. Each difference is a system of inequalities, which
+the engine shows to be empty or finds a certified point of; what it leaves open is not judged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from itertools import product
+from typing import NamedTuple
+
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, replace_nodes, substitute
+from dofkit.expressions.text import Comparison, to_text
+from dofkit.expressions.tree import ZERO, Expr
+from dofkit.methods.classify import classify
+from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.scene import Scene
+
+#: Systems that are looked at for one difference.
+MOST_CASES = 24
+_ROOT = ex.parameter("a root")
+
+
+class Condition(NamedTuple):
+    """``e > 0`` where it is strict, else ``e >= 0``."""
+
+    e: Expr
+    strict: bool
+
+
+class RegionComparison(NamedTuple):
+    """Whether the answer's region has points outside the one asked for, and lacks some; None if undecided.
+
+    ``point``: a point of one of the differences, in words; empty where none is known for plain values of parameters.
+    """
+
+    beyond: bool | None
+    lacking: bool | None
+    point: str
+
+
+def conditions(relations: Sequence[Comparison]) -> list[Condition] | None:
+    """Return inequalities as conditions, or None if there are equations among them."""
+    found = []
+    for c in relations:
+        if c.relation not in ("<", "<=", ">", ">="):
+            return None
+        difference = c.right - c.left if c.relation[0] == "<" else c.left - c.right
+        found.append(Condition(difference, len(c.relation) == 1))
+    return found
+
+
+def compared_regions(scene: Scene, asked: Sequence[Condition], answer: Sequence[Condition]) -> RegionComparison:
+    """Compare two regions; ``scene`` has the other constraints, which hold in both."""
+    beyond, point = _difference(scene, answer, asked)
+    lacking, other = _difference(scene, asked, answer)
+    if lacking is False and not all(_has_values(c.e) for c in answer):
+        lacking = None
+    return RegionComparison(beyond, lacking, point or other)
+
+
+def _has_values(e: Expr) -> bool:
+    """Return whether an expression is certain to have a value wherever its square roots have one."""
+    total = {"abs", "sin", "cos", "exp", "atan", "tanh", "sinh", "cosh"}
+    whole = (n.op != "pow" or n in _roots(e) or (n.args[1].op == "num" and n.args[1].args[0] > 0) for n in ex.nodes(e))
+    return all(whole) and all(n.args[0] in total for n in ex.nodes(e) if n.op == "fn")
+
+
+def _difference(scene: Scene, region: Sequence[Condition], other: Sequence[Condition]) -> tuple[bool | None, str]:
+    """Return whether a region has a point outside another, and such a point."""
+    systems = [
+        [*case, *failing] for case in _cases_of_all(region) for condition in other for failing in _failing(condition)
+    ]
+    open_cases = len(systems) > MOST_CASES
+    for system in systems[:MOST_CASES]:
+        texts = [f"{to_text(c.e)} {'>' if c.strict else '>='} 0" for c in system]
+        more = tuple(Equation(name=f"region {n}", text=text) for n, text in enumerate(texts))
+        whole = scene.model_copy(update={"constraints": (*scene.constraints, *more), "expect": {}})
+        report = classify(whole)
+        if report.consistent is False:
+            continue
+        if report.feasible:
+            return True, _point(whole)
+        open_cases = open_cases or report.feasible is None
+    return None if open_cases else False, ""
+
+
+def counterexample(scene: Scene, answer: Sequence[Comparison], asked: Expr) -> str:
+    """Return a point that satisfies the equations of an answer and not ``asked`` = 0, in words, or nothing."""
+    texts = [f"{to_text(c.left - c.right)} = 0" for c in answer] + [f"({to_text(asked)})^2 > 0"]
+    more = tuple(Equation(name=f"region {n}", text=text) for n, text in enumerate(texts))
+    return _point(scene.model_copy(update={"constraints": (*scene.constraints, *more), "expect": {}}))
+
+
+def _point(scene: Scene) -> str:
+    """Return a certified point of a scene with whole numbers for its parameters, in words, or nothing."""
+    free = [name for name, value in scene.parameters.items() if value in ("real", "positive", "nonzero")]
+    values = {name: Fraction(n) for n, name in enumerate(free, 2)}
+    report = classify(scene.model_copy(update={"parameters": {**scene.parameters, **values}}))
+    if not report.feasible or not report.witness:
+        return ""
+    shown = [f"{name} = {_figure(text)}" for name, text in report.witness.items()]
+    return ", ".join([*shown, *(f"{name} = {value}" for name, value in values.items())])
+
+
+def _figure(text: str) -> str:
+    """Return a number of a witness with three digits."""
+    try:
+        return f"{float(Fraction(text)):.3g}"
+    except ValueError:
+        return text
+
+
+def _cases_of_all(region: Sequence[Condition]) -> Iterator[list[Condition]]:
+    for chosen in product(*(_cases(condition) for condition in region)):
+        yield [condition for case in chosen for condition in case]
+
+
+def _failing(condition: Condition) -> list[list[Condition]]:
+    """Return systems one of which is satisfied exactly where a condition is not, or has no value."""
+    outside = [[Condition(-root.args[0], True)] for root in _roots(condition.e)]
+    return [*outside, *_cases(Condition(-condition.e, not condition.strict))]
+
+
+def _cases(condition: Condition) -> list[list[Condition]]:
+    """Return systems without absolute values and square roots, one of which holds exactly where a condition does."""
+    e, strict = condition
+    for node in ex.nodes(e):
+        if node.op == "fn" and node.args[0] == "abs":
+            inside = node.args[1]
+            ways = ((inside, Condition(inside, False)), (-inside, Condition(-inside, True)))
+            return [
+                [side, *case]
+                for value, side in ways
+                for case in _cases(Condition(replace_nodes(e, {node: value}), strict))
+            ]
+    for root in _roots(e):
+        named = replace_nodes(e, {root: _ROOT})
+        slope, rest = diff(named, _ROOT), substitute(named, {_ROOT: ZERO})
+        if slope.op != "num" or any(_roots(rest)):
+            break
+        square, domain = root.args[0] * slope * slope, Condition(root.args[0], False)
+        if slope.args[0] < 0:
+            return [[domain, Condition(rest, False), Condition(rest * rest - square, strict)]]
+        above = [domain, Condition(-rest, False), Condition(square - rest * rest, strict)]
+        return [[domain, Condition(rest, strict)], above]
+    return [[condition]]
+
+
+def _roots(e: Expr) -> list[Expr]:
+    half = ex.num(1) / ex.num(2)
+    return [n for n in ex.nodes(e) if n.op == "pow" and n.args[1] == half]

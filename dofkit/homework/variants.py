@@ -1,0 +1,155 @@
+"""Variants: the lecturer's lists of values, put into a problem, and who has which.
+
+A problem says ``vary: {n: [2, 3, 5], support: [{text: "at rest", x: "0"}, {text: "driven", x: "a sin(omega t)"}]}``.
+Every combination is a variant: ``[[n]]``, ``[[support.text]]`` and ``[[support.x]]`` stand for its values in the scene,
+the text and the title. All are proved when the assignment is read. A keyed hash of the student's name picks one, and
+the picks are written into the assignment, so nobody's variant changes when the roster does.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from dofkit.base.errors import DofkitError
+from dofkit.homework.answers.roster import Participant, Roster
+from dofkit.homework.assignment import Prepared
+from dofkit.homework.key.key import Key
+from dofkit.homework.problem import Pick, StudentVariant, Variants, pick_text, plain_name
+from dofkit.homework.questions import NumberQuestion, QuestionBase
+from dofkit.homework.questions.labels import LabelQuestion
+from dofkit.homework.sentences.translations import say
+
+
+class NobodysVariantError(DofkitError):
+    """A student who has no variant."""
+
+
+class VaryError(DofkitError):
+    """An assignment that cannot be varied."""
+
+
+def own(prepared: Prepared, names: str | Iterable[str]) -> Prepared:
+    """Return the assignment with the variants of the student who has one of ``names``.
+
+    Without variants it is the assignment itself. Raises NobodysVariantError if that is nobody, or several students.
+    """
+    variants = prepared.assignment.variants
+    if variants is None:
+        return prepared
+    called = [names] if isinstance(names, str) else list(names)
+    students = {one.student: one for name in called if (one := variants.find(name)) is not None}
+    if len(students) != 1:
+        shown = ", ".join(called)[:200] or "nobody"
+        told = "several students of this assignment" if students else "none of the students of this assignment"
+        raise NobodysVariantError(f"every student has a variant, and '{shown}' is {told}")
+    (student,) = students.values()
+    return picked(prepared, student.picks)
+
+
+def picked(prepared: Prepared, picks: Mapping[str, Pick]) -> Prepared:
+    """Return the assignment with one combination of each problem that varies."""
+    problems, keys, marks = [], dict(prepared.keys), {}
+    for problem in prepared.assignment.problems:
+        combinations = prepared.combinations.get(problem.id)
+        if combinations:
+            chosen = next((c for c in combinations if c.pick == picks.get(problem.id)), None)
+            if chosen is None:
+                raise NobodysVariantError(f"the problem '{problem.id}' has no variant {picks.get(problem.id)} any more")
+            problem, keys[problem.id] = chosen.problem, chosen.key
+            for question in problem.questions:
+                short = isinstance(question, NumberQuestion | LabelQuestion)
+                if not short or len(_solutions(question, [c.key for c in combinations])) > 1:
+                    marks[problem.id, question.id] = pick_text(chosen.problem.vary or {}, chosen.pick)
+        problems.append(problem)
+    assignment = prepared.assignment.model_copy(update={"problems": tuple(problems), "variants": None})
+    return replace(prepared, assignment=assignment, keys=keys, combinations={}, marks=marks, variant=repr(picks))
+
+
+def _solutions(question: QuestionBase, keys: Iterable[Key]) -> set[str]:
+    """Return the different solutions of a question over several scenes."""
+    return {say(s).told() if isinstance(s := question.solution(key), str) else s.told() for key in keys}
+
+
+def drawn(prepared: Prepared, roster: Roster, seed: str, before: Sequence[StudentVariant] = ()) -> Variants:
+    """Return who has which variant: those who have one keep it, a keyed hash picks for the others.
+
+    Raises VaryError for a roster of nobody, and if somebody in it has the names of two students.
+    """
+    if not roster.members:
+        raise VaryError("there is nobody in the roster: a row for each student is needed")
+    known = Variants(students=tuple(before))
+    kept = {one.student: one for one in before}
+    for member in roster.members:
+        names = list(dict.fromkeys([member.student, *member.called()]))
+        found = {one.student for name in names if (one := known.find(name)) is not None}
+        if len(found) > 1:
+            raise VaryError(
+                f"'{member.student}' has the names of {' and '.join(sorted(found))}: give everyone in the roster an "
+                "address or a number"
+            )
+        student = found.pop() if found else member.student
+        picks = kept[student].picks if student in kept else {
+            problem: _hashed([c.pick for c in combinations], seed, student, problem)
+            for problem, combinations in prepared.combinations.items()
+        }  # fmt: skip
+        others = tuple(name for name in names if plain_name(name) != plain_name(student))
+        kept[student] = StudentVariant(student=student, known_as=others, picks=picks)
+    return Variants(students=tuple(kept.values()))
+
+
+def _hashed(picks: Sequence[Pick], seed: str, student: str, problem: str) -> Pick:
+    data = f"{plain_name(student)}\0{problem}".encode("utf-8", "surrogatepass")
+    key = hashlib.blake2b(seed.encode("utf-8", "surrogatepass"), digest_size=32).digest()
+    return picks[int.from_bytes(hashlib.blake2b(data, key=key, digest_size=8).digest(), "big") % len(picks)]
+
+
+def differing_share(prepared: Prepared) -> float:
+    """Return the share of the points whose right answers differ between two students, on average."""
+    total = sum(prepared.most_points().values())
+    differing = 0.0
+    for problem in prepared.assignment.problems:
+        combinations = prepared.combinations.get(problem.id, ())
+        for question in problem.questions if combinations else ():
+            texts = [next(iter(_solutions(question, [c.key]))) for c in combinations]
+            equal = sum(texts.count(text) for text in texts) / len(texts) ** 2
+            differing += float(question.points) * (1 - equal)
+    return differing / float(total) if total else 0.0
+
+
+def with_roster(prepared: Prepared, roster: Roster | None) -> tuple[Prepared, Roster | None]:
+    """Return the assignment and the roster, each with the names that the other has for a student with a variant.
+
+    Without a roster it is made of those who have variants.
+    """
+    variants = prepared.assignment.variants
+    if variants is None:
+        return prepared, roster
+    if roster is None:
+        return prepared, Roster(tuple(Participant(one.student, others=one.known_as) for one in variants.students))
+    students = {one.student: one for one in variants.students}
+    members = []
+    for member in roster.members:
+        names = tuple(dict.fromkeys((member.student, *member.called())))
+        found = {one.student for name in names if (one := variants.find(name)) is not None}
+        if len(found) == 1:
+            one = students[found.pop()]
+            more = tuple(name for name in names if name != one.student and name not in one.known_as)
+            students[one.student] = one.model_copy(update={"known_as": (*one.known_as, *more)})
+            member = replace(member, others=(one.student, *one.known_as))
+        members.append(member)
+    update = {"variants": Variants(students=tuple(students.values()))}
+    changed = replace(prepared, assignment=prepared.assignment.model_copy(update=update))
+    return changed, replace(roster, members=tuple(members))
+
+
+def rows_of(prepared: Prepared, variants: Variants) -> Iterator[tuple[str, str, str, str]]:
+    """Yield (student, problem, variant, right answers) of every problem that varies."""
+    for student in variants.students:
+        sheet = picked(prepared, student.picks)
+        for problem in sheet.assignment.problems:
+            if problem.id in student.picks:
+                key = sheet.keys[problem.id]
+                right = "; ".join(text for q in problem.questions for text in _solutions(q, [key]) if text)
+                yield student.student, problem.id, pick_text(problem.vary or {}, student.picks[problem.id]), right

@@ -1,0 +1,92 @@
+"""Nothing to steal: what a student could try to get points that nobody earned, and what comes of it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from dofkit.homework import hand_in
+from dofkit.homework.runs.run import GradingOptions, run
+
+LINE = {"coordinates": ["x", "y"], "constraints": ["x = y"]}
+SHEET = {"title": "Sheet", "problems": [{"id": "p", "scene": LINE, "questions": [{"id": "f", "ask": "dof"}]}]}
+ROSTER = "name,email\nAda,ada@x\nGrace,grace@x\nEve,eve@x\n"
+RIGHT, WRONG = "p: {f: 1}\n", "p: {f: 2}\n"
+
+
+def graded(folder: Path, files: dict[str, str], roster: bool = True, table: str | None = None) -> list[dict[str, Any]]:
+    """The results of a folder of submissions, or of a table."""
+    (folder / "sheet.json").write_text(json.dumps(SHEET))
+    (folder / "roster.csv").write_text(ROSTER)
+    for name, text in files.items():
+        path = folder / "in" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    source = folder / "in"
+    if table is not None:
+        source = folder / "form.csv"
+        source.write_text(table)
+    known = folder / "roster.csv" if roster else None
+    run(str(folder / "sheet.json"), [str(source)], GradingOptions(out=folder / "out.jsonl", workers=1, roster=known))
+    return [json.loads(line) for line in (folder / "out.jsonl").read_text().splitlines()]
+
+
+def told(results: list[dict[str, Any]]) -> list[tuple[str, float | None, bool, bool]]:
+    """Of every result: whose, points, in doubt, refused."""
+    return [(one["student"], one["score"], one["doubt"] is not None, one["error"] is not None) for one in results]
+
+
+@pytest.mark.parametrize("roster", [True, False])
+def test_a_file_that_claims_to_be_anothers_displaces_nobody(roster: bool, tmp_path: Path) -> None:
+    files = {"aaa.json": '{"student": "grace@x", "answers": {"p": {"f": 2}}}', "grace@x.yaml": RIGHT}
+    assert told(graded(tmp_path, files, roster)) == [("grace@x", 0.0, True, False), ("grace@x", 1.0, False, False)]
+
+
+def test_a_guests_folder_cannot_submit_for_somebody_in_the_roster(tmp_path: Path) -> None:
+    files = {
+        "Zoe Guest_77_assignsubmission_file/aaa.yaml": "student: grace@x\n" + WRONG,
+        "Grace_78_assignsubmission_file/answers.yaml": RIGHT,
+    }
+    assert told(graded(tmp_path, files))[::-1] == [("grace@x", 0.0, True, False), ("grace@x", 1.0, False, False)]
+
+
+def test_two_that_only_claim_are_both_in_doubt(tmp_path: Path) -> None:
+    files = {"a.yaml": "student: ada@x\n" + RIGHT, "b.yaml": "student: ada@x\n" + WRONG}
+    assert [one[2] for one in told(graded(tmp_path, files))] == [True, True]
+
+
+def test_letter_case_wins_nothing(tmp_path: Path) -> None:
+    files = {"ADA@X.json": '{"answers": {"p": {"f": 2}}}', "ada@x.json": '{"answers": {"p": {"f": 1}}}'}
+    assert [one[2] for one in told(graded(tmp_path, files))] == [True, True]
+
+
+def test_the_same_submission_twice_counts_once(tmp_path: Path) -> None:
+    files = {"ada@x.yaml": RIGHT, "ADA@x.yml": RIGHT}
+    results = told(graded(tmp_path, files))
+    assert sorted(one[3] for one in results) == [False, True]
+    assert not any(one[2] for one in results)
+
+
+def test_the_later_row_of_a_form_counts(tmp_path: Path) -> None:
+    table = "Timestamp,Email Address,p.f How many?\n2026-01-01 10:00,ada@x,2\n2026-01-02 10:00,Ada@x,1\n"
+    assert told(graded(tmp_path, {}, table=table)) == [("ada@x", None, False, True), ("ada@x", 1.0, False, False)]
+
+
+def test_rows_without_times_are_both_in_doubt(tmp_path: Path) -> None:
+    assert [one[2] for one in told(graded(tmp_path, {}, table="Email,p.f\nada@x,2\nada@x,1\n"))] == [True, True]
+
+
+def test_a_line_of_json_holds_no_end_of_line(tmp_path: Path) -> None:
+    graded(tmp_path, {"ada@x.json": json.dumps({"answers": {"p": {"f": "1\u2028{\u0085\u2029"}}})})
+    text = (tmp_path / "out.jsonl").read_text(encoding="utf-8")
+    assert len(text.splitlines()) == 1
+    assert "\u2028" in json.loads(text)["items"][0]["answer"]
+
+
+def test_a_notebook_only_writes_its_answers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = hand_in({"p": {"f": 1, "g": ..., "h": {"x", "y"}}}, tmp_path / "answers.json", "ada@x")
+    assert json.loads(path.read_text()) == {"student": "ada@x", "answers": {"p": {"f": 1, "h": ["x", "y"]}}}
+    assert "submit this file" in capsys.readouterr().out
