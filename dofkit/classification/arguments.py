@@ -114,7 +114,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the equations have no value on their own solution set",
         "",
         "the argument of a root or logarithm is negative, or a denominator is zero, wherever they are satisfied",
-        "dofkit.classification.freedom.domain.restricted_to_domain",
+        "dofkit.classification.freedom.common_point.restricted_to_domain",
     ),
     "number left over": Argument(
         "no configuration satisfies the equations",
@@ -139,19 +139,19 @@ _OWN: dict[ArgumentKey, Argument] = {
         "HermannNagano",
         "the Lie brackets are proved to be independent and leave nothing undetermined, or as many rows "
         "integrate on their own",
-        "dofkit.integrability.labels_by_field.certificate",
+        "dofkit.integrability.row_labels.certificate",
     ),
     "Lie algebra at points": Argument(
         "the degrees of freedom are n minus the rank of the largest integrable subsystem",
         "SontagCoron1992",
         "Lie brackets along a random admissible curve over GF(p)",
-        "dofkit.integrability.lie_algebra_at_points.span_at",
+        "dofkit.integrability.lie_algebra.span_at",
     ),
     "Lie algebra with balls": Argument(
         "the degrees of freedom are n minus the rank of the largest integrable subsystem",
         "SontagCoron1992",
         "a value whose tiny enclosure contains zero is zero",
-        "dofkit.integrability.lie_algebra_at_points.ball_span",
+        "dofkit.integrability.lie_algebra.ball_span",
     ),
     "states of motion": Argument(
         "the velocities that nonlinear equations allow",
@@ -182,7 +182,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the constraint is holonomic",
         "Frobenius1877",
         "the constraints leave one direction",
-        "dofkit.integrability.labels_by_field.field_labels",
+        "dofkit.integrability.row_labels.field_labels",
     ),
     "form by itself": Argument(
         "the constraint is holonomic",
@@ -194,13 +194,13 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the constraint is holonomic",
         "HermannNagano",
         "the form annihilates the Lie algebra at random points over GF(p)",
-        "dofkit.integrability.labels_by_field.field_labels",
+        "dofkit.integrability.row_labels.field_labels",
     ),
     "outside the integrable part": Argument(
         "the constraint is not holonomic",
         "HermannNagano",
         "the pairing of the form with a Lie bracket is proved to be nonzero",
-        "dofkit.integrability.labels_by_field.certificate",
+        "dofkit.integrability.row_labels.certificate",
     ),
     "as written": Argument("a label", "", "it is read from the text", "dofkit.integrability.traits.traits"),
     "identity": Argument(
@@ -258,7 +258,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "without any one of them the others can be satisfied",
         "dofkit.classification.dependence.implied_constraints.conflict",
     ),
-    "count": Argument("a number determined by other fields", "", "the others", "dofkit.classification.claims.claims"),
+    "count": Argument("a number determined by other fields", "", "the others", "dofkit.classification.report.claims"),
     "exact elimination": Argument(
         "every field of a linear system",
         "",
@@ -281,7 +281,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the answer of a single method",
         "",
         "those of the method's own row",
-        "dofkit.methods.single_reports.report_of_method",
+        "dofkit.methods.stages.report_of_method",
     ),
 }
 

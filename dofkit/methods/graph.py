@@ -6,7 +6,7 @@ from dofkit.base.verdicts import Verdict
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.points.field import prime_for
-from dofkit.methods.reply import Knobs, MethodReply, cannot
+from dofkit.methods.table import Knobs, MethodReply, cannot
 from dofkit.mobility.frameworks import unprescribed_links
 from dofkit.mobility.graph.linkage import Linkage, linkage
 from dofkit.mobility.placement import general_placement

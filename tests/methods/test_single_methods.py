@@ -9,17 +9,17 @@ import pytest
 from shared.known_scenes import SCENES, VARIED, dealt, few, report_of, scene_of
 
 import dofkit
-import dofkit.methods.dispatch
+import dofkit.methods
 from dofkit.base.verdicts import VERDICTS
 from dofkit.benchmark.failures import TRAITS, WHY, explained
-from dofkit.methods.dispatch import Knobs, answered
-from dofkit.methods.table import METHODS, QUESTIONS, MethodName, Question, function_of
+from dofkit.methods.ask import answered
+from dofkit.methods.table import METHODS, QUESTIONS, Knobs, MethodName, Question, function_of
 from dofkit.report import Report
 
 HOME = Path(dofkit.methods.__file__).parent
 #: Modules of the package that are no method.
 SHARED = {
-    "__init__", "as_written", "ask", "classify", "dispatch", "pointwise", "reply", "single_reports", "stages", "table",
+    "__init__", "as_written", "ask", "classify", "stages", "table",
 }  # fmt: skip
 RIVALS: tuple[MethodName, ...] = tuple(m for m in METHODS if not METHODS[m].engines)
 #: Rivals that are quick enough for every scene.

@@ -23,13 +23,12 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.zero import BALLS, BOTH, doubt, independent_generators
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.labels_by_balls import ball_labels
-from dofkit.integrability.labels_by_field import field_labels
-from dofkit.integrability.lie_algebra_at_points import SampledSpan, on_the_same_part, span_at
+from dofkit.integrability.lie_algebra import SampledSpan, on_the_same_part, span_at
 from dofkit.integrability.nonlinear_velocities import first_order_beside_bends, set_velocity_freedom
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution, first_order_freedom
 from dofkit.integrability.prolongation import confinements, prolong
 from dofkit.integrability.regular_reference import on_reference, regular_reference
+from dofkit.integrability.row_labels import ball_labels, field_labels
 from dofkit.mobility.frameworks import framework_answer
 from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, Row, split
@@ -59,7 +58,7 @@ APART = "real configurations were found only on components other than those of t
 
 def answer(block: Block, setting: Setting) -> Answer:
     """All that is asked of one block, and how large the model was."""
-    bridged = bridged_answer(block, setting, answer)
+    bridged = bridged_answer(block, setting, answer) if setting.bridges else None
     if bridged is not None:
         return bridged
     found = _engines(block, setting)
