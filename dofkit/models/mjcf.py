@@ -271,7 +271,7 @@ def _runs_around(tendon: Mapping[str, Any]) -> bool:
 
 
 class CompiledModel(NamedTuple):
-    """What the compiler made of a model, the model's elements in the order of its lines, and those of the files it includes."""
+    """What the compiler made of a model, its elements in the order of its lines, and those of the files it includes."""
 
     content: dict[str, Any]
     root: Element
