@@ -344,7 +344,7 @@ class FactoredMatrix:
         return self._found.solved(right)
 
 
-def rank_of(matrix: list[list[Any]], p: int) -> int:
+def rank_of(matrix: Sequence[Sequence[Any]], p: int) -> int:
     """Rank over GF(p)."""
     if not matrix or not matrix[0]:
         return 0

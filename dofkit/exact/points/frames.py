@@ -11,7 +11,7 @@ from flint import arb, arb_mat, nmod, nmod_mat
 from dofkit.base.deadline import check
 from dofkit.exact.errors import PoleError, raising_no_value
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns
+from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns, rank_of
 from dofkit.exact.points.series import Series
 from dofkit.exact.ring.program import Scalar
 from dofkit.exact.ring.ring import Ring
@@ -72,13 +72,6 @@ def pivots(matrix: nmod_mat) -> list[int]:
         found.append(column)
         column += 1
     return found
-
-
-def field_rank(rows: Sequence[Sequence[Any]], p: int) -> int:
-    """The rank of a matrix over GF(p)."""
-    if not rows or not rows[0]:
-        return 0
-    return int(nmod_mat([[int(v) for v in row] for row in rows], p).rank())
 
 
 def certified_rank(rows: Sequence[Sequence[arb]]) -> int:
@@ -142,7 +135,7 @@ def rank_over(vectors: Sequence[Sequence[Scalar]], sample: Scalar) -> int:
     if not vectors:
         return 0
     if isinstance(sample, nmod):
-        return field_rank(vectors, sample.modulus())
+        return rank_of(vectors, sample.modulus())
     return certified_rank(vectors)
 
 

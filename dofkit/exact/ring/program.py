@@ -309,8 +309,3 @@ def _product_rule(payload: tuple[int, ...], at: Sequence[Scalar], bar: Scalar, a
             if other != place:
                 part = part * at[j]
         adjoint[i] = adjoint[i] + part if i in adjoint else part
-
-
-def polynomial_nodes(ring: Instructions) -> bool:
-    """True where the program divides by nothing."""
-    return all(op != POW or payload[1] > 0 for op, payload in ring.code)
