@@ -98,16 +98,16 @@ def _unknowns(ring: Ring, used: Sequence[int], moving: Sequence[int]) -> list[in
 
 def _constants(ring: Ring, others: Sequence[int], rng: random.Random) -> dict[int, Fraction]:
     """Random values of parameters and functions of them: a cosine and its sine are a point of the circle."""
-    found = dict[int, Fraction]()
+    values = dict[int, Fraction]()
     for i in others:
         var = ring.vars[i]
-        if var.kind in ("cos", "sin") and i not in found:
+        if var.kind in ("cos", "sin") and i not in values:
             half = Fraction(rng.randint(2, LARGEST), LARGEST)
             pair = {"cos": (1 - half**2) / (1 + half**2), "sin": 2 * half / (1 + half**2)}
-            found |= {i: pair[var.kind], var.partner: pair[ring.vars[var.partner].kind]}
+            values |= {i: pair[var.kind], var.partner: pair[ring.vars[var.partner].kind]}
         else:
-            found.setdefault(i, Fraction(rng.randint(2, LARGEST)))
-    return found
+            values.setdefault(i, Fraction(rng.randint(2, LARGEST)))
+    return values
 
 
 def _angle(ring: Ring, index: int) -> int | None:
@@ -117,7 +117,7 @@ def _angle(ring: Ring, index: int) -> int | None:
 
 def _table(p: Poly, count: int, place: Mapping[int, int], values: Mapping[int, Fraction]) -> Table:
     """The terms of a polynomial of the canonical ring in the unknowns, with numbers for the rest."""
-    found: Table = {}
+    table: Table = {}
     for exponents, c in p.to_dict().items():
         number = Fraction(int(c.p), int(c.q))
         monomial = [0] * len(place)
@@ -128,8 +128,8 @@ def _table(p: Poly, count: int, place: Mapping[int, int], values: Mapping[int, F
             elif k:
                 number *= values[index] ** int(k)
         key = tuple(monomial)
-        found[key] = found.get(key, Fraction(0)) + number
-    return found
+        table[key] = table.get(key, Fraction(0)) + number
+    return table
 
 
 def _whole(table: Table) -> dict[tuple[int, ...], int]:

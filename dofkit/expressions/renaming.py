@@ -68,8 +68,8 @@ def is_name(symbol: Expr) -> bool:
 
 def shape_of(e: Expr) -> ExpressionShape:
     """An expression without its names; worked out once."""
-    found: ExpressionShape | None = e.shape
-    if found is None:
+    shape: ExpressionShape | None = e.shape
+    if shape is None:
         places: dict[str, str] = {}
         for symbol in _symbols_in_order(e):
             if is_name(symbol):
@@ -79,8 +79,8 @@ def shape_of(e: Expr) -> ExpressionShape:
         kept = sorted({s.args[1] for s in e.symbols if not is_name(s)})
         called = {s.args[1] for s in e.symbols if s.args[0] in VALUED}
         occurring = Occurring(kinds_in(e), tuple([k for k, name in enumerate(places) if name in called]))
-        found = e.shape = ExpressionShape(renamed(e, places), tuple(places), tuple(kept), occurring)
-    return found
+        shape = e.shape = ExpressionShape(renamed(e, places), tuple(places), tuple(kept), occurring)
+    return shape
 
 
 def kinds_in(e: Expr) -> frozenset[str]:
@@ -104,16 +104,16 @@ def coordinates_in(e: Expr) -> frozenset[str]:
 
 def _symbols_in_order(e: Expr) -> list[Expr]:
     """The symbols, each where it first occurs."""
-    found: dict[Expr, None] = {}
+    symbols: dict[Expr, None] = {}
     stack, seen = [e], set[int]()
     while stack:
         node = stack.pop()
         if node.op == "sym":
-            found.setdefault(node)
+            symbols.setdefault(node)
         elif id(node) not in seen:
             seen.add(id(node))
             stack.extend(reversed(children(node)))
-    return list(found)
+    return list(symbols)
 
 
 def renamed(e: Expr, names: Mapping[str, str]) -> Expr:
@@ -158,12 +158,12 @@ class Renaming:
         return made
 
     def _symbol(self, symbol: Expr) -> Expr:
-        found = self._symbols.get(symbol)
-        if found is None:
+        renamed_symbol = self._symbols.get(symbol)
+        if renamed_symbol is None:
             kind, name = symbol.args
             other = self.names.get(name)
-            found = self._symbols[symbol] = symbol if other is None else sym(kind, other)
-        return found
+            renamed_symbol = self._symbols[symbol] = symbol if other is None else sym(kind, other)
+        return renamed_symbol
 
 
 class _Step(NamedTuple):

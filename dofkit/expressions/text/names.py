@@ -140,12 +140,12 @@ class Lookup:
         try:
             return self._words[word]
         except KeyError:
-            found = self._find(spelled(word))
-            if found is None and word[:1] == VARIATION and spelled(VARIATION) not in self._declared:
-                found = self._time_derivative(spelled(word[1:]), -1)
+            meaning = self._find(spelled(word))
+            if meaning is None and word[:1] == VARIATION and spelled(VARIATION) not in self._declared:
+                meaning = self._time_derivative(spelled(word[1:]), -1)
             if len(self._words) < _MEMORY + len(self._declared):
-                self._words[word] = found
-            return found
+                self._words[word] = meaning
+            return meaning
 
     @cached_property
     def declared(self) -> list[str]:
@@ -160,16 +160,16 @@ class Lookup:
         return {unmarked(name): name for name in known}
 
     def _find(self, word: str) -> Meaning | None:
-        found = self._declared.get(word)
-        if found is None:
-            found = _built_in(word)
-        if found is None and (DOT in word or TWO_DOTS in word):
+        meaning = self._declared.get(word)
+        if meaning is None:
+            meaning = _built_in(word)
+        if meaning is None and (DOT in word or TWO_DOTS in word):
             return self._dotted(word)
-        if found is None:
-            found = self._marked_derivative(word)
-        if found is None and word == "E":
-            found = Meaning("value", E)
-        return found
+        if meaning is None:
+            meaning = self._marked_derivative(word)
+        if meaning is None and word == "E":
+            meaning = Meaning("value", E)
+        return meaning
 
     def _dotted(self, word: str) -> Meaning | None:
         match = _MARKED.fullmatch(word)
@@ -180,9 +180,9 @@ class Lookup:
     def _marked_derivative(self, word: str) -> Meaning | None:
         """`dq`, `qdot`, `q_dot`, `qdot_A`, `qddot` of a declared q."""
         if word[0] == "d":
-            found = self._time_derivative(word[1:], -1)
-            if found is not None:
-                return found
+            differential = self._time_derivative(word[1:], -1)
+            if differential is not None:
+                return differential
         match = _SUFFIXED.fullmatch(word) if "dot" in word else None
         if match is None:
             return None
@@ -227,21 +227,21 @@ def _built_in(word: str) -> Meaning | None:
 
 def _declared(names: Names) -> dict[str, Meaning]:
     """Spelled name -> meaning; `x1` and `x_1` are one name unless both are declared."""
-    found: dict[str, Meaning] = {}
+    meanings: dict[str, Meaning] = {}
     for name in names.functions:
-        found[spelled(name)] = Meaning("call", name=name)
+        meanings[spelled(name)] = Meaning("call", name=name)
     for name, expr in names.parameters.items():
-        found[spelled(name)] = Meaning("value", expr)
+        meanings[spelled(name)] = Meaning("value", expr)
     for name in sorted(names.coordinates):
-        found[spelled(name)] = Meaning("value", coordinate(name))
+        meanings[spelled(name)] = Meaning("value", coordinate(name))
     twins: dict[str, Meaning] = {}
-    for word, meaning in found.items():
+    for word, meaning in meanings.items():
         match = _NUMBERED.fullmatch(word)
         if match is not None:
             twin = f"{match[1]}{'' if match[2] else '_'}{match[3]}"
-            if twin not in found and _built_in(twin) is None:
+            if twin not in meanings and _built_in(twin) is None:
                 twins[twin] = meaning
-    return {**twins, **found}
+    return {**twins, **meanings}
 
 
 def valid_name(name: str) -> str | None:

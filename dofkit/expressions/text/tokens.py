@@ -123,7 +123,7 @@ def tokenize(text: str, lookup: Lookup) -> Tokens:
 
 
 def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
-    found: list[Token] = []
+    tokens: list[Token] = []
     position = len(text) - len(text.lstrip())
     match_at = _TOKEN.match
     while True:
@@ -134,28 +134,28 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
         start, end = match.span(kind)
         motion = _motion(match[kind], text, start, lookup, columns) if kind == "word" else None
         if motion is not None:
-            found.append(motion)
+            tokens.append(motion)
             end = motion.end
         elif kind == "degree" or (kind == "word" and match[kind] in _DEGREES and lookup.meaning(match[kind]) is None):
-            found[-1:] = [_in_degrees(found, start, end, columns)]
+            tokens[-1:] = [_in_degrees(tokens, start, end, columns)]
         elif kind == "word":
-            before = found[-1] if found and found[-1].kind == "number" else None
+            before = tokens[-1] if tokens and tokens[-1].kind == "number" else None
             number = "" if before is None else text[before.start : before.end]
             parts = read_word(match[kind], lookup, columns[start], text[end : end + 1] == "(", number)
-            found += [_word_token(part, start, text) for part in parts]
+            tokens += [_word_token(part, start, text) for part in parts]
         elif kind == "sign" or kind == "relation":
             sign = match[kind]
             sign = _ALIKE.get(sign, sign)
-            found.append(Token("relation" if kind == "relation" else sign, start, end, None, sign))
+            tokens.append(Token("relation" if kind == "relation" else sign, start, end, None, sign))
         else:
-            if kind == "prime" and (not found or found[-1].end != start):
+            if kind == "prime" and (not tokens or tokens[-1].end != start):
                 hint = "text needs no quotes; a prime stands right after a name: `x'`"
                 raise TextError("a quote cannot stand here", columns[start], hint)
-            found.append(_other(match, columns, text, lookup))
+            tokens.append(_other(match, columns, text, lookup))
             if kind == "end":
-                _check_size(found, columns)
-                return found
-        if len(found) > MAX_NODES:
+                _check_size(tokens, columns)
+                return tokens
+        if len(tokens) > MAX_NODES:
             message = f"the text has more than {MAX_NODES} numbers, names and signs"
             raise TextError(message, columns[start], "split it into several texts")
         position = end
@@ -191,19 +191,19 @@ def _motion(word: str, text: str, start: int, lookup: Lookup, columns: Sequence[
     return Token("motion", start, match.end(), differential.expr)
 
 
-def _in_degrees(found: list[Token], start: int, end: int, columns: Sequence[int]) -> Token:
+def _in_degrees(tokens: list[Token], start: int, end: int, columns: Sequence[int]) -> Token:
     """The number that stands before a sign of degrees, times pi/180."""
-    before = found[-1] if found else None
+    before = tokens[-1] if tokens else None
     if before is None or before.kind != "number" or before.expr is None or before.expr.op != "num":
         hint = "write `60°`; write anything else than a number as `theta*pi/180`"
         raise TextError("a sign of degrees is read only after a number", columns[start], hint)
     return Token("number", before.start, end, mul(before.expr, num(Fraction(1, 180)), PI), "degrees")
 
 
-def _check_size(found: list[Token], columns: Sequence[int]) -> None:
+def _check_size(tokens: list[Token], columns: Sequence[int]) -> None:
     """Refuse numbers that are small each and, multiplied, large."""
     total = 0
-    for token in found:
+    for token in tokens:
         if token.kind == "number" and token.expr is not None:
             value: Fraction = (token.expr.args[0] if token.expr.op == "mul" else token.expr).args[0]
             total += value.numerator.bit_length() + value.denominator.bit_length() - 2
@@ -215,43 +215,47 @@ def _check_size(found: list[Token], columns: Sequence[int]) -> None:
 def _other(match: re.Match[str], columns: Sequence[int], text: str, lookup: Lookup) -> Token:
     """A number, primes, superscript digits, or the end."""
     kind = match.lastgroup or ""
-    found, (start, end) = match[kind], match.span(kind)
+    written, (start, end) = match[kind], match.span(kind)
     column = columns[start]
     if kind == "number":
-        _check_number(found, text, end, column, lookup)
-        return Token(kind, start, end, num(_number(found, column)))
+        _check_number(written, text, end, column, lookup)
+        return Token(kind, start, end, num(_number(written, column)))
     if kind == "fraction":
-        return Token("number", start, end, num(Fraction(*FRACTIONS[found])), "fraction")
+        return Token("number", start, end, num(Fraction(*FRACTIONS[written])), "fraction")
     if kind == "superscript":
-        digits = "".join(SUPERSCRIPTS[c] for c in found)
+        digits = "".join(SUPERSCRIPTS[c] for c in written)
         if not digits.lstrip("+-").isdigit() or len(digits) > 4 or digits.rfind("-") > 0 or "+" in digits:
-            raise TextError(f"the superscript `{found[:12]}` is not an exponent", column, "write `^` and the exponent")
-        return Token(kind, start, end, num(int(digits)), found, int(digits))
+            raise TextError(
+                f"the superscript `{written[:12]}` is not an exponent", column, "write `^` and the exponent"
+            )
+        return Token(kind, start, end, num(int(digits)), written, int(digits))
     if kind == "wrong":
-        message, hint = _WRONG.get(found, (f"`{found}` is not read", "write `=`, `<=`, `>=`, `<`, `>` or arithmetic"))
+        message, hint = _WRONG.get(
+            written, (f"`{written}` is not read", "write `=`, `<=`, `>=`, `<`, `>` or arithmetic")
+        )
         raise TextError(message, column, hint)
-    return Token(kind, start, end, None, found, len(found))
+    return Token(kind, start, end, None, written, len(written))
 
 
-def _check_number(found: str, text: str, end: int, column: int, lookup: Lookup) -> None:
+def _check_number(digits: str, text: str, end: int, column: int, lookup: Lookup) -> None:
     """Refuse what looks like a number and is read differently by different people."""
     after = text[end : end + 1]
     if after == "_":
         raise TextError("`_` inside a number is not read", column, "write the digits together, without `_`")
-    if found == "0" and after in tuple("xXoObB") and text[end + 1 : end + 2].isdigit():
+    if digits == "0" and after in tuple("xXoObB") and text[end + 1 : end + 2].isdigit():
         raise TextError("only decimal numbers are read", column, "write the number in decimal digits")
-    if len(found) > 1 and found[0] == "0" and found[1].isdigit():
-        raise TextError("a number does not begin with 0", column, f"write `{found.lstrip('0') or '0'}`")
-    letter = "e" if "e" in found else "E"
-    if letter in found and letter in lookup.declared:
-        head, _, tail = found.partition(letter)
-        message = f"`{found}` can be read as a power of ten or as a product with the declared name `{letter}`"
+    if len(digits) > 1 and digits[0] == "0" and digits[1].isdigit():
+        raise TextError("a number does not begin with 0", column, f"write `{digits.lstrip('0') or '0'}`")
+    letter = "e" if "e" in digits else "E"
+    if letter in digits and letter in lookup.declared:
+        head, _, tail = digits.partition(letter)
+        message = f"`{digits}` can be read as a power of ten or as a product with the declared name `{letter}`"
         raise TextError(message, column, f"write `{head}*10^({tail.lstrip('+')})` or `{head}*{letter}*{tail}`")
 
 
-def _number(found: str, column: int) -> Fraction:
+def _number(digits: str, column: int) -> Fraction:
     """The exact value of a decimal."""
-    whole, rest, power = _PARTS.findall(found)[0]
+    whole, rest, power = _PARTS.findall(digits)[0]
     if len(whole) + len(rest) > MAX_DIGITS:
         message = f"this number has {len(whole) + len(rest)} digits; at most {MAX_DIGITS} are read"
         raise TextError(message, column, "write fewer digits, or a fraction")
