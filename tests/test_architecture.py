@@ -36,7 +36,7 @@ LATE_IMPORTS = frozenset(
 )
 #: Where one bad file or answer must not stop the others, whatever it does.
 CATCH_ALL = frozenset(
-    {"base/workers.py", "homework/assignment.py", "homework/grading.py", "interface/one_file.py",
+    {"base/workers.py", "homework/assignment.py", "homework/grading.py", "interface/answers.py",
      "benchmark/runner.py"}
 )  # fmt: skip
 

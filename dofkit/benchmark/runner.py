@@ -23,14 +23,14 @@ from dofkit.benchmark.failures import explained
 from dofkit.benchmark.record import Outcome, TrialLine
 from dofkit.benchmark.statistics import grouped
 from dofkit.benchmark.tasks import TrialTask
-from dofkit.methods.reply import Knobs, MethodReply
+from dofkit.methods.table import Knobs, MethodReply
 
 # In a worker
 
 #: What is shorter, in seconds, is done again, so many times, and the least is taken.
 SHORT, AGAIN = 0.05, 2
 #: What a worker imports before its first job, and who knows the methods, as ``module:function``.
-MODULES, ANSWERING = ("dofkit.benchmark.runner", "dofkit.methods.dispatch", "sympy"), "dofkit.methods.dispatch:answered"
+MODULES, ANSWERING = ("dofkit.benchmark.runner", "dofkit.methods.ask", "sympy"), "dofkit.methods.ask:answered"
 #: A method's first call in a process also loads what it needs: it answers this first, and no clock runs.
 _WARM_SCENE: Mapping[str, Any] = {
     "name": "warm",
@@ -97,14 +97,6 @@ def _timed(function: Callable[..., MethodReply], asked: TrialQuestion) -> tuple[
             message = " ".join(str(error).split())[:200]
             reply = MethodReply(None, f"it failed: {type(error).__name__}: {message}")
         return reply, time.thread_time() - start
-
-
-def ablation_rows(quick: bool) -> Iterator[Json]:
-    """Yield what each reduction of the model saves: all rows so far, each time there is one more."""
-    rows: list[Json] = []
-    for row in function_named("dofkit.benchmark.ablation:ablation")(quick):
-        rows.append(row.model_dump())
-        yield rows
 
 
 # Judging

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache
@@ -31,7 +32,7 @@ from pydantic import (
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from dofkit.base.errors import Fault
-from dofkit.base.wording import nearest
+from dofkit.base.wording import many, nearest, verb
 
 #: A number is refused beyond this power of ten, up or down.
 LARGEST_EXPONENT = 1000
@@ -54,7 +55,8 @@ _KEYS_MEANT: dict[str, tuple[str, ...]] = {
     "members": ("between", "points", "particles", "point", "particle", "nodes"),
     "along": ("over", "through", "via", "points", "members", "particles"),
     "point": ("member", "members", "particle", "particles", "points"),
-    "body": ("bodies",),
+    "body": ("bodies", "wheel", "disc", "sphere"),
+    "carrier": ("arm", "carried_by"),
     "surface": ("text",),
     "text": ("expression", "formula"),
     "at": ("position", "place", "pos", "location", "point"),
@@ -76,19 +78,19 @@ def meant_key(word: object, known: tuple[str, ...]) -> str | None:
 
 def suggestion(word: object, known: Sequence[str], what: str) -> str:
     """A sentence that names the nearest of ``known``, or lists them."""
-    found = meant_key(word, tuple(known)) if what == "keys" else nearest(word, known)
-    if found is not None:
-        return f"did you mean '{found}'?"
+    near = meant_key(word, tuple(known)) if what == "keys" else nearest(word, known)
+    if near is not None:
+        return f"did you mean '{near}'?"
     if not known:
         return f"there are no {what}"
-    shown = ", ".join(list(known)[:12]) + (", ..." if len(known) > 12 else "")
-    return f"the {what} are {shown}"
+    listed = ", ".join(list(known)[:12]) + (", ..." if len(known) > 12 else "")
+    return f"the {what} are {listed}"
 
 
 def fault_error(message: str, hint: str | None = None, **context: Any) -> PydanticCustomError:
     """An error for a validator to raise; ``hint`` travels in its context."""
-    given = {"message": message, **({"hint": hint} if hint else {}), **context}
-    return PydanticCustomError(_OURS, "{message}", given)
+    details = {"message": message, **({"hint": hint} if hint else {}), **context}
+    return PydanticCustomError(_OURS, "{message}", details)
 
 
 def faults_of(error: ValidationError) -> tuple[Fault, ...]:
@@ -123,9 +125,9 @@ def exact(value: object) -> Fraction:
     if isinstance(value, Decimal):
         return _from_decimal(value)
     if isinstance(value, str):
-        found = _literal(value)
-        if found is not None:
-            return found
+        number = _literal(value)
+        if number is not None:
+            return number
     raise fault_error(f"a number is needed, not {in_words(value)}")
 
 
@@ -149,8 +151,8 @@ def _value(value: object) -> Fraction | str:
         text = value.strip()
         if not text:
             raise fault_error("a number or a text is needed, not an empty text")
-        found = _literal(text)
-        return value if found is None else found
+        number = _literal(text)
+        return value if number is None else number
     if isinstance(value, (list, tuple, dict)):
         raise fault_error(f"a number or a text is needed, not {in_words(value)}")
     return exact(value)
@@ -278,9 +280,10 @@ def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tup
             detail["input"], known, "choices"
         )
     if kind in ("too_short", "too_long"):
-        bound = context.get("min_length", context.get("max_length"))
+        bound = int(context.get("min_length", context.get("max_length", 0)))
         word = "at least" if kind == "too_short" else "at most"
-        return f"{word} {bound} entries are needed, not {context['actual_length']}", None
+        needed = f"{word} {many(bound, 'entry')} {verb(bound)} needed"
+        return f"{needed}, not {context['actual_length']}", None
     return str(detail["msg"]).removeprefix("Value error, "), None
 
 
@@ -297,7 +300,7 @@ def retold(
     place: Callable[[tuple[int | str, ...]], tuple[int | str, ...]] = lambda loc: loc,
 ) -> ValidationError:
     """The same faults in our words, those that are already ours left as they are; ``place`` maps each path."""
-    told = []
+    details = []
     for detail in error.errors(include_url=False):
         context = dict(detail.get("ctx") or {})
         if detail["type"] != _OURS:
@@ -305,8 +308,8 @@ def retold(
             context = {"message": message, **({"hint": hint} if hint else {})}
         kind = PydanticCustomError(_OURS, "{message}", context)
         where = tuple(part for part in place(detail["loc"]) if part != "[key]")
-        told.append(InitErrorDetails(type=kind, loc=where, input=detail["input"]))
-    return ValidationError.from_exception_data(error.title, told)
+        details.append(InitErrorDetails(type=kind, loc=where, input=detail["input"]))
+    return ValidationError.from_exception_data(error.title, details)
 
 
 def untagged(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
@@ -337,3 +340,44 @@ class WrittenModel(BaseModel):
         """What a message calls it: ``a particle``."""
         name = cls.__name__.lower()
         return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
+
+
+@dataclass(frozen=True)
+class TaggedUnion:
+    """Members of class ``base``, of which one is ``called`` so, by their ``key``.
+
+    ``known``: what the key may say, and ``names`` what that is called; ``listing`` stands before a list of it,
+    ``unknown`` says that {} is none of it; ``otherwise``: what is said, and hinted, of what is no mapping.
+    """
+
+    base: type
+    called: str
+    key: str
+    known: Collection[str]
+    names: str
+    listing: str
+    unknown: str
+    otherwise: tuple[str, str | None]
+    #: The hint for a word that is none of ``known`` (None: it is missing), by the word and the mapping that holds it.
+    advise: Callable[[object, Mapping[str, Any]], str | None] = lambda word, entry: None
+
+    def validated(self, value: object, handler: ValidatorFunctionWrapHandler) -> Any:
+        """A member, its faults at paths free of the key. Raises as Pydantic's validators do."""
+        if isinstance(value, (dict, Mapping)):
+            word = value.get(self.key)
+            if word is not None and not isinstance(word, str):
+                raise fault_at(
+                    (self.key,), f"the `{self.key}` is a text, not {in_words(word)}", self.advise(None, value)
+                )
+            if word is None:
+                hint = self.advise(None, value) or self.listing + ", ".join(self.known)
+                raise fault_error(f"{self.called} needs its `{self.key}`", hint)
+            if word not in self.known:
+                hint = self.advise(word, value) or suggestion(word, list(self.known), self.names)
+                raise fault_at((self.key,), self.unknown.format(word), hint)
+        elif not isinstance(value, self.base):
+            raise fault_error(*self.otherwise)
+        try:
+            return handler(value)
+        except ValidationError as error:
+            raise retold(error, self.called, (), lambda loc: loc[1:]) from None

@@ -6,14 +6,14 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 from dofkit.base.errors import Fault
 from dofkit.base.wording import nearest
 from dofkit.expressions.text import Names, spelled, valid_name
 from dofkit.expressions.tree import Expr, num, parameter
 from dofkit.scene.ledger import Ledger, ParsedTexts, Texts
-from dofkit.scene.parts import Body, Particle
+from dofkit.scene.parts import Body, Declarations, Particle
 from dofkit.system import BODY_ROLES, GROUND, PARTICLE_ROLES, Coordinate, Sign
 
 SIGNS: tuple[Sign, ...] = ("real", "positive", "nonzero")
@@ -24,27 +24,6 @@ RESERVED = frozenset({"t", GROUND})
 Owners = Sequence[Particle | Body]
 
 
-class Declared(Protocol):
-    """What a scene declares."""
-
-    @property
-    def dimension(self) -> int: ...
-    @property
-    def parameters(self) -> Mapping[str, Fraction | str]: ...
-    @property
-    def functions(self) -> Mapping[str, tuple[str, ...]]: ...
-    @property
-    def particles(self) -> tuple[Particle, ...]: ...
-    @property
-    def bodies(self) -> tuple[Body, ...]: ...
-    @property
-    def coordinates(self) -> tuple[str, ...]: ...
-    @property
-    def configuration(self) -> Mapping[str, Fraction | str]: ...
-    @property
-    def tolerance(self) -> Fraction | None: ...
-
-
 class NameTable(NamedTuple):
     """The coordinates in order, and the names that each particle and each body owns."""
 
@@ -53,7 +32,7 @@ class NameTable(NamedTuple):
     bodies: dict[str, tuple[str, ...]]
 
 
-def coordinate_table(scene: Declared) -> NameTable:
+def coordinate_table(scene: Declarations) -> NameTable:
     """Particles, then bodies, then the further coordinates, in the order declared."""
     coordinates: list[Coordinate] = []
     particles: dict[str, tuple[str, ...]] = {}
@@ -63,14 +42,21 @@ def coordinate_table(scene: Declared) -> NameTable:
         (scene.particles, PARTICLE_ROLES[scene.dimension], particles),
         (scene.bodies, BODY_ROLES[scene.dimension], bodies),
     ):
-        told = ("x", "y", "angle") if planar and len(roles) == 3 else roles
+        kinds = ("x", "y", "angle") if planar and len(roles) == 3 else roles
         for owner in owners:
-            given, name = owner.coordinates, owner.name
-            names = given if given and len(given) == len(roles) else tuple([f"{r}_{subscript(name)}" for r in roles])
+            renamed, name = owner.coordinates, owner.name
+            names = (
+                renamed if renamed and len(renamed) == len(roles) else tuple([f"{r}_{subscript(name)}" for r in roles])
+            )
             owned[name] = names
-            coordinates += [Coordinate(q, name, role) for q, role in zip(names, told, strict=True)]
+            coordinates += [Coordinate(q, name, role) for q, role in zip(names, kinds, strict=True)]
     coordinates += [Coordinate(name) for name in scene.coordinates]
     return NameTable(tuple(coordinates), particles, bodies)
+
+
+def names_by_position(letter: str, given: Sequence[str | None]) -> tuple[str, ...]:
+    """Return the names of constraints or forces: ``c1``, ``c2``, ... by position for those without a name."""
+    return tuple(f"{letter}{i + 1}" if name is None else name for i, name in enumerate(given))
 
 
 def subscript(name: str) -> str:
@@ -116,14 +102,14 @@ class Vocabulary:
         return self.texts.names
 
 
-def vocabulary_of(scene: Declared) -> Vocabulary:
+def vocabulary_of(scene: Declarations) -> Vocabulary:
     """The names of a scene, read from what it declares."""
     table = coordinate_table(scene)
     parameters, signs, faults = _parameters(scene)
     return Vocabulary(table, parameters, signs, ParsedTexts(_declared_names(scene, table, parameters)), faults)
 
 
-def _parameters(scene: Declared) -> tuple[dict[str, Expr], dict[str, Sign], tuple[Fault, ...]]:
+def _parameters(scene: Declarations) -> tuple[dict[str, Expr], dict[str, Sign], tuple[Fault, ...]]:
     """What every parameter stands for, the signs of those that stay symbols, and the faults of their values.
 
     A value may mention the parameters declared before it.
@@ -136,9 +122,8 @@ def _parameters(scene: Declared) -> tuple[dict[str, Expr], dict[str, Sign], tupl
         if isinstance(value, Fraction):
             stands[name] = num(value)
         elif sign is None:
-            texts = Texts(ParsedTexts(Names(parameters=dict(stands))), ("parameters",), len(faults))
+            texts = Texts(ParsedTexts(Names(parameters=dict(stands))), ("parameters",), faults)
             stands[name] = _parameter_value(texts, name, value)
-            faults += texts.faults
         else:
             stands[name], signs[name] = parameter(name), sign
     return stands, signs, tuple(faults)
@@ -153,7 +138,7 @@ def _parameter_value(texts: Texts, name: str, value: str) -> Expr:
     return texts.fixed(value, name)
 
 
-def _declared_names(scene: Declared, table: NameTable, parameters: Mapping[str, Expr]) -> Names:
+def _declared_names(scene: Declarations, table: NameTable, parameters: Mapping[str, Expr]) -> Names:
     return Names(
         coordinates=frozenset(q.name for q in table.coordinates),
         parameters=dict(parameters),
@@ -165,12 +150,12 @@ def _declared_names(scene: Declared, table: NameTable, parameters: Mapping[str, 
 
 def within_member(names: Names, letters: tuple[str, ...]) -> Names:
     """The same names with ``letters`` standing for a member's coordinates, whatever else they may be."""
-    own = frozenset(letters)
+    own_names = frozenset(letters)
     return Names(
-        coordinates=names.coordinates | own,
-        parameters={name: value for name, value in names.parameters.items() if name not in own},
-        functions={name: arity for name, arity in names.functions.items() if name not in own},
-        arguments={name: given for name, given in names.arguments.items() if name not in own},
+        coordinates=names.coordinates | own_names,
+        parameters={name: value for name, value in names.parameters.items() if name not in own_names},
+        functions={name: arity for name, arity in names.functions.items() if name not in own_names},
+        arguments={name: given for name, given in names.arguments.items() if name not in own_names},
         allow_accelerations=True,
     )
 
@@ -178,7 +163,7 @@ def within_member(names: Names, letters: tuple[str, ...]) -> Names:
 Entry = tuple[str, str, tuple[str | int, ...]]
 
 
-def name_faults(scene: Declared, table: NameTable) -> tuple[Fault, ...]:
+def name_faults(scene: Declarations, table: NameTable) -> tuple[Fault, ...]:
     """A fault for every name that is reserved, cannot be read in a text, is repeated or clashes."""
     ledger = Ledger()
     _check_owners(scene, ledger)
@@ -187,15 +172,15 @@ def name_faults(scene: Declared, table: NameTable) -> tuple[Fault, ...]:
     for name, what, where in entries:
         word = name if name.isascii() else spelled(name)
         if word in seen:
-            told = f"{what} and {seen[word]}" if what != seen[word] else f"each time as {what}"
+            detail = f"{what} and {seen[word]}" if what != seen[word] else f"each time as {what}"
             ledger.fault(
-                f"the name '{name}' is given twice: {told}", *where, hint=f"rename one of them, for example `{name}2`"
+                f"the name '{name}' is given twice: {detail}", *where, hint=f"rename one of them, for example `{name}2`"
             )
             continue
         seen[word] = what
         if name in RESERVED:
-            told = "time, and is never declared" if name == "t" else "the fixed world, and is never declared"
-            ledger.fault(f"'{name}' is {told}", *where, hint="choose another name")
+            detail = "time, and is never declared" if name == "t" else "the fixed world, and is never declared"
+            ledger.fault(f"'{name}' is {detail}", *where, hint="choose another name")
         else:
             why = valid_name(name)
             if why is not None:
@@ -209,22 +194,22 @@ def name_faults(scene: Declared, table: NameTable) -> tuple[Fault, ...]:
     return tuple(ledger.faults)
 
 
-def _check_owners(scene: Declared, ledger: Ledger) -> None:
+def _check_owners(scene: Declarations, ledger: Ledger) -> None:
     d = scene.dimension
     seen: dict[str, str] = {}
     both: tuple[tuple[str, str, Owners, tuple[str, ...]], ...] = (
         ("particles", "particle", scene.particles, PARTICLE_ROLES[d]),
         ("bodies", "body", scene.bodies, BODY_ROLES[d]),
     )
-    for key, one, owners, roles in both:
+    for key, kind, owners, roles in both:
         for i, owner in enumerate(owners):
             name = owner.name
             if name in RESERVED:
-                told = "time" if name == "t" else "the fixed world"
-                ledger.fault(f"'{name}' is {told}, and never declared", key, i, "name", hint="choose another name")
+                meaning = "time" if name == "t" else "the fixed world"
+                ledger.fault(f"'{name}' is {meaning}, and never declared", key, i, "name", hint="choose another name")
             elif not _is_owner_name(name):
                 hint = f"write `{readable_name(name)}`: a name has letters, digits, `_` and hyphens"
-                ledger.fault(f"'{name}' cannot be the name of a {one}", key, i, "name", hint=hint)
+                ledger.fault(f"'{name}' cannot be the name of a {kind}", key, i, "name", hint=hint)
             if name in seen:
                 ledger.fault(
                     f"the name '{name}' is given twice",
@@ -233,9 +218,9 @@ def _check_owners(scene: Declared, ledger: Ledger) -> None:
                     "name",
                     hint=f"rename it: `{name}` is a {seen[name]} already",
                 )
-            seen.setdefault(name, one)
+            seen.setdefault(name, kind)
             if owner.coordinates is not None and len(owner.coordinates) != len(roles):
-                message = f"a {one} has {len(roles)} coordinates in dimension {d}, not {len(owner.coordinates)}"
+                message = f"a {kind} has {len(roles)} coordinates in dimension {d}, not {len(owner.coordinates)}"
                 ledger.fault(message, key, i, "coordinates", hint=f"name them in the order {', '.join(roles)}")
 
 
@@ -244,26 +229,26 @@ def _is_owner_name(name: str) -> bool:
     return valid_name(f"x_{subscript(name)}") is None
 
 
-def _owned(scene: Declared, table: NameTable) -> Iterator[Entry]:
-    told: set[str] = set()
+def _owned(scene: Declarations, table: NameTable) -> Iterator[Entry]:
+    seen: set[str] = set()
     both: tuple[tuple[str, str, Owners, Mapping[str, tuple[str, ...]]], ...] = (
         ("particles", "particle", scene.particles, table.particles),
         ("bodies", "body", scene.bodies, table.bodies),
     )
-    for key, one, owners, owned in both:
+    for key, kind, owners, owned in both:
         for i, owner in enumerate(owners):
-            if owner.name in told:
+            if owner.name in seen:
                 continue
-            told.add(owner.name)
+            seen.add(owner.name)
             renamed = owner.coordinates is not None and owner.coordinates == owned[owner.name]
             if not renamed and not _is_owner_name(owner.name):
                 continue
-            what = f"a coordinate of {one} '{owner.name}'"
+            what = f"a coordinate of {kind} '{owner.name}'"
             for j, name in enumerate(owned[owner.name]):
                 yield name, what, (key, i, "coordinates", j) if renamed else (key, i, "name")
 
 
-def _further(scene: Declared) -> Iterator[Entry]:
+def _further(scene: Declarations) -> Iterator[Entry]:
     for i, name in enumerate(scene.coordinates):
         yield name, "a coordinate", ("coordinates", i)
     for name in scene.parameters:

@@ -1,0 +1,351 @@
+"""What the reference configuration allows: instantaneously, and as a finite motion.
+
+Where the equations are dependent there, only what is dependent has to be looked at. Let B be a basis of the rows of the
+Jacobian at P, and M the manifold on which the equations of B are satisfied. The set that all equations cut out is M if
+those outside B vanish on M too. One of them that is a combination of rows S of B is looked at together with any set of
+equations that holds S: where these cut out the manifold M' of their part of B [ImplicitFunctions], it vanishes on M',
+and M lies in M'. So equations in no dependent set (coloops) are not looked at, and mechanisms that share nothing are
+apart.
+
+Two rows are in one class if a minimal dependent set holds both. Together with a class those equations are kept that
+mention its coordinates only: without them a bar across a square could not tell that the square is held. Where that is
+not enough, all equations on its bodies are looked at (`widened`).
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from flint import arb, ctx
+
+from dofkit.base.libraries import nx
+from dofkit.base.verdicts import VERDICTS
+from dofkit.base.wording import gap_in_words
+from dofkit.configuration.fewer_coordinates import smaller
+from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
+from dofkit.configuration.local import conclusions, criteria
+from dofkit.configuration.local.manifold import LocalDimension, Manifold
+from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.matrices.certified import ball_part, dependencies
+from dofkit.exact.matrices.sparse import Echelon, SparseRow, echelon, rank_of, rank_of_rows, sparse, without_time
+from dofkit.exact.points.balls import BallPoint, exact_rank, jacobian, precision, rational_values
+from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.frames import Pivots
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Ring
+from dofkit.expressions import tree as ex
+from dofkit.expressions.tree import Expr
+from dofkit.relations.answer import FollowedClasses
+from dofkit.relations.chart import Chart
+
+#: A gap between singular values that tells them apart.
+CLEAR = 1e3
+EXPLICIT = "each equation determines one coordinate in terms of others, so the set is a graph"
+
+
+@dataclass(frozen=True)
+class AtReference:
+    """``instantaneous``: velocities allowed to first order; ``local``: the dimension of the finite motion.
+
+    ``matrix`` is the Jacobian there over GF(``modulus``), or the pattern of its dependent rows. ``dependent``: columns
+    that the others determine, where the matrix does not tell. ``looked``: what was looked at of the relations.
+    ``sure``: is ``instantaneous`` proved?
+    """
+
+    instantaneous: int
+    local: LocalDimension
+    matrix: list[SparseRow]
+    modulus: int
+    rank: int
+    rigid: int
+    dependent: tuple[int, ...] | None = None
+    looked: FollowedClasses = field(default_factory=FollowedClasses)
+    sure: bool = False
+
+
+def at_reference(chart: Chart, reference: Mapping[Expr, Expr]) -> AtReference | None:
+    """Return the answer at the reference configuration (t = 0), or None if that does not satisfy the equations."""
+    with ctx.workprec(precision()):
+        known = {**reference, ex.TIME: ex.ZERO}
+        if "field" not in chart.engines:
+            return _by_balls(chart, known)
+        found = _by_field(chart, known)
+        return found if found is None else replace(found, sure=_is_exact(chart, known, found))
+
+
+def _is_exact(chart: Chart, known: Mapping[Expr, Expr], found: AtReference) -> bool:
+    """Is the rank, which is not too large over GF(p), proved not to be too small?
+
+    So it is where no row depends on others, where only motions of the whole are left, and at a rational point.
+    """
+    velocities = found.instantaneous
+    if chart.coordinates - velocities == len(found.matrix) or velocities == found.rigid:
+        return True
+    columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
+    return exact_rank(chart.ring, chart.nodes, columns, rational_values(known)) == chart.coordinates - velocities
+
+
+def _by_field(chart: Chart, known: Mapping[Expr, Expr]) -> AtReference | None:
+    """`at_reference` with a point over GF(p), and balls where signs are asked for."""
+    point = pose_point(chart, known, 3)
+    if point is None or not on_variety(chart, point):
+        return None
+    matrix = field_jacobian(chart, point)
+    n = chart.coordinates
+    rank = rank_of_rows(matrix, point.p)
+    rank_q = rank_of_rows(without_time(matrix, n), point.p) if len(chart.columns) > n else rank
+    timed = len(chart.columns) - n
+    fields = rigid_fields(chart, point)
+    rigid = rank_of(fields, point.p)
+    together = timed or (rank == n - rigid and not chart.within) or "classes" not in chart.reductions
+    apart = None if together else _by_parts(chart, known, matrix, point.p, rank)
+    if apart is not None:
+        local, looked = apart
+        return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, looked=looked)
+    if rank < len(matrix) and not timed:
+        local, spared = _with_fewer(chart, known, point, fields)
+        looked = FollowedClasses(coordinates=n - spared, spared=spared)
+        return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, looked=looked)
+    ball = ball_point(chart, known, point.rng) if rank < len(matrix) and "balls" in chart.engines else None
+    local = _at_fixed_time(criteria.local_at(chart, point, ball, rigid, chart.time), timed)
+    return AtReference(n - rank_q, local, matrix, point.p, rank, rigid)
+
+
+def _with_fewer(
+    chart: Chart, known: Mapping[Expr, Expr], point: FieldPoint, fields: Sequence[Sequence[Any]]
+) -> tuple[LocalDimension, int]:
+    """The local dimension by a chart with fewer coordinates, where there is one, and how many went.
+
+    ``fields``: the motions of the whole as one body over the chart's columns; what they are on fewer is what is left.
+    """
+    small, free = smaller(chart, known)
+    spared = chart.coordinates - small.coordinates
+    here = point if small is chart else pose_point(small, known, 3)
+    if here is None or not on_variety(small, here):
+        return LocalDimension(
+            None, "undecided", "in the reduced coordinates the reference configuration does not satisfy the equations"
+        ), 0
+    if not small.nodes:
+        return LocalDimension(free, "proved", EXPLICIT, argument="graph"), spared
+    kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]
+    rigid = rank_of([[field[i] for i in kept] for field in fields], point.p)
+    ball = ball_point(small, known, here.rng) if "balls" in chart.engines else None
+    local = criteria.local_at(small, here, ball, rigid)
+    return replace(local, dimension=None if local.dimension is None else local.dimension + free), spared
+
+
+def _by_parts(
+    chart: Chart, known: Mapping[Expr, Expr], matrix: Sequence[SparseRow], p: int, rank: int
+) -> tuple[LocalDimension, FollowedClasses] | None:
+    """The local dimension where every class of dependent relations gives a manifold, and what was looked at.
+
+    See `dependent_classes`. None where one does not, or is not known to, or is all there is: then all have to be
+    looked at together.
+    """
+    dimension = len(chart.columns) - rank
+    if rank == len(matrix):
+        regular = LocalDimension(dimension, "proved", conclusions.INDEPENDENT, argument="independent relations")
+        return regular, FollowedClasses(rank)
+    reduced = echelon(matrix, p, supports=True)
+    parts = dependent_parts(chart, reduced)
+    if len(parts) == 1 and len(parts[0].rows) == len(matrix) and not chart.within:
+        return None
+    found = []
+    followed = more = 0
+    for part in parts:
+        own = chart_of(chart, part.rows)
+        local, spared = _of_part(own, known, part.rank)
+        if local is None:
+            own, local, spared = _of_wider_part(chart, known, part, reduced)
+        if local is None:
+            return None
+        found.append(local)
+        followed += 0 if local.reason == _rigid() else own.coordinates - spared
+        more += spared
+    reasons = dict.fromkeys(local.reason for local in found)
+    looked_at = {row for part in parts for row in part.rows}
+    weak = max(found, key=lambda local: VERDICTS.index(local.verdict))
+    local = LocalDimension(dimension, weak.verdict, "; ".join(reasons), argument=weak.argument)
+    rigid = sum(local.reason == _rigid() for local in found)
+    return local, FollowedClasses(len(matrix) - len(looked_at), rigid, len(found) - rigid, followed, more)
+
+
+def _rigid() -> str:
+    """Why what depends on itself does not move."""
+    return f"the dependent part is rigid: {conclusions.WHOLE}"
+
+
+def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[LocalDimension | None, int]:
+    """One class by itself, and how many coordinates went before it was followed.
+
+    None where its set is not known to be a manifold of the codimension of its rank.
+    """
+    point = pose_point(chart, known, 3)
+    if point is None:
+        return None, 0
+    left = len(chart.columns) - rank
+    fields = rigid_fields(chart, point)
+    rigid = rank_of(fields, point.p)
+    if left == rigid:
+        return LocalDimension(left, "proved", _rigid(), argument="rigid to first order"), 0
+    local, spared = _with_fewer(chart, known, point, fields)
+    return (local if local.dimension == left else None), spared
+
+
+def _of_wider_part(
+    chart: Chart, known: Mapping[Expr, Expr], part: DependentClass, found: Echelon
+) -> tuple[Chart, LocalDimension | None, int]:
+    """A class with all that is said of its bodies, where that is more and not all there is."""
+    wide = widened(chart, part, found)
+    if not len(part.rows) < len(wide.rows) < len(chart.relations) + chart.within:
+        return chart, None, 0
+    own = chart_of(chart, wide.rows)
+    return own, *_of_part(own, known, wide.rank)
+
+
+def _at_fixed_time(local: LocalDimension, timed: int) -> LocalDimension:
+    """The dimension without that of time, along which the set goes on; none where it does not."""
+    if local.dimension is None:
+        return local
+    return replace(local, dimension=None if local.confined else local.dimension - timed)
+
+
+def _by_balls(chart: Chart, known: Mapping[Expr, Expr]) -> AtReference | None:
+    """`at_reference` with balls alone: what a tiny ball contains 0 of is taken for 0."""
+    ball = ball_point(chart, known, random.Random("dofkit reference"))
+    matrix = None if ball is None else ball_matrix(chart, ball, True)
+    if ball is None or matrix is None:
+        return None
+    n, columns = chart.coordinates, len(chart.columns)
+    timed = columns - n
+    part = ball_part(matrix)
+    rank = part.rank
+    at = values(chart.ring, ball)
+    rigid = rigid_motions_real(chart, lambda i: float(at[chart.ring.var_node[i]].mid()))
+    of_q = ball_part([row[:n] for row in matrix])
+    local = LocalDimension(None, "undecided", gap_in_words(part.gap, "pivot"))
+    if part.gap > CLEAR:
+        frame = Pivots(tuple(part.rows), tuple(part.columns), tuple(c for c in range(columns) if c not in part.columns))
+        manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
+        local = _at_fixed_time(_dimension_along_curves(manifold, rigid, chart.time), timed)
+    shown = sparse(dependencies(matrix, part))
+    names = tuple(of_q.columns) if rank == of_q.rank else ()
+    return AtReference(n - of_q.rank, local, shown, 2, rank, rigid, names)
+
+
+def _dimension_along_curves(manifold: Manifold, rigid: int, time: int | None) -> LocalDimension:
+    try:
+        return criteria.numeric_dimension(manifold, rigid, time)
+    except NoValueError:
+        return LocalDimension(
+            None, "undecided", "the equations could not be evaluated along a curve through this configuration"
+        )
+
+
+def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] | None:
+    """The Jacobian over all columns; None where a relation's ball excludes 0 or has no value."""
+    try:
+        at = values(chart.ring, ball)
+        if exact and not all(at[node].contains(0) for node in chart.nodes):
+            return None
+        present = [c for c in chart.columns if c >= 0]
+        found = jacobian(chart.ring, at, ball, chart.nodes, present, arb(0))
+    except NoValueError:
+        return None
+    place = {c: i for i, c in enumerate(present)}
+    return [[row[place[c]] if c >= 0 else arb(0) for c in chart.columns] for row in found]
+
+
+def ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
+    """The reference configuration with balls; symbols without a value get random ones."""
+    with ctx.workprec(precision()):
+        return _ball_point(chart, known, rng)
+
+
+def _ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
+    symbols: dict[Expr, Any] = {}
+    for var in chart.ring.vars:
+        if var.kind != "symbol":
+            continue
+        value = known.get(var.key)
+        if value is None:
+            symbols[var.key] = arb(rng.randrange(257, 1023)) / 512
+            continue
+        ring = Ring([value])
+        node = ring.node(value)
+        constants = {v.key: arb(3) / 4 for v in ring.vars if v.kind == "symbol"}
+        try:
+            symbols[var.key] = values(ring, BallPoint(constants, 0))[node]
+        except NoValueError:
+            return None
+    return BallPoint(symbols, 0)
+
+
+# Classes of dependent equations
+
+
+@dataclass(frozen=True)
+class DependentClass:
+    """Rows that are looked at together, by their numbers, and how many of them are independent."""
+
+    rows: tuple[int, ...]
+    rank: int
+
+
+def dependent_parts(chart: Chart, found: Echelon) -> list[DependentClass]:
+    """The classes with dependent rows, each with what else is said of its coordinates; ``found`` with its supports."""
+    graph: nx.Graph = nx.Graph()
+    for row, support in found.supports.items():
+        graph.add_node(row)
+        graph.add_edges_from((row, other) for other in support)
+    own = frozenset(s for s in chart.symbols)
+    mentioned = [g.symbols & own for g in chart.relations]
+    users: dict[Expr, list[int]] = {}
+    for i, symbols in enumerate(mentioned):
+        for s in symbols:
+            users.setdefault(s, []).append(i)
+    parts = []
+    for component in nx.connected_components(graph):
+        held = frozenset[Expr]().union(*(mentioned[i] for i in component))
+        beside = {i for s in held for i in users[s] if mentioned[i] <= held and i not in found.supports}
+        rows = tuple(sorted(component | beside))
+        parts.append(DependentClass(rows, len(rows) - sum(r in found.supports for r in rows)))
+    return sorted(parts, key=lambda part: part.rows)
+
+
+def widened(chart: Chart, part: DependentClass, found: Echelon) -> DependentClass:
+    """The class with all that is said of the bodies and particles that it mentions: a loop with all of its joints.
+
+    The height alone of hinges whose axes are upright closes round a loop to first order only; beside the other
+    equations of these hinges it follows from them. Dependent rows of other classes come along with their own.
+    """
+    owners = {c.name: c.owner for c in chart.roles if c.owner is not None}
+    mentioned = [frozenset(owners.get(s.args[1], s) for s in g.symbols) for g in chart.relations]
+    held = frozenset[object]().union(*(mentioned[i] for i in part.rows))
+    within = {i for i, those in enumerate(mentioned) if those <= held}
+    rows = {i for i in within if i not in found.supports or within.issuperset(found.supports[i])} | {*part.rows}
+    return DependentClass(tuple(sorted(rows)), len(rows) - sum(i in found.supports for i in rows))
+
+
+def chart_of(chart: Chart, rows: Sequence[int]) -> Chart:
+    """Some of the relations on the columns that they mention."""
+    relations = tuple(chart.relations[r] for r in rows)
+    ring = Ring(relations, chart.positive)
+    nodes = tuple(ring.node(g) for g in relations)
+    mentioned = frozenset[Expr]().union(*(g.symbols for g in relations))
+    symbols = tuple(s for s in chart.symbols if s in mentioned)
+    columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
+    return replace(
+        chart,
+        ring=ring,
+        nodes=nodes,
+        symbols=symbols,
+        columns=columns,
+        unknowns=tuple(u for u in chart.unknowns if u in mentioned),
+        relations=relations,
+        kinds=tuple(chart.kinds[r] for r in rows),
+    )

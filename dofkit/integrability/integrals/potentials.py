@@ -1,0 +1,193 @@
+"""The potential of a closed form, by antiderivatives in one variable. Whoever uses a result differentiates it.
+
+A table gives the antiderivatives of powers, exponentials and trigonometric functions of linear arguments, so that
+ordinary forms need no SymPy; everything else is SymPy's.
+"""
+
+from __future__ import annotations
+
+import time
+from fractions import Fraction
+
+from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, left
+from dofkit.base.errors import NoValueError
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
+from dofkit.expressions.sympy_bridge import UntranslatableError, antiderivative_by_sympy
+from dofkit.expressions.terms import expand
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.integrals.algebra import Algebra, size
+
+#: Symbol -> coefficient, zeros too for the symbols that only coefficients mention.
+Form = dict[Expr, Expr]
+#: Orders of integration that are tried for a potential.
+MAX_ORDERS = 4
+#: The largest integrand given to SymPy, in nodes, and the steps of the budget that one takes.
+MAX_SYMPY, SYMPY_STEPS = 60, 20
+
+
+def potential(work: Algebra, form: Form) -> Expr | None:
+    """Return f with df = omega for a closed form, or None where an antiderivative is not found [PoincareLemma]."""
+    symbols = list(form)
+    for first in range(min(len(symbols), MAX_ORDERS)):
+        f = _potential_in_order(work, form, [*symbols[first:], *symbols[:first]])
+        if f is not None:
+            return f
+    return None
+
+
+def _potential_in_order(work: Algebra, form: Form, order: list[Expr]) -> Expr | None:
+    total, done = ex.ZERO, set[Expr]()
+    for symbol in order:
+        rest = form[symbol] - diff(total, symbol)
+        if not done.isdisjoint(rest.symbols):
+            rest = work.tidy(rest)
+            if not done.isdisjoint(rest.symbols):
+                return None
+        part = ex.ZERO if rest.is_zero else antiderivative(work, rest, symbol)
+        if part is None:
+            return None
+        total = total + part
+        done.add(symbol)
+    return total
+
+
+def antiderivative(work: Algebra, e: Expr, x: Expr) -> Expr | None:
+    """Return F with dF/dx = e, all other symbols constant, or None where neither the table nor SymPy has one."""
+    if x not in e.symbols:
+        return e * x
+    for integrand in dict.fromkeys((e, work.tidy(e))):
+        integral = _termwise(work, expand(integrand), x)
+        if integral is not None:
+            return integral
+    return _by_sympy(work, work.tidy(e), x)
+
+
+def _termwise(work: Algebra, e: Expr, x: Expr) -> Expr | None:
+    integrals = []
+    for term in e.args if e.op == "add" else (e,):
+        work.tick()
+        constant, factors = collected_powers(term, x)
+        integral = x if not factors else _of_factor(factors[0], x) if len(factors) == 1 else None
+        if integral is None:
+            return None
+        integrals.append(constant * integral)
+    return ex.add(*integrals)
+
+
+def as_power(e: Expr) -> tuple[Expr, Fraction]:
+    """Return (base, exponent), the exponent a number."""
+    if e.op == "pow" and e.args[1].op == "num":
+        return e.args[0], e.args[1].args[0]
+    return e, Fraction(1)
+
+
+def collected_powers(term: Expr, x: Expr) -> tuple[Expr, list[Expr]]:
+    """Return the factors free of x, and the others with the powers of equal bases collected."""
+    constants, bases = [], dict[Expr, Fraction]()
+    for factor in term.args if term.op == "mul" else (term,):
+        if x in factor.symbols:
+            base, exponent = as_power(factor)
+            bases[base] = bases.get(base, Fraction(0)) + exponent
+        else:
+            constants.append(factor)
+    return ex.mul(*constants), [ex.power(base, ex.num(k)) for base, k in bases.items() if k]
+
+
+def _linear(u: Expr, x: Expr) -> Expr | None:
+    """Return a where u = a x + b, else None."""
+    a = diff(u, x)
+    return None if x in a.symbols or a.is_zero else a
+
+
+def _of_factor(e: Expr, x: Expr) -> Expr | None:
+    """Return the antiderivative of one factor by the table."""
+    if e.op == "pow":
+        return _of_power(e, x)
+    if e.op == "call":
+        return _of_unknown_function(e, x)
+    a = x if e == x else _linear(e.args[1], x) if e.op == "fn" and len(e.args) == 2 else None
+    if a is None:
+        return None
+    if e == x:
+        return x * x / 2
+    integral = _of_function(e.args[0], e.args[1])
+    return None if integral is None else integral / a
+
+
+def _of_function(name: str, u: Expr) -> Expr | None:
+    """Return the antiderivative of a function by its argument."""
+    sin, cos = ex.fn("sin", u), ex.fn("cos", u)
+    table = {
+        "exp": ex.fn("exp", u), "sinh": ex.fn("cosh", u), "cosh": ex.fn("sinh", u),
+        "tanh": ex.fn("log", ex.fn("cosh", u)),
+        "sin": -cos, "cos": sin, "tan": -ex.fn("log", cos), "cot": ex.fn("log", sin),
+        "sec": ex.fn("log", (1 + sin) / cos), "csc": ex.fn("log", (1 - cos) / sin),
+    }  # fmt: skip
+    return table.get(name)
+
+
+def _of_power(e: Expr, x: Expr) -> Expr | None:
+    base, exponent = e.args
+    if x in exponent.symbols:
+        a = _linear(exponent, x)
+        return None if x in base.symbols or a is None else e / (a * ex.fn("log", base))
+    a = _linear(base, x)
+    if a is not None:
+        return ex.fn("log", base) / a if exponent == ex.MINUS_ONE else base * e / ((exponent + 1) * a)
+    if base.op == "fn" and base.args[0] in ("sin", "cos"):
+        return _of_wave_power(base, exponent, x)
+    return _of_inverse_root(base, x) if exponent == ex.num(Fraction(-1, 2)) else None
+
+
+def _of_wave_power(wave: Expr, exponent: Expr, x: Expr) -> Expr | None:
+    """Return the antiderivative of sin or cos of a linear argument to the power -2 or -1."""
+    name, u = wave.args
+    a = _linear(u, x)
+    if a is None or exponent.op != "num" or exponent.args[0] not in (-1, -2):
+        return None
+    if exponent == ex.MINUS_ONE:
+        integral = _of_function("csc" if name == "sin" else "sec", u)
+        return None if integral is None else integral / a
+    return (ex.fn("tan", u) if name == "cos" else -ex.fn("cos", u) / ex.fn("sin", u)) / a
+
+
+def _of_inverse_root(base: Expr, x: Expr) -> Expr | None:
+    """Return the antiderivative of (a x^2 + b x + c)^(-1/2) for a number a."""
+    slope = diff(base, x)
+    twice = _linear(slope, x)
+    if twice is None or twice.op != "num":
+        return None
+    if twice.args[0] > 0:
+        width = ex.sqrt(twice / 2)
+        return ex.fn("log", 2 * width * ex.sqrt(base) + slope) / width
+    width = ex.sqrt(-twice / 2)
+    return ex.fn("atan", -slope / (2 * width * ex.sqrt(base))) / width
+
+
+def _of_unknown_function(e: Expr, x: Expr) -> Expr | None:
+    """Return the antiderivative of a derivative of an unknown function by the one argument that holds x."""
+    name, orders, arguments = e.args
+    places = [i for i, u in enumerate(arguments) if x in u.symbols]
+    a = _linear(arguments[places[0]], x)
+    if len(places) > 1 or a is None or not orders[places[0]]:
+        return None
+    return ex.call(name, arguments, tuple(k - (i == places[0]) for i, k in enumerate(orders))) / a
+
+
+def _by_sympy(work: Algebra, e: Expr, x: Expr) -> Expr | None:
+    """Return SymPy's antiderivative, or None where there is none, or none in time."""
+    if size(e) > MAX_SYMPY or any(n.op == "call" for n in ex.nodes(e)):
+        return None
+    work.tick(SYMPY_STEPS)
+    start = time.thread_time()
+    try:
+        with by_processor(min(work.seconds, left())), checked_calls():
+            return antiderivative_by_sympy(e, x, work.positive)
+    except OutOfTimeError:
+        check()
+    except (UntranslatableError, NoValueError):
+        pass
+    finally:
+        work.seconds -= time.thread_time() - start
+    return None

@@ -1,0 +1,285 @@
+"""Freedom and labels of a block with differential relations from points over GF(p), held against a ball."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from flint import arb, nmod_mat
+
+from dofkit.base.verdicts import Verdict, weakest
+from dofkit.configuration.at_reference import CLEAR
+from dofkit.configuration.finite_blocks import dependent_names
+from dofkit.configuration.variety import Variety
+from dofkit.exact.matrices.certified import ball_part, dependencies
+from dofkit.exact.matrices.sparse import rank_of, sparse
+from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.frames import pairing
+from dofkit.exact.points.real_search import RealPoint
+from dofkit.exact.ring.canonical import error_bits
+from dofkit.exact.ring.program import Scalar, values
+from dofkit.exact.zero import independent_on_set
+from dofkit.expressions import tree as ex
+from dofkit.integrability.growth_vector import derived_flag, growth
+from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span
+from dofkit.integrability.pfaffian_system import Codistribution, linear_rows
+from dofkit.integrability.prolongation import is_nonzero
+from dofkit.integrability.single_form import CurlAtPoint, proof
+from dofkit.relations.answer import Answer, HolonomyLabel
+from dofkit.relations.blocks import Block
+from dofkit.relations.normal.pieces import Finite, Pfaffian, Still, with_constants
+from dofkit.relations.setting import Setting
+
+#: Lie algebras are certified with balls up to this many columns.
+CERTIFIED_COLUMNS = 16
+
+
+@dataclass(frozen=True)
+class SampledForms:
+    """A block's rows at points over GF(p), ``samples``: the largest Lie algebra found stands for the generic one.
+
+    ``trusted``: the functions that occur are known to be independent, so that GF(p) sees every relation among them.
+    """
+
+    block: Block
+    forms: Codistribution
+    samples: Sequence[tuple[FieldPoint, SampledSpan]]
+    trusted: bool
+
+    @cached_property
+    def _largest(self) -> tuple[FieldPoint, SampledSpan]:
+        return max(self.samples, key=lambda pair: pair[1].span.dimension)
+
+    @property
+    def point(self) -> FieldPoint:
+        """The point with the largest Lie algebra."""
+        return self._largest[0]
+
+    @property
+    def sampled(self) -> SampledSpan:
+        """What is known there."""
+        return self._largest[1]
+
+    @property
+    def columns(self) -> int:
+        """Coordinates, and time where it occurs."""
+        return len(self.forms.chart.symbols)
+
+    @property
+    def rank(self) -> int:
+        """Independent rows."""
+        return len(self.sampled.frame.rows)
+
+    @property
+    def integrable(self) -> int:
+        """The rank of I^(inf), which annihilates the Lie algebra."""
+        return self.columns - self.sampled.span.dimension
+
+    @cached_property
+    def rank_finite(self) -> int:
+        """Independent differentials of finite relations."""
+        return rank_of(self.sampled.matrix[: self.forms.finite], self.point.p)
+
+
+#: A Lie algebra and the matrix of the rows, over numbers whose being not 0 is proved.
+Certificate = tuple[Span, Sequence[Sequence[Scalar]]]
+
+
+def field_labels(
+    block: Block,
+    forms: Codistribution,
+    found: Variety,
+    good: list[tuple[FieldPoint, SampledSpan]],
+    result: Answer,
+    setting: Setting,
+) -> None:
+    """Freedom and labels from points over GF(p), held against a ball where there is one."""
+    known = SampledForms(block, forms, good, independent_on_set(forms.chart.ring, forms.chart.nodes))
+    if not known.trusted and "balls" not in setting.engines:
+        result.verdict = "undecided"
+        result.reasons.append("the functions that occur may satisfy an identity that points over GF(p) do not detect")
+        return
+    result.trusted = known.trusted and (not forms.finite or found.about == "everywhere")
+    _set_freedom(known, result, setting)
+    if found.dimension is None or found.dimension != forms.n - known.rank_finite:
+        result.dof, result.velocity_dof, result.verdict, result.degenerate = None, None, "undecided", True
+        result.reasons.append(
+            "the geometric equations are singular on their solution set; nothing further was decided there"
+        )
+        return
+    proof_of = certificate(known, found)
+    if not known.trusted and (proof_of is None or proof_of[0].dimension != known.sampled.span.dimension):
+        result.dof, result.velocity_dof, result.growth, result.verdict = None, None, None, "undecided"
+        result.reasons.append(
+            "the functions that occur may satisfy an identity on the set, and no certified interval excludes zero there"
+        )
+        return
+    result.verdict = weakest(found.verdict, _rank_verdict(known, proof_of, setting))
+    result.argument = "Lie algebra, certified" if result.verdict == "proved" else "Lie algebra at points"
+    nodes = [node for row in forms.rows.entries for node in row.values()]
+    result.bits = error_bits(forms.chart.ring, nodes, len(forms.rows.entries))
+    if any(s.span.dimension != known.sampled.span.dimension for _, s in good):
+        result.verdict = weakest(result.verdict, "probable")
+        result.reasons.append("the freedom differs between points; the generic value is given")
+    _set_labels(known, proof_of, result)
+    result.dependent = _integrable_names(known)
+
+
+def _set_freedom(known: SampledForms, result: Answer, setting: Setting) -> None:
+    """n - rank velocities, n - rank I^(inf) freedoms, and where they are asked for the growth and the derived flag."""
+    forms, point, sampled = known.forms, known.point, known.sampled
+    result.matrix, result.modulus = sparse(sampled.matrix), point.p
+    result.method = "Lie algebra along a curve over GF(p)"
+    result.velocity_dof = forms.n - known.rank
+    result.dof = forms.n - known.integrable
+    asked = setting.grows and sampled.span.grows_at_once
+    result.growth = growth(forms.rows, sampled.frame, point, sampled.span) if asked else None
+    result.derived = derived_flag(forms.rows, sampled.frame, point, sampled.span) if setting.flag else None
+
+
+def _set_labels(known: SampledForms, proof_of: Certificate | None, result: Answer) -> None:
+    """The label of every row, finite ones and forms; one that is left open leaves the freedom open too."""
+    for i, row, place in linear_rows(known.block, known.forms):
+        if isinstance(row.piece, Finite):
+            result.labels[i] = HolonomyLabel(True, "proved")
+            continue
+        label = _label(place, known, proof_of)
+        if label.holonomic is None:
+            result.verdict, result.dof, result.growth = "undecided", None, None
+        elif not label.holonomic and known.integrable > known.rank_finite:
+            label = replace(label, modulo=_modulo_the_others(place, known.sampled, known.point.p))
+        result.labels[i] = label
+
+
+def certificate(known: SampledForms, found: Variety) -> Certificate | None:
+    """A span and a matrix whose non-zero values are proved not to be 0.
+
+    Where the generators are known to be independent and no finite relation holds among them, what is not 0 at a
+    point over GF(p) is not 0 as a function; else balls at a real point, up to `CERTIFIED_COLUMNS`.
+    """
+    real = found.real
+    if real is None or not real.certified or not real.consistent:
+        return None
+    if known.trusted and not known.forms.finite:
+        return known.sampled.span, known.sampled.matrix
+    if known.columns > CERTIFIED_COLUMNS:
+        return None
+    return ball_span(known.forms, known.rank, real.point, found.about == "reference")
+
+
+def _rank_verdict(known: SampledForms, proof_of: Certificate | None, setting: Setting) -> Verdict:
+    """How sure the rank and the Lie algebra's dimension are.
+
+    Independent rows have their rank certified by the ball. The dimension is not too large by a certificate of the
+    ball; not too small where it is everything, where D is a line, and where as many rows are proved to integrate by
+    themselves as the Lie algebra leaves directions out.
+    """
+    sampled, rank, n = known.sampled, known.rank, known.columns
+    if proof_of is None or len(sampled.matrix) > rank or proof_of[0].dimension != sampled.span.dimension:
+        return "probable"
+    if sampled.span.dimension == n or n - rank <= 1:
+        return "proved"
+    constants = {
+        c: ex.parameter(c) for r in known.block.forms if isinstance(r.piece, Still) for c in r.piece.coefficients
+    }
+    forms = [p for r in known.block.forms if isinstance(p := with_constants(r.piece, constants), Pfaffian)]
+    wanted = n - sampled.span.dimension - (len(sampled.matrix) - len(forms))
+    flat = forms if constants or wanted > len(forms) else _flat(known, forms)
+    if wanted > len(flat):
+        return "probable"
+    return "proved" if sum(proof(f, setting.positive) is not None for f in flat) == wanted else "probable"
+
+
+def _flat(known: SampledForms, forms: Sequence[Pfaffian]) -> list[Pfaffian]:
+    """The forms that may integrate by themselves: those with curvature at the point do not."""
+    rows, point = known.forms.rows, known.point
+    at, first = values(rows.ring, point), known.forms.finite
+    return [form for i, form in enumerate(forms) if not CurlAtPoint(rows, first + i, at, point).is_curved]
+
+
+def _label(place: int, known: SampledForms, proof_of: Certificate | None) -> HolonomyLabel:
+    """Is the row in the largest integrable part: does it annihilate the Lie algebra of D [HermannNagano]?"""
+    zero = [all(v == 0 for v in pairing(s.matrix[place], s.span.vectors)) for _, s in known.samples]
+    if all(zero):
+        line = known.columns - known.rank <= 1
+        return HolonomyLabel(True, "proved" if line and proof_of is not None else "probable", "line" if line else "")
+    disagree = "exact arithmetic and certified intervals disagree: an identity between functions was not detected"
+    if proof_of is None:
+        return HolonomyLabel(False, "probable") if known.trusted else HolonomyLabel(None, "undecided", disagree)
+    span, matrix = proof_of
+    if any(is_nonzero(v) for v in pairing(matrix[place], span.vectors)):
+        return HolonomyLabel(False, "proved")
+    return HolonomyLabel(None, "undecided", disagree)
+
+
+def _modulo_the_others(place: int, sampled: SampledSpan, p: int) -> bool:
+    """Is the row a sum of one in the largest integrable part and of the other rows, and independent of these?
+
+    So it is where it annihilates what both allow: the Lie algebra's vectors that the other rows annihilate.
+    """
+    others = [row for i, row in enumerate(sampled.matrix) if i != place]
+    if not others or rank_of(others, p) == rank_of(sampled.matrix, p):
+        return False
+    vectors = sampled.span.vectors
+    paired = nmod_mat([[int(v) for v in pairing(row, vectors)] for row in others], p)
+    null, nullity = paired.nullspace()
+    own = [int(v) for v in pairing(sampled.matrix[place], vectors)]
+    return all(sum(int(null[r, c]) * own[r] for r in range(len(own))) % p == 0 for c in range(nullity))
+
+
+def _integrable_names(known: SampledForms) -> tuple[str, ...]:
+    """Dependent coordinates: pivots of the annihilator of the Lie algebra."""
+    chart, p, spanning = known.forms.chart, known.point.p, known.sampled.span.vectors
+    if not spanning:
+        return tuple(str(s.args[1]) for s in chart.symbols if s != ex.TIME)
+    vectors = nmod_mat([[int(v) for v in vector] for vector in spanning], p)
+    basis, nullity = vectors.nullspace()
+    rows = [[basis[i, k] for i in range(basis.nrows())] for k in range(nullity)]
+    return dependent_names(sparse(rows), chart, p) if rows else ()
+
+
+def _gap(span: Span) -> float:
+    """How far what is left of the Lie algebra lies below its smallest pivot, less what the pivots fall by anyway."""
+    part = ball_part(span.vectors)
+    return part.gap / part.fall
+
+
+def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: Answer) -> None:
+    """With real points only: what a tiny ball contains 0 of is taken for 0, and the verdict says numeric."""
+    at = values(forms.chart.ring, real.point)
+    matrix = forms.rows.matrix(at, arb(0))
+    part = ball_part(matrix)
+    rank = part.rank
+    total, n = len(forms.chart.symbols), forms.n
+    found = ball_span(forms, rank, real.point)
+    if found is None or part.gap < CLEAR:
+        result.verdict, result.consistent = "undecided", None
+        result.reasons.append("only singular points were found")
+        return
+    span, _ = found
+    reached = span.dimension == total
+    gap = part.gap if reached else min(part.gap, _gap(span))
+    result.verdict, result.method = "numeric", "Lie algebra along a curve with balls"
+    result.argument, result.gap = "Lie algebra with balls", gap
+    result.velocity_dof = n - rank
+    if gap >= CLEAR:
+        result.dof = n - (total - span.dimension)
+        result.reasons.append(f"decided at real points of high precision, with a gap of {gap:.1e} between pivots")
+    else:
+        result.verdict = "undecided"
+        result.reasons.append(
+            f"Lie brackets are resolved down to a gap of {gap:.1e} only, so some may have been missed"
+        )
+    if "field" not in forms.chart.engines:
+        result.matrix = sparse(dependencies(matrix, part))
+        if real.consistent and len(real.rows) == forms.finite and rank == len(matrix):
+            result.verdict = "proved" if reached or total - rank <= 1 else result.verdict
+    for i, row, place in linear_rows(block, forms):
+        finite = isinstance(row.piece, Finite)
+        zero = all(v.contains(0) for v in pairing(matrix[place], span.vectors))
+        if zero and gap < CLEAR and not finite:
+            result.labels[i] = HolonomyLabel(None, "undecided", "a decisive Lie bracket may have been lost to rounding")
+            continue
+        sure: Verdict = "proved" if finite or not zero else "numeric"
+        result.labels[i] = HolonomyLabel(zero, sure)

@@ -1,0 +1,330 @@
+"""Counts of mobility by textbook formulas, and why each is off where it is.
+
+f = N d - k counts coordinates and equations, with d(d+1)/2 for a rigid body. Gruebler and Kutzbach count bodies and
+joints: M = D(N - 1 - j) + f_1 + ... + f_j with D = 3 in the plane and 6 in space takes every loop to close by D
+independent conditions. The motions that the joints of a loop allow span a space of some dimension at most D (their
+screws), and where it is smaller the loop closes by fewer: all hinges parallel or through one point give 3, Bennett's
+four give 3 [GrueblerKutzbach] [Bennett1903].
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from dofkit.base.libraries import nx
+from dofkit.base.wording import many, verb
+from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
+from dofkit.mobility.placement import TURNS, Located, Member, Placement, rows_of
+from dofkit.report import ConstraintEntry, Count, Mobility
+from dofkit.system import DRIVE, GROUND, System
+
+#: More loops than this are not looked at one by one, and more than these are not told.
+MOST_LOOPS, MOST_TOLD = 60, 4
+
+#: Where the connections are drawn, once it is asked for.
+Drawing = Callable[[], Placement | None]
+
+
+@dataclass(frozen=True)
+class CountedJoint:
+    """A constraint between two bodies, or a body and the ground: ``freedom`` without its drive."""
+
+    constraint: int
+    first: str
+    second: str
+    freedom: int
+    driven: bool
+
+
+def joints_of(system: System, equations: Sequence[int]) -> list[CountedJoint]:
+    """The constraints that count as joints; ``equations`` of every constraint."""
+    moving = set(system.bodies)
+    whole = full(system)
+    found = []
+    for c in system.connections:
+        members = [m for m in c.members if m != GROUND]
+        if not c.facts.joint or not members or len(members) > 2 or not moving.issuperset(members):
+            continue
+        first, second = (GROUND, *members)[-2:]
+        freedom = whole - equations[c.constraint] + c.driven
+        found.append(CountedJoint(c.constraint, first, second, freedom, c.driven))
+    return found
+
+
+def without_drives(system: System) -> System | None:
+    """Return the system with every drive of a joint released; None where no joint is driven."""
+    driven = {c.constraint for c in system.connections if c.driven}
+    if not driven:
+        return None
+    return replace(
+        system,
+        constraints=tuple(
+            c._replace(relations=[r for r in c.relations if r.part != DRIVE]) if i in driven else c
+            for i, c in enumerate(system.constraints)
+        ),
+        connections=tuple(c._replace(driven=False) for c in system.connections),
+    )
+
+
+def full(system: System) -> int:
+    """D: the freedom of a body."""
+    return system.dimension * (system.dimension + 1) // 2
+
+
+def kutzbach_count(
+    system: System, equations: Sequence[int], others: int, freedom: int | None, drawn: Drawing
+) -> Mobility | None:
+    """The count beside the ``freedom``; ``others`` are the equations that are no inequality's, joints' included."""
+    joints = joints_of(system, equations)
+    if not joints:
+        return None
+    whole, bodies = full(system), len(system.bodies)
+    terms = _terms(system, joints, others - sum(equations[j.constraint] for j in joints))
+    base = whole * (bodies - len(joints)) + sum(j.freedom for j in joints)
+    kutzbach = base + sum(number for _, number, _ in terms)
+    letters = "".join(f" {sign} {letter}" for sign, _, letter in terms)
+    numbers = "".join(f" {sign} {abs(number)}" for sign, number, _ in terms)
+    formula = (
+        f"M = {whole}(N - 1 - j) + sum f{letters} = "
+        f"{whole}({bodies + 1} - 1 - {len(joints)}) + {sum(j.freedom for j in joints)}{numbers} = {kutzbach}"
+    )
+    return Mobility(
+        links=bodies + 1,
+        joints=len(joints),
+        formula=formula,
+        kutzbach=kutzbach,
+        freedom=freedom,
+        differs=None if freedom is None or freedom == kutzbach else _why(system, joints, kutzbach, freedom, drawn),
+    )
+
+
+def _terms(system: System, joints: Sequence[CountedJoint], rest: int) -> list[tuple[str, int, str]]:
+    """(sign, number, what it counts) of what is counted besides."""
+    driven = sum(j.driven for j in joints)
+    owned = full(system) * len(system.bodies) + system.dimension * len(system.particles)
+    further = len(system.coordinates) - owned
+    found = [
+        ("-", -driven, "driven joints"),
+        ("+", system.dimension * len(system.particles), f"{system.dimension} per particle"),
+        ("+", further, "further coordinates"),
+        ("-", -rest, "other equations"),
+    ]
+    return [term for term in found if term[1]]
+
+
+def _why(system: System, joints: Sequence[CountedJoint], kutzbach: int, freedom: int, drawn: Drawing) -> str:
+    if freedom < kutzbach:
+        return (
+            "the equations remove more degrees of freedom than their number, because of this special configuration or "
+            "because differential constraints integrate"
+        )
+    placement = drawn()
+    said = "" if placement is None else _of_screws(system, joints, freedom, placement)
+    more = freedom - kutzbach
+    start = f"{more} of the equations that are counted as independent {verb(more, 'depends', 'depend')} on the others"
+    return f"{start}: {said}" if said else start
+
+
+def _of_screws(system: System, joints: Sequence[CountedJoint], freedom: int, drawn: Placement) -> str:
+    """What the joints' screws say: the dimension of their span, all together or loop by loop."""
+    whole, d = full(system), system.dimension
+    names = [c.name for c in system.constraints]
+    screws = {j: allowed(drawn.located[j.constraint], d, drawn.p) for j in joints}
+    span = rank_of_rows([s for j in joints for s in screws[j]], drawn.p)
+    alone = len(system.constraints) == len(joints)
+    bodies, total = len(system.bodies), sum(j.freedom for j in joints)
+    driven = sum(j.driven for j in joints)
+    count = span * (bodies - len(joints)) + total - driven
+    if span < whole and alone and count == freedom:
+        numbers = f"{span}({bodies + 1} - 1 - {len(joints)}) + {total}{f' - {driven}' if driven else ''} = {count}"
+        return (
+            f"the joint screws form a {span}-system, not a {whole}-system; "
+            f"with {span} in place of {whole} the count is {numbers}"
+        )
+    told = []
+    loops = _loops(joints)
+    for loop in loops[:MOST_LOOPS]:
+        span = rank_of_rows([s for j in loop for s in screws[j]], drawn.p)
+        if span < whole:
+            told.append(_closure([names[j.constraint] for j in loop], loop, span, whole))
+    more = f"; and {many(len(told) - MOST_TOLD, 'more loop')}" if len(told) > MOST_TOLD else ""
+    if told:
+        return "; ".join(told[:MOST_TOLD]) + more
+    return "together the loops impose fewer conditions than separately" if len(loops) > 1 else ""
+
+
+def _closure(names: Sequence[str], loop: Sequence[CountedJoint], span: int, whole: int) -> str:
+    """Return what is said of a loop whose screws span fewer dimensions than those of a body."""
+    if len(loop) == 2 and all(j.freedom == span for j in loop):
+        return f"{names[0]} and {names[1]} allow the same bodies the same motions"
+    conditions = many(span, "condition")
+    return f"the loop {', '.join(names)} closes by {conditions}, not {whole}: its screws form a {span}-system"
+
+
+def allowed(found: Located, dimension: int, p: int) -> list[SparseRow]:
+    """A basis of the twists that a joint allows the second body against the first, at the world's origin modulo p."""
+    size = dimension + TURNS[dimension]
+    ground, free = Member(None), Member(0, (0,) * dimension)
+    bodies = [m for m in found.members if m.column is not None]
+    ends = {id(bodies[-1]): free}
+    members = tuple(ends.get(id(m), ground) for m in found.members)
+    points = tuple((ends.get(id(m), ground), at) for m, at in found.points)
+    rows = rows_of(replace(found, members=members, points=points, driven=False))
+    if rows is None:
+        return [{c: 1} for c in range(size)]
+    return kernel([{c: v % p for c, v in row.items() if v % p} for row in rows], size, p)
+
+
+def kernel(rows: Sequence[SparseRow], size: int, p: int) -> list[SparseRow]:
+    """A basis of the vectors that few rows modulo p vanish on."""
+    reduced: dict[int, SparseRow] = {}
+    for row in rows:
+        left = dict(row)
+        for pivot, other in reduced.items():
+            left = _less(left, other, left.get(pivot, 0), p)
+        if not left:
+            continue
+        column = min(left)
+        inverse = pow(left[column], -1, p)
+        left = {c: v * inverse % p for c, v in left.items()}
+        reduced = {c: _less(other, left, other.get(column, 0), p) for c, other in reduced.items()} | {column: left}
+    free = [c for c in range(size) if c not in reduced]
+    return [{f: 1} | {c: -row[f] % p for c, row in reduced.items() if f in row} for f in free]
+
+
+def _less(row: SparseRow, other: SparseRow, factor: int, p: int) -> SparseRow:
+    if not factor:
+        return row
+    found = dict(row)
+    for c, v in other.items():
+        found[c] = (found.get(c, 0) - factor * v) % p
+    return {c: v for c, v in found.items() if v}
+
+
+def _loops(joints: Sequence[CountedJoint]) -> list[list[CountedJoint]]:
+    """A basis of the loops: for every joint that closes one, the path between its ends in a spanning tree."""
+    tree: nx.Graph = nx.Graph()
+    parts: nx.utils.UnionFind[str] = nx.utils.UnionFind()
+    closing = []
+    for j in joints:
+        if parts[j.first] == parts[j.second]:
+            closing.append(j)
+        else:
+            parts.union(j.first, j.second)
+            tree.add_edge(j.first, j.second, joint=j)
+    found = []
+    for j in closing[:MOST_LOOPS]:
+        path = nx.shortest_path(tree, j.first, j.second) if j.first != j.second else [j.first]
+        around = [tree.edges[a, b]["joint"] for a, b in pairwise(path)]
+        found.append(sorted([*around, j], key=lambda joint: joint.constraint))
+    return found
+
+
+# f = N d - k
+
+
+@dataclass(frozen=True)
+class CountedFacts:
+    """What the count is held against."""
+
+    written: int
+    dof: int | None
+    consistent: bool | None
+    hidden: int
+    redundant_rows: int
+    entries: Sequence[ConstraintEntry]
+
+
+def count(system: System, facts: CountedFacts) -> Count:
+    """Return the count of all geometric equations as written, with d(d+1)/2 coordinates for a rigid body."""
+    coordinates = len(system.coordinates)
+    naive = coordinates - facts.written
+    independent = None if facts.dof is None else coordinates - facts.dof
+    return Count(
+        particles=len(system.particles),
+        bodies=len(system.bodies),
+        dimension=system.dimension,
+        coordinates=coordinates,
+        constraints=facts.written,
+        independent=independent,
+        naive_dof=naive,
+        formula=formula(system, facts.written),
+        errs=why(system, facts, naive),
+    )
+
+
+def formula(system: System, written: int) -> str:
+    """Return the count as a line of text with its numbers."""
+    d, terms, numbers = system.dimension, [], []
+    if system.particles:
+        terms.append("N d")
+        numbers.append(f"{len(system.particles)}*{d}")
+    if system.bodies:
+        terms.append("B d(d+1)/2")
+        numbers.append(f"{len(system.bodies)}*{d * (d + 1) // 2}")
+    owned = len(system.particles) * d + len(system.bodies) * d * (d + 1) // 2
+    further = len(system.coordinates) - owned
+    if further or not terms:
+        terms.append("n")
+        numbers.append(str(further))
+    return f"f = {' + '.join(terms)} - k = {' + '.join(numbers)} - {written} = {len(system.coordinates) - written}"
+
+
+def why(system: System, facts: CountedFacts, naive: int) -> str | None:
+    """Return why the count differs from the degrees of freedom, or None where it does not."""
+    if facts.consistent is False:
+        return "no motion satisfies all constraints, so there are no degrees of freedom to count"
+    if facts.dof is None or facts.dof == naive:
+        return None
+    reasons = []
+    if facts.dof > naive:
+        independent = facts.written - facts.dof + naive
+        reasons.append(
+            f"only {independent} of the {many(facts.written, 'geometric equation')} {verb(independent)} independent: "
+            "a dependent equation removes no degree of freedom"
+        )
+        complete = complete_sets(system)
+        reasons += complete
+    if facts.dof < naive:
+        reasons += _why_fewer(facts)
+    return "; ".join(reasons)
+
+
+def _why_fewer(facts: CountedFacts) -> list[str]:
+    """Return what removes degrees of freedom besides the geometric equations as written."""
+    forms = [e for e in facts.entries if e.form in ("pfaffian", "nonlinear")]
+    integrable = [e.name for e in forms if e.holonomic]
+    found = []
+    if integrable:
+        verb = "integrates to a geometric equation" if len(integrable) == 1 else "integrate to geometric equations"
+        found.append(f"{', '.join(integrable)} {verb}, which the count does not include")
+    if facts.hidden:
+        found.append(
+            f"the differential constraints imply {many(facts.hidden, 'geometric equation')} besides those written"
+        )
+    if forms and not found:
+        found.append("a combination of the differential constraints integrates to a geometric equation")
+    if not found:
+        found.append(
+            "over the reals one equation imposes several conditions, so it removes more than one degree of freedom"
+        )
+    return found
+
+
+def complete_sets(system: System) -> list[str]:
+    """Return the complete sets of N > d+1 linked particles, of whose links only N d - d(d+1)/2 are independent."""
+    d = system.dimension
+    found = []
+    for constraint in system.constraints:
+        if not constraint.facts.complete:
+            continue
+        links = len(constraint.relations)
+        n = round((1 + (1 + 8 * links) ** 0.5) / 2)
+        if n > d + 1:
+            found.append(
+                f"of the N(N-1)/2 = {links} links among N = {n} particles in {many(d, 'dimension')} only "
+                f"N d - d(d+1)/2 = {n * d - d * (d + 1) // 2} are independent, because N > d+1 = {d + 1}"
+            )
+    return found

@@ -1,0 +1,215 @@
+"""Scenes for each reduction of the model, and the comparison of reports with and without one.
+
+The scenes grow by what one reduction leaves out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from dofkit.classification.passes import Examined, examined
+from dofkit.relations.setting import ReductionName, Reductions
+from dofkit.report import ConstraintEntry, Report
+from dofkit.scene.lowering import lower
+from dofkit.scene.reading import load
+
+Mapped = dict[str, Any]
+
+#: Fields that state how an answer was derived and how certain it is; of coordinates, one choice of many.
+NOT_COMPARED = (
+    "verdict",
+    "verdicts",
+    "witness",
+    "feasible_at",
+    "method",
+    "modelled",
+    "warnings",
+    "reason",
+    "generalized_coordinates",
+)
+#: Sentences about numbers: others where one of these is undecided.
+SENTENCES = ("differs", "errs")
+#: Lists of no more than was decided.
+LISTS = ("redundant", "redundancies", "special_cases", "conflicting")
+
+
+class SceneFamily(NamedTuple):
+    """Scenes of any size that one reduction is for, and the size at which they are compared."""
+
+    scene: Callable[[int], Mapped]
+    size: int
+
+
+def study_of(source: Mapped | str, reductions: Reductions) -> Examined:
+    """Return the answer with some reductions in use."""
+    return examined(lower(load(source)), 60.0, reductions=reductions)
+
+
+def model_sizes(study: Examined) -> dict[str, int]:
+    """Return the size of the model that was computed with: coordinates, equations, forms, the largest block, ..."""
+    sizes = [a.size for a in study.outcome.answers]
+    return {
+        "coordinates": sum(s.coordinates for s in sizes),
+        "relations": sum(s.relations for s in sizes),
+        "forms": sum(s.forms for s in sizes),
+        "largest": max((s.coordinates for s in sizes), default=0),
+        "followed": sum(a.looked.coordinates for a in study.outcome.answers),
+    }
+
+
+def differences(full: Report, other: Report) -> list[str]:
+    """Return the fields in which another report of a scene differs; what is undecided there is no difference."""
+    fields = [
+        field
+        for field in Report.model_fields
+        if field not in (*NOT_COMPARED, "constraints")
+        and _differ(getattr(full, field), getattr(other, field))
+        and not (field in LISTS and other.verdict == "undecided")
+    ]
+    entries = zip(full.constraints, other.constraints, strict=True)
+    return fields + [f"{a.name}.{field}" for a, b in entries for field in _of_entry(a, b)]
+
+
+def _of_entry(full: ConstraintEntry, other: ConstraintEntry) -> list[str]:
+    return [
+        field
+        for field in ConstraintEntry.model_fields
+        if field not in NOT_COMPARED and _differ(getattr(full, field), getattr(other, field))
+    ]
+
+
+def _differ(a: Any, b: Any) -> bool:
+    """Return whether two values differ, apart from what is undecided in the second and from verdicts."""
+    if hasattr(a, "model_dump") and hasattr(b, "model_dump"):
+        pairs = {k: (getattr(a, k), getattr(b, k)) for k in type(a).model_fields if k not in NOT_COMPARED}
+        undecided = any(x is not None and y is None for x, y in pairs.values())
+        return any(_differ(x, y) for k, (x, y) in pairs.items() if not (undecided and k in SENTENCES))
+    return b is not None and a != b
+
+
+# Scenes
+
+
+def _link(a: Any, b: Any, **more: Any) -> Mapped:
+    return {"type": "link", "between": [a, b], **more}
+
+
+def _links(particles: Sequence[Any], links: Sequence[Mapped]) -> Mapped:
+    return {"dimension": 2, "particles": list(particles), "constraints": list(links)}
+
+
+def _strip_bars(joints: int) -> list[Mapped]:
+    """Return the bars of a strip of triangles between so many joints p0, p1, ..."""
+    pairs = [(i, i + 1) for i in range(joints - 1)] + [(i, i + 2) for i in range(joints - 2)]
+    return [_link(f"p{a}", f"p{b}") for a, b in pairs]
+
+
+def _discs(n: int, radius: Callable[[int], str], free: int = 0) -> Mapped:
+    """Return discs that roll upright on a plane: coordinates (x, y, theta, phi) each."""
+    coordinates = [f"{q}{i}" for i in range(n) for q in ("x", "y", "theta", "phi")]
+    rows = [
+        f"d{q}{i} - {radius(i)} {f}(theta{i}) dphi{i} = 0" for i in range(n) for q, f in (("x", "cos"), ("y", "sin"))
+    ]
+    return {"coordinates": [*coordinates, *(f"free{i}" for i in range(free))], "constraints": rows}
+
+
+def _untouched(n: int) -> Mapped:
+    """Return one disc with n further coordinates that nothing touches."""
+    return _discs(1, lambda _: "2", n)
+
+
+def _blocks(n: int) -> Mapped:
+    """Return n discs of different radii."""
+    return _discs(n, lambda i: str(i + 1))
+
+
+def _twins(n: int) -> Mapped:
+    """Return n equal discs."""
+    return _discs(n, lambda _: "2")
+
+
+def _copies(n: int) -> Mapped:
+    """Return a chain of n rods in the plane from the ground, every rod written twice."""
+    ends: list[Any] = [[0, 0], *(f"p{i}" for i in range(n))]
+    rods = [_link(ends[i], ends[i + 1], length=i + 1) for i in range(n)]
+    return _links(ends[1:], rods + rods)
+
+
+def _still(n: int) -> Mapped:
+    """Return bodies that slide on one another along x and y in turn; two equal parallel cranks hold the last."""
+    below = ["ground", *(f"b{i}" for i in range(n))]
+    axes = ([1, 0], [0, 1])
+    joints: list[Any] = [{"type": "prismatic", "between": below[i : i + 2], "axis": axes[i % 2]} for i in range(n)]
+    joints += [_link([x, 0], {"on": below[-1], "at": [x + 1, 2]}) for x in (0, 3)]
+    return {"dimension": 2, "bodies": below[1:], "constraints": joints}
+
+
+def _welds(n: int) -> Mapped:
+    """Return three equal parallel cranks under n bodies welded in a row."""
+    row = [f"b{i}" for i in range(n)]
+    joints: list[Any] = [{"type": "weld", "between": row[i : i + 2]} for i in range(n - 1)]
+    for i in range(3):
+        joints.append({"type": "revolute", "between": ["ground", f"crank{i}"], "at": [3 * i, 0]})
+        joints.append({"type": "revolute", "between": [f"crank{i}", row[i * (n - 1) // 2]], "at": [3 * i + 1, 2]})
+    return {"dimension": 2, "bodies": [*row, *(f"crank{i}" for i in range(3))], "constraints": joints}
+
+
+def _clusters(n: int) -> Mapped:
+    """Return three equal parallel cranks under a strip of triangles between n joints."""
+    places = [[3 * i + 1, 2 + i % 2] for i in range(n)]
+    cranks = [_link([places[i][0] - 1, places[i][1] - 2], f"p{i}") for i in (0, n // 2, n - 1)]
+    return _links([{"name": f"p{i}", "at": at} for i, at in enumerate(places)], [*_strip_bars(n), *cranks])
+
+
+def _eliminations(n: int) -> Mapped:
+    """Return the same in space, every joint held to the plane z = 0."""
+    flat = _clusters(n)
+    links = [
+        {**c, "between": [e if isinstance(e, str) else [*e, 0] for e in c["between"]]} for c in flat["constraints"]
+    ]
+    joints = [{**p, "at": [*p["at"], 0]} for p in flat["particles"]]
+    return {"particles": joints, "constraints": [*(f"z_p{i} = 0" for i in range(n)), *links]}
+
+
+def _bridges(n: int) -> Mapped:
+    """Return a chain of n bodies in space, hinged one to the next, every other hinge turned by a right angle."""
+    names, axes = ["ground", *(f"b{i}" for i in range(n))], [[0, 0, 1], [0, 1, 0]]
+    hinges = [{"type": "revolute", "between": names[i : i + 2], "at": [i, 1, 0], "axis": axes[i % 2]} for i in range(n)]
+    return {"bodies": names[1:], "constraints": hinges}
+
+
+def _classes(n: int) -> Mapped:
+    """Return a parallelogram with a crank too many, and a chain of n rods hanging from it."""
+    links = [_link([4 * i, 0], f"c{i}") for i in range(3)]
+    links += [_link("c0", "c1"), _link("c1", "c2"), _link("c0", "c2")]
+    links += [_link(f"h{i - 1}" if i else "c2", f"h{i}") for i in range(n)]
+    joints = [{"name": f"c{i}", "at": [4 * i + 1, 2]} for i in range(3)]
+    return _links([*joints, *({"name": f"h{i}", "at": [10 + i, 2 + i % 2]} for i in range(n))], links)
+
+
+def _closed(n: int) -> Mapped:
+    """Return n particles in space on quadrics that move with the next of them: configuration-level equations only."""
+    surfaces = [f"x_p{i}^2 + y_p{i}^2 = {i + 2} + z_p{i} x_p{i + 1}" for i in range(n - 1)]
+    return {"particles": [f"p{i}" for i in range(n)], "constraints": surfaces}
+
+
+def _cheapest(n: int) -> Mapped:
+    """Return a strip of n triangles in the plane, its bars in general position."""
+    return _links([f"p{i}" for i in range(n + 2)], _strip_bars(n + 2))
+
+
+SCENES: Mapping[ReductionName, SceneFamily] = {
+    "untouched": SceneFamily(_untouched, 32),
+    "blocks": SceneFamily(_blocks, 8),
+    "twins": SceneFamily(_twins, 32),
+    "copies": SceneFamily(_copies, 6),
+    "still": SceneFamily(_still, 6),
+    "welds": SceneFamily(_welds, 8),
+    "clusters": SceneFamily(_clusters, 12),
+    "eliminations": SceneFamily(_eliminations, 8),
+    "bridges": SceneFamily(_bridges, 6),
+    "classes": SceneFamily(_classes, 8),
+    "closed": SceneFamily(_closed, 6),
+    "cheapest": SceneFamily(_cheapest, 16),
+}
