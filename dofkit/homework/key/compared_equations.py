@@ -25,7 +25,7 @@ from dofkit.homework.key.regions import Condition, compared_regions, conditions,
 from dofkit.homework.key.right_motion import is_zero
 from dofkit.homework.sentences.translations import Said, say
 from dofkit.methods.classify import classify
-from dofkit.motion.lagrange.rates import by_time
+from dofkit.motion.lagrange.elimination import by_time
 from dofkit.scene.added_equations import Read, with_equations
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
