@@ -155,9 +155,9 @@ def conflict(system: System, reduced: Sequence[Reduced], setting: Setting, outco
     plain = replace(setting, grows=False, flag=False)
     guilty = next(b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.consistent is False)
     kept = sorted({row.constraint for row in guilty.rows})
-    text = next(a.conflict for a in outcome.answers if a.consistent is False)
-    if text and set(text) <= set(kept):
-        return Conflict(list(text), True)
+    members = next(a.conflict for a in outcome.answers if a.consistent is False)
+    if members and set(members) <= set(kept):
+        return Conflict(list(members), True)
     sets = ConstraintSets(system, reduced, plain)
     if not sets.inconsistent(kept):
         kept = [i for i, r in enumerate(reduced) if r.normals]

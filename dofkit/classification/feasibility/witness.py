@@ -189,8 +189,8 @@ def _by_slacks(problem: StateProblem, positive: frozenset[Expr]) -> Witness | No
         point = search.found(seed)
         if point is not None and _is_certified(problem, search, point):
             at = point.point.symbols
-            text = {s: arb(at[s]) for s in (*problem.unknowns, *problem.constants) if s in at}
-            return Witness({**dict.fromkeys(problem.unknowns, ex.ZERO), **text})
+            point_values = {s: arb(at[s]) for s in (*problem.unknowns, *problem.constants) if s in at}
+            return Witness({**dict.fromkeys(problem.unknowns, ex.ZERO), **point_values})
     return None
 
 
