@@ -53,7 +53,7 @@ BUGS: Mapping[str, Bug] = {
         "tests/scenes/integrability/rubber-spheres-of-equal-size.yaml",
     ),
     "balls": Bug(
-        "relations/normal/one_sided.py",
+        "relations/normal/no_solution.py",
         "        return bool(value > 0) or (not strict",
         "        return bool(value != 0) or (not strict",
         "tests/scenes/corners/wall-that-nothing-satisfies.yaml",
