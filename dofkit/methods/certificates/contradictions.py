@@ -11,6 +11,7 @@ from copy import copy
 from typing import Any, NamedTuple
 
 from dofkit.checker.evidence import admissible, field_named, involutive, span
+from dofkit.checker.label_rules import consistent, moves
 from dofkit.checker.trees import CheckError, along, not_zero
 from dofkit.methods.certificates.dimension import graph_order
 from dofkit.methods.certificates.fields import Words, involutive_rows, tangent_fields, words_of
@@ -139,7 +140,11 @@ def exclusions(room: Room, report: Report, path: str, value: Any) -> Iterator[Co
     """Yield bounds, verified by the checker's rules, that exclude what is claimed under a path."""
     name, field = _parts(path)
     entry = next((one for one in report.constraints if one.name == name), None)
-    if speaks_for_all(room):
+    if field == "conflicting":
+        yield from _met_together(room, value)
+    elif field == "consistent" and value is False:
+        yield from _held_at_edges(room)
+    elif speaks_for_all(room):
         if entry is not None:
             yield from LABELS[field](room, entry) if field in LABELS else ()
         elif field in NUMBERS:
@@ -231,6 +236,41 @@ def _no_integral(room: Room, entry: ConstraintEntry) -> Iterator[Contradiction]:
     for one in fields:
         if not_zero(point.value(along(field_named(evidence, one), function))):
             yield Contradiction("the evidence gives a velocity that changes it")
+
+
+def _held_at_edges(room: Room) -> Iterator[Contradiction]:
+    """A motion, and for each inequality a point at which it holds, as an equality where no other was found."""
+    if room.point is None:
+        return
+    places = {}
+    for one in room.problem.relations:
+        if one.kind == "inequality":
+            place = room.search.meeting(one.name) or room.search.touching(one.name, 70)
+            if place is None:
+                return
+            places[one.name] = room.add_point(place)
+    claim = {"path": "/consistent", "rule": "point", "at": room.point.name, "inequalities": places}
+    if consistent(room.scenery.evidence, claim, {}):
+        yield Contradiction("the evidence gives True, not False", True)
+
+
+def _met_together(room: Room, names: Sequence[str]) -> Iterator[Contradiction]:
+    """A motion that meets all of what is said to be in conflict."""
+    evidence = room.scenery.evidence
+    rows = [one for name in names for one in evidence.owned(name)]
+    if not rows or any(evidence.owned(name, ("inequality",)) for name in names) or room.scenery.cayley:
+        return
+    finite = [one for one in rows if evidence.relation(one).kind == "finite"]
+    point = room.search.somewhere(finite, room.problem.coordinates, 400)
+    if point is None:
+        return
+    room.add_point(point)
+    standing = room.standing_of(rows, point=point)
+    given: dict[str, Any] = {"rule": "point", "at": point.name}
+    if standing is not None and standing.rows and not standing.dependent:
+        given = {"rule": "regular", "minor": room.minor(standing)}
+    moves(evidence, given, rows)
+    yield Contradiction("the evidence gives a motion that meets them all")
 
 
 NUMBERS: dict[str, Callable[[Room, Any], Iterator[Contradiction]]] = {
