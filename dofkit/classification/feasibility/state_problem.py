@@ -16,7 +16,7 @@ from itertools import combinations
 from itertools import product as cartesian
 from math import prod
 
-from dofkit.base.components import components
+from dofkit.base.libraries import components
 from dofkit.classification.feasibility.refutation import SignClaim
 from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
