@@ -14,7 +14,7 @@ from flint import arb, ctx, nmod_mat
 
 from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict
-from dofkit.configuration.drawing.at_reference import ball_matrix, ball_point
+from dofkit.configuration.at_reference import ball_matrix, ball_point
 from dofkit.configuration.generic_points import SAMPLES, on_variety, pose_point
 from dofkit.configuration.variety import Variety
 from dofkit.exact.matrices.certified import ball_part
