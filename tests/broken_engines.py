@@ -42,9 +42,9 @@ BUGS: Mapping[str, Bug] = {
     ),
     "rank of sparse rows": Bug(
         "exact/matrices/sparse.py",
-        "        if rest:\n            found.add(i",
-        "        if len(rest) > 1:\n            found.add(i",
-        "tests/scenes/textbook/braced-square.yaml",
+        "        if rest:\n            reduction.add(i, rest, used)\n            independent",
+        "        if len(rest) > 1:\n            reduction.add(i, rest, used)\n            independent",
+        "tests/scenes/mechanisms/rssp-linkage.yaml",
     ),
     "ring": Bug(
         "exact/ring/ring.py",
