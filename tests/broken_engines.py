@@ -94,12 +94,6 @@ BUGS: Mapping[str, Bug] = {
         "    if True:\n",
         "tests/scenes/corners/moving-wall.yaml",
     ),
-    "cofactors": Bug(
-        "exact/matrices/sparse.py",
-        "for k, v in sorted(s.items()) if k != max(s)}",
-        "for k, v in sorted(s.items()) if k < max(s) - 1}",
-        "tests/scenes/corners/sums-of-many.yaml",
-    ),
 }
 #: What is run in the copy: a line of JSON for each scene: claims told as proved, those with evidence, what is caught.
 #: Where it is known what the sound package tells, only scenes that tell something else are certified.
