@@ -37,7 +37,7 @@ _FUNCTION = re.compile(
     rf"|(?:[fghFGH]|phi|Phi|φ|Φ|\\phi|\\Phi|\\varphi)(?:_?\{{?\w{{0,2}}\}}?)?(?:\s*\(\s*{_NAME}\s*\))?)\s*=(?!=)\s*"
 )
 #: Names of constants of integration.
-_OF_INTEGRATION = re.compile(r"[CcKk](?:_?\d)?|const\w*|konst\w*|c[st]t?e?")
+_OF_INTEGRATION = re.compile(r"[CcKk](?:_?\d)?|[A-Za-z]+_?0|const\w*|konst\w*|c[st]t?e?")
 #: Words that are one name, never a product.
 _WHOLE = re.compile(r"const|konst|cst|cte|lam|mu|mult", re.IGNORECASE)
 _CALLED = re.compile(r"\A\s*\\?([A-Za-zα-ωΑ-Ω]\w*)\s*\(\s*\\?(?:var)?([A-Za-zα-ωΑ-Ω]\w*)\s*\)\s*=(?!=)")
