@@ -64,6 +64,26 @@ def handout(
     typer.echo(target)
 
 
+@assignment_app.command("template", cls=PanelCommand)
+def template(
+    assignment: options.Assignment,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="PATH", callback=options.file_of("yaml", "csv"), help="A .yaml or .csv file."),
+    ] = None,
+) -> None:
+    """Print or write an empty submission for students to fill in."""
+    from dofkit.homework.assignment import load_assignment
+    from dofkit.homework.starting import template as empty
+
+    with failures_of(assignment):
+        text = empty(load_assignment(assignment), "yaml" if out is None else out.suffix[1:])
+        if out is None:
+            typer.echo(text, nl=False)
+        else:
+            out.write_text(text, encoding="utf-8")
+
+
 @assignment_app.command("vary", cls=PanelCommand)
 def vary(
     assignment: options.Assignment,

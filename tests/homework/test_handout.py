@@ -88,8 +88,8 @@ def test_a_sheet_says_what_is_asked_and_what_things_are_called() -> None:
     assert "- $x_A$, $y_A$: position of A." in told
     assert "- $l$: positive constant." in told
     assert "`l` may also be written as `L`." in told
-    assert "1. `pendulum.f` How many degrees of freedom does the system have? (1 point)" in told
-    assert "2. `pendulum.rod` Which equation or equations express the constraint `rod`? (3 points)" in told
+    assert "1. How many degrees of freedom does the system have? (1 point) `pendulum.f`" in told
+    assert "2. Which equation or equations express the constraint `rod`? (3 points) `pendulum.rod`" in told
     assert told.count("![Figure 1](figures/pendulum.svg)") == 1
 
 

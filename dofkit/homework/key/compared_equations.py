@@ -13,7 +13,7 @@ from dofkit.base.errors import SceneError, TextError
 from dofkit.classification.dependence.equivalence import Compared, Sameness, compare
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
-from dofkit.expressions.text import Comparison, to_text
+from dofkit.expressions.text import Comparison, parse_relations, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.homework.answers.relations import AnswerReading, is_constant_name
 from dofkit.homework.answers.rounding import exact_ways
@@ -218,12 +218,20 @@ class EquationComparison:
         kept = tuple(c for c, name in pairs if name not in self.names)
         return self.key.scene.model_copy(update={"constraints": kept, "expect": {}, "energies": None})
 
+    def _is_product(self, text: str) -> bool:
+        """Return whether an equation sets a product of several factors to 0: it holds on more than one surface."""
+        (c,) = parse_relations(text, self.key.names)
+        e = c.left - c.right if not c.right.is_zero else c.left
+        return e.op == "mul" and sum(any(s.args[0] != "parameter" for s in f.symbols) for f in e.args) > 1
+
     def _by_rank(self, read: Read, shown: str, told: str, code: str) -> Judgement:
         """Return what implied equations are worth, by the number of velocities that they leave free."""
         scene = self._others()
         free = classify(scene).velocity_dof
         yours, system = classify(with_equations(scene, read, ANSWER)).velocity_dof, self.key.report.velocity_dof
-        if free is None or yours is None or system is None or free - system < 2 or not system < yours < free:
+        if free is None or yours is None or system is None:
+            return needs_review(shown, _UNDECIDED)
+        if free - system < 2 or not system < yours < free or any(map(self._is_product, read.texts)):
             return wrong(shown, told, code)
         more = "Your equations leave {yours} independent velocities; the system has {system}: equations are missing."
         count = say(more, yours=yours, system=system)
