@@ -1,11 +1,15 @@
-"""What is told: the report, its entries and its verdicts. Field names are fixed; see each docstring."""
+"""The report: what the analysis of a scene answers, with a verdict for every field.
+
+`Report` has one `ConstraintEntry` for each constraint. Field names are fixed; the description of each field is what
+`dofkit explain` and the glossary print.
+"""
 
 from __future__ import annotations
 
 from functools import lru_cache
 from typing import Any, ClassVar, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, PrivateAttr, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, model_validator
 
 from dofkit.base.display import Companion, Displayed, DisplayedFormulas, text_of
 from dofkit.base.verdicts import About, ArgumentKey, Claim, Verdict
@@ -19,18 +23,23 @@ FORMS: tuple[Form, ...] = ("finite", "pfaffian", "nonlinear", "inequality")
 BRANCH_WARNING = "'{name}' is satisfied on several branches; the degrees of freedom are those of the largest"
 
 
-class ToldModel(BaseModel):
-    """The base of what is told: frozen, with no keys beyond the fields."""
+class ReportModel(BaseModel):
+    """The base of reports, results and their entries: frozen, with no keys beyond the fields."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
 
-class FieldVerdict(ToldModel):
-    """How sure a field is: the ``argument`` (a row of `classification/arguments.py`), and of which points it speaks.
+def meaning(text: str, **settings: Any) -> Any:
+    """Return a field with its meaning, and a default if ``settings`` has one."""
+    return Field(description=text, **settings)
 
-    ``bound``: of what is ``probable`` the chance of an error (``2^-40``), of what is ``numeric`` the ratio that told 0
-    from not 0. ``about``: ``reference``, the part of the configuration space near it; ``component``, that near the
-    report's ``witness``; or ``everywhere``. A proof without an argument cannot be written down: ValidationError.
+
+class FieldVerdict(ReportModel):
+    """How certain a field is: the ``argument`` (a row of `classification/arguments.py`), and what it is ``about``.
+
+    ``bound``: for ``probable`` the chance of an error (``2^-40``), for ``numeric`` the ratio that separates zero from
+    non-zero. ``about``: ``reference``, the configurations near the reference configuration; ``component``, those near
+    the report's ``witness``; or ``everywhere``. A verdict without an argument cannot be constructed: ValidationError.
     """
 
     verdict: Verdict
@@ -49,14 +58,17 @@ class FieldVerdict(ToldModel):
     @staticmethod
     @lru_cache(maxsize=1024)
     def of(claim: Claim) -> FieldVerdict:
-        """What is told of a claim: one object for all that claim the same."""
+        """Return the verdict of a claim: one object for all equal claims."""
         if claim.verdict == "undecided":
             return FieldVerdict(verdict="undecided")
         return FieldVerdict(verdict=claim.verdict, argument=claim.argument, bound=claim.bound, about=claim.about)
 
 
-class Count(ToldModel):
-    """The lecture's f = Nd - k: every finite equation that was written, as numbers and as a line of text."""
+class Count(ReportModel):
+    """The textbook count f = N d - k with every holonomic equation as written, as numbers and as a line of text.
+
+    ``errs``: why the count is off, if it is.
+    """
 
     particles: int
     bodies: int
@@ -67,78 +79,68 @@ class Count(ToldModel):
     naive_dof: int
     formula: str
     errs: str | None
-    """Why the count is wrong, where it is; else None."""
 
 
-class ConstraintEntry(DisplayedFormulas, ToldModel):
-    """The labels of one constraint. A label that is None is undecided, and ``reason`` says why.
-
-    Attributes
-    ----------
-    form
-        ``finite``, ``pfaffian``, ``nonlinear`` or ``inequality``, after reduction over the reals.
-    holonomic, holonomic_alone
-        Whether it is holonomic in the system; on its own.
-    scleronomic, catastatic
-        Whether t does not occur explicitly, in the constraint or in what it integrates to; whether it is homogeneous in
-        the velocities (None for finite constraints and inequalities).
-    exact, integrating_factor, integral
-        Of a Pfaffian form: whether it is closed as written, a factor that makes it so, and what it integrates to.
-    circuit
-        Of a redundant constraint: the minimal set of constraints that it depends on.
-    equations, independent, redundant_equations
-        The number of its scalar equations, how many are independent of all before, and the others in words.
-    verdict, verdicts, reason
-        How certain the labels are, and why.
-    """
+class ConstraintEntry(DisplayedFormulas, ReportModel):
+    """The labels of one constraint. A label that is None is undecided, and ``reason`` says why."""
 
     _in_brief: ClassVar[tuple[str, ...]] = ("name", "text", "holonomic", "verdict")
 
-    name: str
-    type: str
-    text: str
-    form: Form
-    holonomic: bool | None
-    holonomic_alone: bool | None
-    scleronomic: bool | None
-    catastatic: bool | None
-    bilateral: bool
-    exact: bool | None
-    integrating_factor: str | None
-    integral: str | None
-    circuit: list[str] | None
-    equations: int
-    independent: int | None
-    redundant_equations: list[str] | None = None
-    verdict: Verdict
-    verdicts: dict[str, FieldVerdict] = {}
-    reason: str
+    name: str = meaning("as written, or c1, c2, ... by position")
+    type: str = meaning("the constraint type")
+    text: str = meaning("as written")
+    form: Form = meaning("finite, pfaffian (linear in the velocities), nonlinear (in the velocities) or inequality")
+    holonomic: bool | None = meaning(
+        "whether it is, in this system, implied by equations between coordinates (and time)"
+    )
+    holonomic_alone: bool | None = meaning("the same without all other constraints")
+    scleronomic: bool | None = meaning(
+        "whether time does not occur explicitly, nor in the equation that it integrates to (Greenwood's definition); "
+        "factors that never vanish, analytic functions of t alone and declared functions are taken out first"
+    )
+    catastatic: bool | None = meaning(
+        "whether a Pfaffian form has no term in dt, or a nonlinear constraint is homogeneous in the velocities; null "
+        "for any other"
+    )
+    bilateral: bool = meaning("false for an inequality")
+    exact: bool | None = meaning("whether the form, as written, is the differential of a function")
+    integrating_factor: str | None = meaning("a factor that makes the form exact")
+    integral: str | None = meaning("the equation that it integrates to, such as x*y = C")
+    circuit: list[str] | None = meaning(
+        "for a redundant constraint: a minimal set of earlier constraints that it is implied by"
+    )
+    equations: int = meaning("the number of its scalar equations")
+    independent: int | None = meaning("how many of them are independent of all before")
+    redundant_equations: list[str] | None = meaning("those that are not, in words", default=None)
+    verdict: Verdict = meaning("how certain its labels are: the weakest of their verdicts")
+    verdicts: dict[str, FieldVerdict] = meaning("how certain each label is", default={})
+    reason: str = meaning("why, for a student")
 
 
-class Redundancy(ToldModel):
-    """Constraints of which some minimal dependent sets overlap; ``nullity`` equations too many."""
+class Redundancy(ReportModel):
+    """Constraints whose minimal dependent sets overlap; ``nullity`` of their equations depend on the others."""
 
     nullity: int
     members: list[str]
 
 
-class IntegrablePart(ToldModel):
-    """What the constraints say in finite relations: the codistribution's largest integrable part I^(inf).
+class IntegrablePart(ReportModel):
+    """The holonomic equations that the constraints imply: the largest integrable part I^(inf) of the codistribution.
 
-    ``rank``: of I^(inf), coordinates less ``dof``. ``basis``: the relations beyond those that were written finite:
-    hidden ones (``g = 0``) and integrals (``f = C``); None where not all could be written.
+    ``rank``: of I^(inf), coordinates less ``dof``. ``basis``: the equations beyond those that were written as
+    holonomic: hidden ones (``g = 0``) and integrals (``f = C``); None if not all could be written.
     """
 
     rank: int
     basis: list[str] | None
 
 
-class Generic(ToldModel):
-    """The same connections with their geometry in general position: what is special about the drawing.
+class Generic(ReportModel):
+    """The mobility of the same connections with their geometry in general position.
 
-    ``dof`` and ``redundant_equations`` are those of the finite relations at random places and directions (None where
-    that could not be counted); ``differs`` says why the drawing allows more: parallel, concurrent, collinear,
-    coplanar, a loop of special proportions; None where it does not.
+    ``dof`` and ``redundant_equations`` are those of the holonomic equations at random positions and directions (None
+    if that could not be counted); ``differs`` says why the reference configuration is not generic: parallel,
+    concurrent, collinear or coplanar axes, a loop of special proportions; None if it is generic.
     """
 
     dof: int | None
@@ -147,13 +149,13 @@ class Generic(ToldModel):
     verdict: Verdict
 
 
-class Mobility(ToldModel):
+class Mobility(ReportModel):
     """The count of Gruebler and Kutzbach, M = D(N - 1 - j) + f_1 + ... + f_j, D = 3 in the plane and 6 in space.
 
     ``links``: N, bodies with the ground; ``joints``: j, constraints between two of them, of f_i freedoms each.
-    ``formula`` holds the numbers, and what else is counted; ``freedom`` is the truth, and ``differs`` why it differs.
-    ``undriven``: the velocity freedom without the drives of joints, and its verdict; None where no joint is driven or
-    where it is undecided.
+    ``formula`` holds the numbers, and what else is counted; ``freedom`` is the true mobility, and ``differs`` why the
+    count differs from it. ``undriven``: the velocity freedom without the drives of joints, and its verdict; None if no
+    joint is driven or if it is undecided.
     """
 
     links: int
@@ -166,15 +168,15 @@ class Mobility(ToldModel):
     undriven_verdict: Verdict | None = None
 
 
-class ForceEntry(ToldModel):
-    """A force: no constraint, and why."""
+class ForceEntry(ReportModel):
+    """A force, and why it is no constraint."""
 
     name: str
     reason: str
 
 
-class SpecialCase(ToldModel):
-    """Where the answer is another one: values of ``parameters``, a ``locus`` of configurations, or other branches.
+class SpecialCase(ReportModel):
+    """Where the answer differs: values of ``parameters``, a ``locus`` of configurations, or other branches.
 
     ``where`` are the conditions as text (``R = 0``, ``x = 0 and y = 0``), ``what`` says what changes there, and
     ``constraints`` for which.
@@ -187,30 +189,10 @@ class SpecialCase(ToldModel):
     verdict: Verdict
 
 
-class Report(Displayed, ToldModel):
+class Report(Displayed, ReportModel):
     """How a system can move. `dofkit explain FIELD` and the glossary give the meaning of every field.
 
     A number or label that was not decided is None; ``verdict`` is then ``undecided`` and ``warnings`` says why.
-
-    Attributes
-    ----------
-    dof, velocity_dof, instantaneous_dof
-        The dimension of the configuration space; the number of independent admissible velocities of finite motions; and
-        that of the velocities that the constraints allow at the reference configuration.
-    holonomic, scleronomic
-        Whether every constraint is.
-    redundant, redundancies, conflicting
-        A maximal redundant set; the groups of dependent constraints; a minimal contradictory set.
-    constraints
-        One `ConstraintEntry` for each constraint, in order.
-    generic, mobility
-        The mobility in general position, and that by Gruebler and Kutzbach, M = D(N - 1 - j) + f_1 + ... + f_j.
-    special_cases
-        Where the answer differs from the generic one that all other fields give.
-    verdict, verdicts
-        How certain the report is, and each field.
-    witness, certificate
-        A certified configuration; the evidence for `dofkit.verify`.
 
     Examples
     --------
@@ -222,44 +204,95 @@ class Report(Displayed, ToldModel):
 
     _in_brief: ClassVar[tuple[str, ...]] = ("scene", "dof", "velocity_dof", "verdict")
 
-    scene: str
-    consistent: bool | None
-    feasible: bool | None = None
-    infeasible: list[str] = []
-    feasible_at: dict[str, str] | None = None
-    dof: int | None
-    velocity_dof: int | None
-    instantaneous_dof: int | None
-    singular: bool | None
-    holonomic: bool | None
-    scleronomic: bool | None
-    count: Count
-    redundant_equations: int | None
-    redundant: list[str] | None
-    redundancies: list[Redundancy]
-    conflicting: list[str]
-    generalized_coordinates: list[str] | None
-    joint_coordinates: list[str] | None = None
-    growth_vector: list[int] | None
-    integrable_part: IntegrablePart | None = None
-    generic: Generic | None = None
-    mobility: Mobility | None = None
-    constraints: list[ConstraintEntry]
-    forces: list[ForceEntry]
-    special_cases: list[SpecialCase]
-    verdict: Verdict
-    verdicts: dict[str, FieldVerdict] = {}
-    witness: dict[str, str] | None = None
-    certificate: dict[str, Any] | None = None
-    method: str
-    modelled: str
-    warnings: list[str]
+    scene: str = meaning("the scene's name")
+    consistent: bool | None = meaning(
+        "true if a configuration satisfies all equations at one time; false if no configuration, or no motion, does; "
+        "conflicting then names a minimal set; each inequality is considered on its own"
+    )
+    feasible: bool | None = meaning(
+        "whether all inequalities can be satisfied together with the constraints; null if undecided, or if there are "
+        "none",
+        default=None,
+    )
+    infeasible: list[str] = meaning(
+        "a minimal set of constraints with inequalities that cannot be satisfied together", default=[]
+    )
+    feasible_at: dict[str, str] | None = meaning(
+        "a certified point at which all inequalities are satisfied", default=None
+    )
+    dof: int | None = meaning(
+        "degrees of freedom: the dimension of the configuration space, which is the number of coordinates less the "
+        "number of independent holonomic equations, hidden ones included; non-holonomic constraints and inequalities "
+        "do not reduce it"
+    )
+    velocity_dof: int | None = meaning(
+        "velocity freedom: the number of independent admissible velocities of finite motions; non-holonomic "
+        "constraints reduce it too"
+    )
+    instantaneous_dof: int | None = meaning(
+        "instantaneous freedom: the number of independent velocities that the constraints allow at the reference "
+        "configuration"
+    )
+    singular: bool | None = meaning("true if the instantaneous freedom differs from the velocity freedom")
+    holonomic: bool | None = meaning(
+        "true if every constraint is holonomic, that is, implied by equations between coordinates (and time)"
+    )
+    scleronomic: bool | None = meaning(
+        "true if time occurs explicitly in no constraint, nor in an equation that one integrates to"
+    )
+    count: Count = meaning(
+        "the textbook count f = N d - k of all holonomic equations as written, and why the count is off"
+    )
+    redundant_equations: int | None = meaning("the number of scalar equations that depend on the others")
+    redundant: list[str] | None = meaning(
+        "a maximal redundant set: constraints that can be removed together without changing the motion"
+    )
+    redundancies: list[Redundancy] = meaning(
+        "groups of constraints that depend on each other, and the number of dependent equations in each"
+    )
+    conflicting: list[str] = meaning("a minimal set of constraints that contradict each other")
+    generalized_coordinates: list[str] | None = meaning(
+        "an independent choice among the scene's coordinates, one for each degree of freedom"
+    )
+    joint_coordinates: list[str] | None = meaning(
+        "joint angles and displacements that describe a tree of bodies, one for each degree of freedom; null for any "
+        "other scene",
+        default=None,
+    )
+    growth_vector: list[int] | None = meaning(
+        "the dimensions of the distribution D of admissible directions, of D + [D, D], and so on"
+    )
+    integrable_part: IntegrablePart | None = meaning(
+        "the holonomic equations that all differential constraints imply together", default=None
+    )
+    generic: Generic | None = meaning(
+        "the mobility in general position, and why the reference configuration is not generic", default=None
+    )
+    mobility: Mobility | None = meaning(
+        "the mobility by the formula of Gruebler and Kutzbach, and why it differs from the true one", default=None
+    )
+    constraints: list[ConstraintEntry] = meaning(
+        "the constraints in order, each with its labels, its verdict and the reason"
+    )
+    forces: list[ForceEntry] = meaning("the forces, and why they are no constraints")
+    special_cases: list[SpecialCase] = meaning("configurations and parameter values at which the answer is another one")
+    verdict: Verdict = meaning("how certain the report is: the weakest of all its verdicts")
+    verdicts: dict[str, FieldVerdict] = meaning(
+        "how certain each field is, with the argument, the bound, and the points that the claim is about", default={}
+    )
+    witness: dict[str, str] | None = meaning("a certified configuration: coordinate -> value", default=None)
+    certificate: dict[str, Any] | None = meaning(
+        "the evidence for what is proved, which `dofkit verify` checks", default=None
+    )
+    method: str = meaning("the method that was used")
+    modelled: str = meaning("what was kept in the model, what was left out, and why")
+    warnings: list[str] = meaning("remarks, and why something is undecided")
     _companion: Companion = PrivateAttr(default_factory=Companion)
 
     def text(self, width: int | None = None, how: bool = False) -> str:
-        """What the command line prints, for ``width`` columns (None: those of the terminal, or 80).
+        """Return what the command line prints, for ``width`` columns (None: those of the terminal, or 80).
 
-        ``how``: also how sure each answer is, and by which argument. `print` writes the same without it.
+        ``how``: also how certain each answer is, and by which argument. `print` writes the same without it.
         """
         return text_of(self, width, how)
 
@@ -286,7 +319,7 @@ class Report(Displayed, ToldModel):
         return [{"scene": self.scene, **{key: _cell(value) for key, value in row.items()}} for row in rows]
 
     def beside(self, scene: object) -> Self:
-        """The same report with what it is about beside it, whose title and picture are then shown."""
+        """Return this report, and remember the scene that it is about, whose title and picture are then shown."""
         self._companion.scene = scene
         return self
 

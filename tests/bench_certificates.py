@@ -35,7 +35,6 @@ from dofkit.methods.certificates.certificate import Certifying
 from dofkit.methods.certificates.lowering import document_of_scene
 from dofkit.methods.certificates.motion_evidence import certificate_of_motion
 from dofkit.motion.lagrange.model import NoEquationsError
-from dofkit.motion_checker import MOTION_RULES
 from dofkit.scene.scene import Scene
 
 #: Fields that the issue names: of these all that is proved in the catalog is to be verified.
@@ -165,7 +164,7 @@ def moved(path: Path) -> tuple[str, dict[str, Any], bool] | None:
         return None
     scene = dofkit.load(path)
     certificate = certificate_of_motion(scene, report.model_dump(mode="json"), report.classification)
-    return scene.name, certificate, bool(verify(None, json.dumps(certificate), MOTION_RULES).verified)
+    return scene.name, certificate, bool(verify(None, json.dumps(certificate)).verified)
 
 
 def tampered_motion(told: tuple[str, dict[str, Any], bool], many: int = 100) -> list[str]:
@@ -178,7 +177,7 @@ def tampered_motion(told: tuple[str, dict[str, Any], bool], many: int = 100) -> 
         if change is None or not claims or claims[0].get("value") == certificate["claims"][0]["value"]:
             continue
         try:
-            done = verify(None, change.certificate, MOTION_RULES)
+            done = verify(None, change.certificate)
         except CheckError:
             continue
         found += [f"{name}: {change.told}"] if done.verified else []

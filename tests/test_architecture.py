@@ -25,7 +25,7 @@ TREES = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in SOU
 #: The chapters of the book: the rooms, the site and two contracts.
 TOP = {
     "base", "expressions", "exact", "scene", "relations", "mobility", "configuration", "integrability",
-    "classification", "models", "motion", "methods", "benchmark", "homework", "interface", "checker", "motion_checker",
+    "classification", "models", "motion", "methods", "benchmark", "homework", "interface", "checker",
     "pictures", "site", "system.py", "report.py", "__init__.py", "__main__.py", "py.typed", "THEOREMS.md",
 }  # fmt: skip
 
@@ -36,7 +36,7 @@ LATE_IMPORTS = frozenset(
 )
 #: Where one bad file or answer must not stop the others, whatever it does.
 CATCH_ALL = frozenset(
-    {"base/workers.py", "homework/assignment.py", "homework/grading.py", "interface/one_file.py",
+    {"base/workers.py", "homework/assignment.py", "homework/grading.py", "interface/answers.py",
      "benchmark/runner.py"}
 )  # fmt: skip
 
@@ -226,7 +226,7 @@ def unknown_jobs() -> Iterator[str]:
 
 
 #: Rooms so small, or so clear from the names in them, that a list of modules would say nothing.
-UNLISTED = {"motion_checker"}
+UNLISTED: set[str] = set()
 
 
 def unlisted_modules() -> Iterator[str]:

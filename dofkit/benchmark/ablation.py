@@ -1,4 +1,4 @@
-"""What each reduction of `dofkit.relations.setting` is worth: cost and size of the model without one after another.
+"""What each reduction of `dofkit.relations.setting` saves: time and size of the model without one after another.
 
 The scenes grow by what one reduction leaves out; those of the catalog stand beside them.
 """
@@ -6,7 +6,7 @@ The scenes grow by what one reduction leaves out; those of the catalog stand bes
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError
@@ -22,8 +22,8 @@ Mapped = dict[str, Any]
 
 #: Seconds after which no new part of an answer is begun; times below `BRIEF` are the least of `REPEATS`.
 SECONDS, BRIEF, REPEATS = 10.0, 0.3, 3
-#: What tells how an answer was found, and how sure it is, and not what it is; of coordinates, one choice of many.
-TOLD = (
+#: Fields that state how an answer was derived and how certain it is; of coordinates, one choice of many.
+NOT_COMPARED = (
     "verdict",
     "verdicts",
     "witness",
@@ -34,9 +34,9 @@ TOLD = (
     "reason",
     "generalized_coordinates",
 )
-#: What explains numbers: another sentence where one of them is open.
+#: Sentences about numbers: others where one of these is undecided.
 SENTENCES = ("differs", "errs")
-#: What lists no more than was decided.
+#: Lists of no more than was decided.
 LISTS = ("redundant", "redundancies", "special_cases", "conflicting")
 
 
@@ -58,7 +58,7 @@ class AblatedScene(NamedTuple):
 
 
 def ablation(quick: bool = False) -> Iterator[ReductionCost]:
-    """A row for every scene and every reduction that may matter to it: its own family's, all for the catalog."""
+    """Yield a row for every scene and every reduction that may matter: its own family's; all for the catalog."""
     for family, made in SCENES.items():
         for size in (made.quick,) if quick else made.whole:
             yield from costs(AblatedScene(f"{family}-{size}", family, size, made.scene(size)), (family,))
@@ -67,7 +67,7 @@ def ablation(quick: bool = False) -> Iterator[ReductionCost]:
 
 
 def costs(scene: AblatedScene, without: tuple[ReductionName, ...], repeats: int = REPEATS) -> Iterator[ReductionCost]:
-    """The scene answered with all reductions, then without each of some; before that once unmeasured: a warm start."""
+    """Yield the costs with all reductions, then without each of some; a first run is not measured: a warm start."""
     timed_study(scene.source, ALL, 1)
     full, seconds = timed_study(scene.source, ALL, repeats)
     yield _cost(scene, "", full, seconds, [])
@@ -78,7 +78,7 @@ def costs(scene: AblatedScene, without: tuple[ReductionName, ...], repeats: int 
 
 
 def timed_study(source: Mapped | str, reductions: Reductions, repeats: int = REPEATS) -> tuple[Examined | None, float]:
-    """The answer and its processor time; None where there was no time for it."""
+    """Return the answer and its processor time; None where it ran out of time."""
     best = float("inf")
     for _ in range(repeats):
         begin = time.thread_time()
@@ -113,90 +113,96 @@ def _cost(scene: AblatedScene, off: str, study: Examined | None, seconds: float,
 
 
 def differences(full: Report, other: Report) -> list[str]:
-    """The fields in which another report of a scene answers differently; what it leaves open is no difference."""
-    found = [
+    """Return the fields in which another report of a scene differs; what is undecided there is no difference."""
+    fields = [
         field
         for field in Report.model_fields
-        if field not in (*TOLD, "constraints")
+        if field not in (*NOT_COMPARED, "constraints")
         and _differ(getattr(full, field), getattr(other, field))
         and not (field in LISTS and other.verdict == "undecided")
     ]
     entries = zip(full.constraints, other.constraints, strict=True)
-    return found + [f"{a.name}.{field}" for a, b in entries for field in _of_entry(a, b)]
+    return fields + [f"{a.name}.{field}" for a, b in entries for field in _of_entry(a, b)]
 
 
 def _of_entry(full: ConstraintEntry, other: ConstraintEntry) -> list[str]:
     return [
         field
         for field in ConstraintEntry.model_fields
-        if field not in TOLD and _differ(getattr(full, field), getattr(other, field))
+        if field not in NOT_COMPARED and _differ(getattr(full, field), getattr(other, field))
     ]
 
 
 def _differ(a: Any, b: Any) -> bool:
-    """Do two values differ, parts that the second leaves open or that say how sure it is apart?"""
+    """Return whether two values differ, apart from what is undecided in the second and from verdicts."""
     if hasattr(a, "model_dump") and hasattr(b, "model_dump"):
-        pairs = {k: (getattr(a, k), getattr(b, k)) for k in type(a).model_fields if k not in TOLD}
-        left_open = any(x is not None and y is None for x, y in pairs.values())
-        return any(_differ(x, y) for k, (x, y) in pairs.items() if not (left_open and k in SENTENCES))
+        pairs = {k: (getattr(a, k), getattr(b, k)) for k in type(a).model_fields if k not in NOT_COMPARED}
+        undecided = any(x is not None and y is None for x, y in pairs.values())
+        return any(_differ(x, y) for k, (x, y) in pairs.items() if not (undecided and k in SENTENCES))
     return b is not None and a != b
 
 
 # Scenes
 
 
+def _link(a: Any, b: Any, **more: Any) -> Mapped:
+    return {"type": "link", "between": [a, b], **more}
+
+
+def _links(particles: Sequence[Any], links: Sequence[Mapped]) -> Mapped:
+    return {"dimension": 2, "particles": list(particles), "constraints": list(links)}
+
+
+def _strip_bars(joints: int) -> list[Mapped]:
+    """Return the bars of a strip of triangles between so many joints p0, p1, ..."""
+    pairs = [(i, i + 1) for i in range(joints - 1)] + [(i, i + 2) for i in range(joints - 2)]
+    return [_link(f"p{a}", f"p{b}") for a, b in pairs]
+
+
 def _discs(n: int, radius: Callable[[int], str], free: int = 0) -> Mapped:
-    """Discs that roll upright on a plane: coordinates (x, y, theta, phi) each."""
+    """Return discs that roll upright on a plane: coordinates (x, y, theta, phi) each."""
     coordinates = [f"{q}{i}" for i in range(n) for q in ("x", "y", "theta", "phi")]
-    texts = [
-        text
-        for i in range(n)
-        for text in (
-            f"dx{i} - {radius(i)} cos(theta{i}) dphi{i} = 0",
-            f"dy{i} - {radius(i)} sin(theta{i}) dphi{i} = 0",
-        )
+    rows = [
+        f"d{q}{i} - {radius(i)} {f}(theta{i}) dphi{i} = 0" for i in range(n) for q, f in (("x", "cos"), ("y", "sin"))
     ]
-    return {"coordinates": [*coordinates, *(f"free{i}" for i in range(free))], "constraints": texts}
+    return {"coordinates": [*coordinates, *(f"free{i}" for i in range(free))], "constraints": rows}
 
 
 def _untouched(n: int) -> Mapped:
-    """One disc beside n coordinates that nothing touches."""
+    """Return one disc with n further coordinates that nothing touches."""
     return _discs(1, lambda _: "2", n)
 
 
 def _blocks(n: int) -> Mapped:
-    """n discs of different radii."""
+    """Return n discs of different radii."""
     return _discs(n, lambda i: str(i + 1))
 
 
 def _twins(n: int) -> Mapped:
-    """n equal discs."""
+    """Return n equal discs."""
     return _discs(n, lambda _: "2")
 
 
 def _copies(n: int) -> Mapped:
-    """A chain of n rods in the plane from the ground, every rod written twice."""
+    """Return a chain of n rods in the plane from the ground, every rod written twice."""
     ends: list[Any] = [[0, 0], *(f"p{i}" for i in range(n))]
-    rods: list[Any] = [{"type": "link", "between": [ends[i], ends[i + 1]], "length": i + 1} for i in range(n)]
-    return {"dimension": 2, "particles": ends[1:], "constraints": rods + rods}
+    rods = [_link(ends[i], ends[i + 1], length=i + 1) for i in range(n)]
+    return _links(ends[1:], rods + rods)
 
 
 def _still(n: int) -> Mapped:
-    """Bodies that slide on one another along x and y in turn; the last is held by two equal parallel cranks."""
+    """Return bodies that slide on one another along x and y in turn; two equal parallel cranks hold the last."""
     below = ["ground", *(f"b{i}" for i in range(n))]
     axes = ([1, 0], [0, 1])
-    joints: list[Any] = [
-        {"type": "prismatic", "between": [below[i], below[i + 1]], "axis": axes[i % 2]} for i in range(n)
-    ]
-    for x in (0, 3):
-        joints.append({"type": "link", "between": [[x, 0], {"on": below[-1], "at": [x + 1, 2]}]})
+    joints: list[Any] = [{"type": "prismatic", "between": below[i : i + 2], "axis": axes[i % 2]} for i in range(n)]
+    joints += [_link([x, 0], {"on": below[-1], "at": [x + 1, 2]}) for x in (0, 3)]
     return {"dimension": 2, "bodies": below[1:], "constraints": joints}
 
 
 def _welds(n: int) -> Mapped:
-    """Three equal parallel cranks under n bodies welded in a row."""
+    """Return three equal parallel cranks under n bodies welded in a row."""
     row = [f"b{i}" for i in range(n)]
-    joints: list[Any] = [{"type": "weld", "between": [row[i], row[i + 1]]} for i in range(n - 1)]
+    joints: list[Any] = [{"type": "weld", "between": row[i : i + 2]} for i in range(n - 1)]
     for i in range(3):
         joints.append({"type": "revolute", "between": ["ground", f"crank{i}"], "at": [3 * i, 0]})
         joints.append({"type": "revolute", "between": [f"crank{i}", row[i * (n - 1) // 2]], "at": [3 * i + 1, 2]})
@@ -204,22 +210,14 @@ def _welds(n: int) -> Mapped:
 
 
 def _clusters(n: int) -> Mapped:
-    """Three equal parallel cranks under a strip of triangles between n joints."""
-    stands = [[3 * i + 1, 2 + i % 2] for i in range(n)]
-    bars = [(i, i + 1) for i in range(n - 1)] + [(i, i + 2) for i in range(n - 2)]
-    links: list[Any] = [{"type": "link", "between": [f"p{a}", f"p{b}"]} for a, b in bars]
-    for i in (0, n // 2, n - 1):
-        x, y = stands[i]
-        links.append({"type": "link", "between": [[x - 1, y - 2], f"p{i}"]})
-    return {
-        "dimension": 2,
-        "particles": [{"name": f"p{i}", "at": at} for i, at in enumerate(stands)],
-        "constraints": links,
-    }
+    """Return three equal parallel cranks under a strip of triangles between n joints."""
+    places = [[3 * i + 1, 2 + i % 2] for i in range(n)]
+    cranks = [_link([places[i][0] - 1, places[i][1] - 2], f"p{i}") for i in (0, n // 2, n - 1)]
+    return _links([{"name": f"p{i}", "at": at} for i, at in enumerate(places)], [*_strip_bars(n), *cranks])
 
 
 def _eliminations(n: int) -> Mapped:
-    """The same in space, every joint held to the plane z = 0."""
+    """Return the same in space, every joint held to the plane z = 0."""
     flat = _clusters(n)
     links = [
         {**c, "between": [e if isinstance(e, str) else [*e, 0] for e in c["between"]]} for c in flat["constraints"]
@@ -229,37 +227,30 @@ def _eliminations(n: int) -> Mapped:
 
 
 def _bridges(n: int) -> Mapped:
-    """A chain of n bodies in space, hinged one to the next, every other hinge turned by a right angle."""
-    axes = [[0, 0, 1], [0, 1, 0]]
-    hinges = [
-        {"type": "revolute", "between": [f"b{i - 1}" if i else "ground", f"b{i}"], "at": [i, 1, 0], "axis": axes[i % 2]}
-        for i in range(n)
-    ]
-    return {"bodies": [f"b{i}" for i in range(n)], "constraints": hinges}
+    """Return a chain of n bodies in space, hinged one to the next, every other hinge turned by a right angle."""
+    names, axes = ["ground", *(f"b{i}" for i in range(n))], [[0, 0, 1], [0, 1, 0]]
+    hinges = [{"type": "revolute", "between": names[i : i + 2], "at": [i, 1, 0], "axis": axes[i % 2]} for i in range(n)]
+    return {"bodies": names[1:], "constraints": hinges}
 
 
 def _classes(n: int) -> Mapped:
-    """A parallelogram with a crank too many, and a chain of n rods hanging from it."""
-    cranks = [{"type": "link", "between": [[4 * i, 0], f"c{i}"]} for i in range(3)]
-    coupler = [{"type": "link", "between": ["c0", "c1"]}, {"type": "link", "between": ["c1", "c2"]}]
-    coupler.append({"type": "link", "between": ["c0", "c2"]})
-    chain = [{"type": "link", "between": [f"h{i - 1}" if i else "c2", f"h{i}"]} for i in range(n)]
+    """Return a parallelogram with a crank too many, and a chain of n rods hanging from it."""
+    links = [_link([4 * i, 0], f"c{i}") for i in range(3)]
+    links += [_link("c0", "c1"), _link("c1", "c2"), _link("c0", "c2")]
+    links += [_link(f"h{i - 1}" if i else "c2", f"h{i}") for i in range(n)]
     joints = [{"name": f"c{i}", "at": [4 * i + 1, 2]} for i in range(3)]
-    joints += [{"name": f"h{i}", "at": [10 + i, 2 + i % 2]} for i in range(n)]
-    return {"dimension": 2, "particles": joints, "constraints": [*cranks, *coupler, *chain]}
+    return _links([*joints, *({"name": f"h{i}", "at": [10 + i, 2 + i % 2]} for i in range(n))], links)
 
 
 def _closed(n: int) -> Mapped:
-    """n particles in space on quadrics that move with the next of them: finite relations only."""
+    """Return n particles in space on quadrics that move with the next of them: configuration-level equations only."""
     surfaces = [f"x_p{i}^2 + y_p{i}^2 = {i + 2} + z_p{i} x_p{i + 1}" for i in range(n - 1)]
     return {"particles": [f"p{i}" for i in range(n)], "constraints": surfaces}
 
 
 def _cheapest(n: int) -> Mapped:
-    """A strip of n triangles in the plane, its bars in general position."""
-    bars = [(i, i + 1) for i in range(n + 1)] + [(i, i + 2) for i in range(n)]
-    links = [{"type": "link", "between": [f"p{a}", f"p{b}"]} for a, b in bars]
-    return {"dimension": 2, "particles": [f"p{i}" for i in range(n + 2)], "constraints": links}
+    """Return a strip of n triangles in the plane, its bars in general position."""
+    return _links([f"p{i}" for i in range(n + 2)], _strip_bars(n + 2))
 
 
 SCENES: Mapping[ReductionName, SceneFamily] = {

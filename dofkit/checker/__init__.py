@@ -10,14 +10,15 @@ Types
 
 Mechanisms, in the order of checking
     1. `problem` reads the scene's document: coordinates, scalar relations with their owners, and the reference.
-       `grammar` reads its texts into `trees`; `constraints` and `geometry` write the equations of every constraint
-       type.
+       `grammar` reads its texts into `trees`, which are evaluated, differentiated and substituted in, exactly or in
+       balls; `constraints` and `geometry` write the equations of every constraint type.
     2. `relations` are those of the scene and those that steps of the certificate derive from them by identities in
-       the `ring` of normal forms. `values` evaluates, differentiates and substitutes, exactly or in balls.
+       the `ring` of normal forms.
     3. `evidence` has what a certificate puts forward: points, minors of rows that hold there, velocity fields.
-    4. `dimension_rules` and `label_rules` are the rules: one function for each kind of claim, which checks its
-       hypotheses.
-    5. `verification` reads the certificate with care, bounded in work, and asks the rules.
+    4. `dimension_rules`, `label_rules` and `motion` are the rules: one function for each kind of claim, which checks
+       its hypotheses.
+    5. `verification` reads the certificate with care, bounded in work, and asks the rules. The format is described in
+       ``FORMAT.md``.
 """
 
 from dofkit.checker.trees import CheckError

@@ -17,13 +17,16 @@ from dofkit.checker.trees import (
     add,
     call,
     difference,
+    evaluated,
+    in_velocities,
+    not_zero,
     number,
     power,
     refuse,
+    substituted,
     symbol,
     times,
 )
-from dofkit.checker.values import evaluated, in_velocities, not_zero, substituted
 
 Entry = Mapping[str, Any]
 

@@ -8,8 +8,7 @@ from typing import Any
 from flint import fmpq_mat
 
 from dofkit.checker.evidence import MOST, CheckedEvidence, CheckedMinor, Told, admissible, independent, of_word, span
-from dofkit.checker.trees import refuse
-from dofkit.checker.values import CheckedPoint, derivative, not_zero
+from dofkit.checker.trees import CheckedPoint, derivative, not_zero, refuse
 
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:

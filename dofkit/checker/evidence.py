@@ -11,16 +11,22 @@ from typing import Any, NamedTuple
 from flint import arb, arb_mat, ctx
 
 from dofkit.checker.relations import CheckedRelations, Consequence, total_derivative
-from dofkit.checker.trees import ONE, ZERO, Tree, call, difference, refuse, symbol
-from dofkit.checker.values import (
+from dofkit.checker.trees import (
+    ONE,
     PRECISION,
+    ZERO,
     CheckedPoint,
+    Tree,
     along,
+    call,
     derivative,
+    difference,
     evaluated,
     linear_in,
     not_zero,
+    refuse,
     substituted,
+    symbol,
 )
 
 LARGEST_MINOR, LONGEST_WORD, LARGEST_FIELD, HIGHEST_ORDER = 250, 12, 100_000, 8

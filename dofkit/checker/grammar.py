@@ -11,8 +11,21 @@ from fractions import Fraction
 from functools import cached_property
 from typing import NamedTuple
 
-from dofkit.checker.trees import FUNCTIONS, ONE, ZERO, Tree, add, call, negative, number, power, refuse, symbol, times
-from dofkit.checker.values import derivative
+from dofkit.checker.trees import (
+    FUNCTIONS,
+    ONE,
+    ZERO,
+    Tree,
+    add,
+    call,
+    derivative,
+    negative,
+    number,
+    power,
+    refuse,
+    symbol,
+    times,
+)
 
 #: The last: how often a declared function is differentiated.
 MOST_CHARACTERS, LONGEST_NAME, DEEPEST, LARGEST_EXPONENT, MOST_ORDERS = 20_000, 64, 60, 64, 6

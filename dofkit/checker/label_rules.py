@@ -6,8 +6,21 @@ from typing import Any
 
 from dofkit.checker.dimension_rules import names_told, same_place
 from dofkit.checker.evidence import CheckedEvidence, Told, admissible, involutive, of_word
-from dofkit.checker.trees import ONE, ZERO, Tree, add, difference, refuse, symbol, times
-from dofkit.checker.values import CheckedPoint, derivative, homogeneous_degree, not_zero, substituted
+from dofkit.checker.trees import (
+    ONE,
+    ZERO,
+    CheckedPoint,
+    Tree,
+    add,
+    derivative,
+    difference,
+    homogeneous_degree,
+    not_zero,
+    refuse,
+    substituted,
+    symbol,
+    times,
+)
 
 Form = dict[str, Tree]
 EQUATIONS, EVERY = ("finite", "velocity"), ("finite", "velocity", "inequality")

@@ -15,8 +15,24 @@ from dofkit.checker.constraints import nowhere_zero
 from dofkit.checker.grammar import KnownNames, parse
 from dofkit.checker.problem import CheckedProblem, CheckedRelation
 from dofkit.checker.ring import CheckedRing
-from dofkit.checker.trees import TWO, CheckError, Effort, Tree, add, negative, number, power, refuse, symbol, times
-from dofkit.checker.values import CheckedPoint, along, evaluated, not_zero, put_in
+from dofkit.checker.trees import (
+    TWO,
+    CheckedPoint,
+    CheckError,
+    Effort,
+    Tree,
+    add,
+    along,
+    evaluated,
+    negative,
+    not_zero,
+    number,
+    power,
+    put_in,
+    refuse,
+    symbol,
+    times,
+)
 
 #: What a certificate of another form, or a hostile one, may raise.
 FAULTS = (CheckError, KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError)

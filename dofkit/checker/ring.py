@@ -8,17 +8,16 @@ an identity of real numbers wherever both sides have a value. So what has the no
 value; the converse is never used.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import reduce
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 from flint import fmpq, fmpq_mpoly_ctx, fmpz
 
-from dofkit.checker.trees import CheckError, Effort, Tree, refuse
+from dofkit.checker.trees import CheckError, Effort, Tree, refuse, repeated
 
 LARGEST_POWER, LARGEST_FORM, LARGEST_MULTIPLE, MOST_KNOWN = 128, 60_000, 64, 20_000
-Factor = TypeVar("Factor")
 
 
 class Quotient(NamedTuple):
@@ -26,15 +25,6 @@ class Quotient(NamedTuple):
 
     above: Any
     below: Any
-
-
-def repeated(one: Factor, base: Factor, exponent: int, product: Callable[[Factor, Factor], Factor]) -> Factor:
-    """A power by squaring."""
-    found = one
-    for bit in bin(exponent)[2:]:
-        found = product(found, found)
-        found = product(found, base) if bit == "1" else found
-    return found
 
 
 class QuotientRing:

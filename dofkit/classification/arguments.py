@@ -226,7 +226,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the reference configuration satisfies the equations",
         "",
         "their values there are zero in exact arithmetic",
-        "dofkit.exact.points.exact.vanish_exactly",
+        "dofkit.exact.points.balls.vanish_exactly",
     ),
     "free Lie algebra": Argument(
         "dimensions of brackets",

@@ -13,9 +13,9 @@ from dofkit.base.deadline import check
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ideals import dimension_of, echelon_by_degree
-from dofkit.exact.independence import doubt
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero import doubt
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr

@@ -14,13 +14,13 @@ from dofkit.configuration.measured.equations import is_measured, is_tree, pose_o
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety
 from dofkit.configuration.witness import of_real_point, of_reference
-from dofkit.exact.independence import doubt
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse, without_time
-from dofkit.exact.points.exact import rational_values, vanish_exactly
+from dofkit.exact.points.balls import rational_values, vanish_exactly
 from dofkit.exact.points.frames import sparse_frame
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.canonical import error_bits
+from dofkit.exact.zero import doubt
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer, RealRows

@@ -11,11 +11,11 @@ from dofkit.configuration import singular_points
 from dofkit.configuration.generic_points import generators_of
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.independence import independent_on_set
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import jacobian
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
 from dofkit.exact.ring.program import values
+from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart

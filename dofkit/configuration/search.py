@@ -17,12 +17,11 @@ from dofkit.configuration.generic_points import on_variety, pose_samples, sample
 from dofkit.configuration.isolated_zeros import isolated
 from dofkit.configuration.reality import ALLOWING, real_point
 from dofkit.configuration.variety import Variety
-from dofkit.exact.independence import independent_on_set
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.ring.program import VAR, reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
-from dofkit.exact.zero import excludes_zero
+from dofkit.exact.zero import excludes_zero, independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart, free_point

@@ -13,7 +13,6 @@ from typing import Any
 from flint import arb
 
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.independence import independent_on_set
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import BallPoint, jacobian
@@ -23,6 +22,7 @@ from dofkit.exact.ring.program import Scalar, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.unknowns import Unit, unit_of
+from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr

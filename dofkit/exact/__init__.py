@@ -14,9 +14,9 @@ Two engines, each of which can prove one thing (`zero` says which of them may be
 Mechanisms
     `ring` writes roots, logarithms, angles and inverse functions over generators without relations between them,
     gives quotients in canonical form, and bounds their degrees; what reduces to zero there is zero, which is a proof.
-    `independence` says whether the generators can be trusted to be independent [Ax1971], so that field and canonical
-    form prove what is not zero; `zero` asks all of these in turn. `analyticity` says whether a function that is not
-    identically zero vanishes on no open set [IsolatedZeros].
+    `zero` says whether the generators can be trusted to be independent [Ax1971], so that field and canonical form prove
+    what is not zero, and asks field, canonical form and balls in turn. `analyticity` says whether a function that is
+    not identically zero vanishes on no open set [IsolatedZeros].
     `triangular` draws points of a variety modulo p, solving for one of its `unknowns` after another; a search in
     floating point finds real ones, which the interval Newton test certifies [KrawczykNewton].
     `ideals` gives the dimension of a complex variety by Groebner bases [Buchberger1965], and `linear_inequalities` a

@@ -9,25 +9,24 @@ from __future__ import annotations
 
 import random
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
+from functools import cache
 from typing import Any
 
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoPointError, NoValueError, raising_no_value
 from dofkit.exact.ideals import combined
-from dofkit.exact.independence import independent_generators
 from dofkit.exact.points.field import FieldPoint, field_point
-from dofkit.exact.ring.program import ADD, MUL, NUM, POW, reachable
+from dofkit.exact.ring.program import ADD, MUL, POW, reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.unknowns import Unit, circle, is_linear, root_relations, roots_of, units_in, univariate, value_along
+from dofkit.exact.zero import independent_generators
 
 #: An elimination that makes the program longer than this is given up.
 MAX_CODE = 20_000
 #: Draws of a point before giving up (each square root that is asked for fails half the time).
 DRAWS = 60
-ZERO, ONE = Fraction(0), Fraction(1)
 
 
 @dataclass
@@ -49,63 +48,36 @@ class Plan:
     divided: bool = False
 
 
-class Degrees:
-    """The degrees of relations' numerators in their unknowns, at one random point, the ``probe``."""
-
-    def __init__(self, ring: Ring, seed: int) -> None:
-        self.ring = ring
-        self.probe = self._probe(seed)
-        self._degrees: dict[tuple[int, Unit], int] = {}
-        self._linears: dict[tuple[int, Unit], bool] = {}
-
-    def _probe(self, seed: int) -> FieldPoint | None:
-        for attempt in range(DRAWS):
-            try:
-                return field_point([self.ring], seed + attempt)
-            except NoPointError:
-                continue
-        return None
-
-    def degree(self, node: int, unit: Unit) -> int:
-        """The degree of a relation's numerator in one unknown at random values of the others; 0: unsolvable."""
-        if (node, unit) not in self._degrees:
-            self._degrees[node, unit] = self._degree(node, unit)
-        return self._degrees[node, unit]
-
-    def _degree(self, node: int, unit: Unit) -> int:
-        if self.probe is None:
-            return 0
-        try:
-            return max(0, int(univariate(self.ring, node, unit, self.probe).degree()))
-        except NoValueError:
-            return 0
-
-    def linear(self, node: int, unit: Unit) -> bool:
-        """True where the relation is a polynomial of degree 1 in the unknown, with no denominator in it."""
-        if (node, unit) not in self._linears:
-            self._linears[node, unit] = self._is_linear(node, unit)
-        return self._linears[node, unit]
-
-    def _is_linear(self, node: int, unit: Unit) -> bool:
-        if self.probe is None:
-            return False
-        try:
-            return is_linear(self.ring, node, unit[1], self.probe)
-        except NoValueError:
-            return False
-
-
 class Planner:
-    """Finds the `Plan` for some relations; ``fixed`` unknowns have their values."""
+    """Finds the `Plan` for some relations; ``fixed`` unknowns have their values.
 
-    def __init__(self, degrees: Degrees, fixed: frozenset[Unit], seed: int) -> None:
-        self.degrees, self.ring, self.fixed = degrees, degrees.ring, fixed
+    ``degree`` and ``is_linear`` are those of a relation's numerator in an unknown, at one random point, the ``probe``.
+    """
+
+    def __init__(self, ring: Ring, fixed: frozenset[Unit], seed: int) -> None:
+        self.ring, self.fixed = ring, fixed
         self.rng = random.Random(f"dofkit plan {seed}")
         self.plan = Plan()
+        self.probe = _point(ring, seed)
+        self.degree, self.is_linear = cache(self._degree), cache(self._is_linear)
+
+    def _degree(self, node: int, unit: Unit) -> int:
+        """Return the degree at random values of the other unknowns; 0 where it cannot be solved for this one."""
+        try:
+            return 0 if self.probe is None else max(0, int(univariate(self.ring, node, unit, self.probe).degree()))
+        except NoValueError:
+            return 0
+
+    def _is_linear(self, node: int, unit: Unit) -> bool:
+        """Return whether the relation is a polynomial of degree 1 in the unknown, with no denominator in it."""
+        try:
+            return self.probe is not None and is_linear(self.ring, node, unit[1], self.probe)
+        except NoValueError:
+            return False
 
     def plan_for(self, relations: Sequence[int]) -> Plan:
         """The plan for relations, those of the roots among them; stuck where an elimination divides by 0 everywhere."""
-        if self.degrees.probe is None:
+        if self.probe is None:
             self.plan.stuck = True
             return self.plan
         everything = {u for node in relations for u in units_in(self.ring, node)}
@@ -177,29 +149,20 @@ class Planner:
             return None
         ranked = []
         for unit in own:
-            degree = self.degrees.degree(node, unit)
+            degree = self.degree(node, unit)
             if degree:
-                ranked.append((degree, self._rank(unit), unit))
+                ranked.append((degree, _rank(self.ring, unit), unit))
         return min(ranked)[2] if ranked else None
-
-    def _rank(self, unit: Unit) -> tuple[int, int]:
-        var = self.ring.vars[unit[1]]
-        if var.kind == "symbol":
-            kind, name = var.key.args
-            order = 0 if name.startswith("_") else {"velocity": 1, "coordinate": 2}.get(kind, 4)
-        else:
-            order = 3
-        return (order, -unit[1])
 
     def _settle(self, remaining: list[int]) -> list[int]:
         """Drop relations between no unknowns that hold; notice those that do not."""
-        probe = self.degrees.probe
+        probe = self.probe
         kept = []
         for node in remaining:
             check()
             if self._parameters_only(node):
                 self.plan.special = True
-            if any(self.degrees.degree(node, u) for u in units_in(self.ring, node) - self.fixed):
+            if any(self.degree(node, u) for u in units_in(self.ring, node) - self.fixed):
                 kept.append(node)
             elif probe is not None and value_along(self.ring, node, {}, probe) == 0:
                 continue
@@ -209,13 +172,13 @@ class Planner:
 
     def _clash(self, remaining: list[int]) -> None:
         """Notice two relations in the same one unknown that have no common root."""
-        probe = self.degrees.probe
+        probe = self.probe
         if probe is None or self.fixed or not independent_generators(self.ring):
             return
         known: dict[Unit, Any] = {}
         for node in remaining:
             units = list(units_in(self.ring, node))
-            if len(units) != 1 or not self.degrees.degree(node, units[0]):
+            if len(units) != 1 or not self.degree(node, units[0]):
                 continue
             polynomial = univariate(self.ring, node, units[0], probe)
             known[units[0]] = known.get(units[0], polynomial).gcd(polynomial)
@@ -224,15 +187,8 @@ class Planner:
 
     def _parameters_only(self, node: int) -> bool:
         """Does the relation hold between named parameters alone (generic geometry is not named)?"""
-        units = {u for u in units_in(self.ring, node) if self.degrees.degree(node, u)}
-        return bool(units) and all(self._is_parameter(u) for u in units)
-
-    def _is_parameter(self, unit: Unit) -> bool:
-        var = self.ring.vars[unit[1]]
-        if unit[0] == "angle" or var.kind != "symbol":
-            return False
-        kind, name = var.key.args
-        return bool(kind == "parameter" and not name.startswith("_"))
+        units = {u for u in units_in(self.ring, node) if self.degree(node, u)}
+        return bool(units) and all(_is_parameter(self.ring, u) for u in units)
 
     def _eliminate(self, remaining: list[int]) -> tuple[int, Unit, list[int]] | None:
         """Solve one relation for an unknown that it holds linearly and put that into the others."""
@@ -240,14 +196,15 @@ class Planner:
         for node in remaining:
             check()
             for unit in units_in(self.ring, node) - self.fixed:
-                if unit[0] == "var" and self.degrees.linear(node, unit):
+                if unit[0] == "var" and self.is_linear(node, unit):
                     size = len(reachable(self.ring, [node], through_generators=False))
-                    choices.append((size, self._rank(unit), node, unit))
+                    choices.append((size, _rank(self.ring, unit), node, unit))
         if not choices:
             return None
         _, _, node, unit = min(choices)
-        self.plan.divided = self.plan.divided or self._may_be_zero(self._slope(node, unit))
-        solution = self._solution(node, unit)
+        at_zero, slope = self._line(node, unit)
+        self.plan.divided = self.plan.divided or self._may_be_zero(slope)
+        solution = self.ring.emit(MUL, (self.ring.negative(at_zero), self.ring.emit(POW, (slope, -1))))
         others = [
             self.ring.replaced(other, {unit[1]: solution}) if unit in units_in(self.ring, other) else other
             for other in remaining
@@ -256,29 +213,18 @@ class Planner:
         others = [other for other in others if not self._vanishes(other)]
         return None if len(self.ring.code) > MAX_CODE else (node, unit, others)
 
-    def _slope(self, node: int, unit: Unit) -> int:
-        """The coefficient of an unknown in a relation that is linear in it."""
-        zero, one = (self.ring.emit(NUM, n) for n in (ZERO, ONE))
-        at_zero, at_one = (self.ring.replaced(node, {unit[1]: n}) for n in (zero, one))
-        return self.ring.emit(ADD, (at_one, self.ring.negative(at_zero)))
+    def _line(self, node: int, unit: Unit) -> tuple[int, int]:
+        """Return the value at 0 and the coefficient of an unknown in a relation that is linear in it."""
+        at_zero, at_one = (self.ring.replaced(node, {unit[1]: self.ring.number(n)}) for n in (0, 1))
+        return at_zero, self.ring.emit(ADD, (at_one, self.ring.negative(at_zero)))
 
     def _may_be_zero(self, node: int) -> bool:
         """Does a coefficient hold unknowns, so that it may vanish where the relations hold?"""
-        moving = [u for u in units_in(self.ring, node) if not self._is_parameter(u)]
+        moving = [u for u in units_in(self.ring, node) if not _is_parameter(self.ring, u)]
         try:
-            return self.degrees.probe is None or any(
-                univariate(self.ring, node, u, self.degrees.probe).degree() > 0 for u in moving
-            )
+            return self.probe is None or any(univariate(self.ring, node, u, self.probe).degree() > 0 for u in moving)
         except NoValueError:
             return True
-
-    def _solution(self, node: int, unit: Unit) -> int:
-        """What an unknown is where a relation, linear in it, vanishes."""
-        ring = self.ring
-        zero, one = ring.emit(NUM, ZERO), ring.emit(NUM, ONE)
-        at_zero = ring.replaced(node, {unit[1]: zero})
-        slope = ring.emit(ADD, (ring.replaced(node, {unit[1]: one}), ring.negative(at_zero)))
-        return ring.emit(MUL, (ring.negative(at_zero), ring.emit(POW, (slope, -1))))
 
     def _vanishes(self, node: int) -> bool:
         """True where a relation holds for random values of all its unknowns: it says nothing new."""
@@ -289,53 +235,64 @@ class Planner:
             return False
 
 
-def plan_for(ring: Ring, relations: Sequence[int], fixed: frozenset[Unit], seed: int) -> tuple[Plan, Degrees]:
-    """The plan for relations and for those of the roots in them, and the degrees by which it was found.
+def _is_parameter(ring: Ring, unit: Unit) -> bool:
+    var = ring.vars[unit[1]]
+    if unit[0] == "angle" or var.kind != "symbol":
+        return False
+    kind, name = var.key.args
+    return bool(kind == "parameter" and not name.startswith("_"))
 
-    What was emitted for a plan that is stuck leaves the ring.
-    """
-    size = len(ring.code)
-    whole = [*relations, *root_relations(ring, list(relations))]
-    degrees = Degrees(ring, seed)
-    plan = Planner(degrees, fixed, seed).plan_for(whole)
-    if plan.stuck:
-        ring.forget(size)
-    return plan, degrees
+
+def _rank(ring: Ring, unit: Unit) -> tuple[int, int]:
+    var = ring.vars[unit[1]]
+    if var.kind == "symbol":
+        kind, name = var.key.args
+        order = 0 if name.startswith("_") else {"velocity": 1, "coordinate": 2}.get(kind, 4)
+    else:
+        order = 3
+    return (order, -unit[1])
+
+
+def _point(ring: Ring, seed: int) -> FieldPoint | None:
+    for attempt in range(DRAWS):
+        try:
+            return field_point([ring], seed + attempt)
+        except NoPointError:
+            continue
+    return None
 
 
 class TriangularSolver:
-    """Plans and draws points on the zero set of some nodes of a ring."""
+    """Plans and draws points on the zero set of some nodes of a ring.
+
+    What was emitted for a plan that is stuck leaves the ring.
+    """
 
     def __init__(
         self, ring: Ring, relations: Sequence[int], fixed: frozenset[Unit] = frozenset(), seed: int = 0
     ) -> None:
         self.ring = ring
-        self.plan, self._degrees = plan_for(ring, relations, fixed, seed)
-
-    def degree(self, node: int, unit: Unit) -> int:
-        """The degree of a relation's numerator in one unknown at random values of the others; 0: unsolvable."""
-        return self._degrees.degree(node, unit)
+        size = len(ring.code)
+        planner = Planner(ring, fixed, seed)
+        self.plan = planner.plan_for([*relations, *root_relations(ring, list(relations))])
+        self.degree = planner.degree
+        if self.plan.stuck:
+            ring.forget(size)
 
     def draw(self, seed: int) -> FieldPoint | None:
-        """A random point on the zero set, or None where none was found."""
-        if self.plan.stuck or self.plan.contradictory:
-            return None
-        for attempt in range(DRAWS):
-            try:
-                point = field_point([self.ring], seed * DRAWS + attempt)
-                self._complete(point)
-            except NoValueError:
-                continue
-            return point
-        return None
+        """Return a random point on the zero set, or None where none was found."""
+        return self._first_complete(lambda k: field_point([self.ring], seed * DRAWS + k), DRAWS)
 
     def completed(self, base: FieldPoint) -> FieldPoint | None:
-        """A point on the zero set with the values that ``base`` gives, or None where none was found."""
+        """Return a point on the zero set with the values that ``base`` gives, or None where none was found."""
+        return self._first_complete(lambda _: base.copy(), DRAWS // 4)
+
+    def _first_complete(self, begin: Callable[[int], FieldPoint], draws: int) -> FieldPoint | None:
         if self.plan.stuck or self.plan.contradictory:
             return None
-        for _ in range(DRAWS // 4):
-            point = base.copy()
+        for k in range(draws):
             try:
+                point = begin(k)
                 self._complete(point)
             except NoValueError:
                 continue

@@ -1,20 +1,23 @@
-"""Is an expression identically zero, and which of the two one-sided engines may be asked?"""
+"""Is an expression identically zero, can non-zero be trusted, and which of the two one-sided engines may be asked?"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import combinations
 from typing import Literal
 
-from flint import ctx
+from flint import ctx, fmpq_mat
 
 from dofkit.base.verdicts import Verdict
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.independence import independent_generators
 from dofkit.exact.points.balls import BallPoint, fixed_bits
-from dofkit.exact.points.field import field_point
+from dofkit.exact.points.field import MOST_REDUCED, field_point
 from dofkit.exact.points.real_search import RealSearch
-from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.canonical import Canon, divided
+from dofkit.exact.ring.program import Var, values
 from dofkit.exact.ring.ring import Ring
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 
 #: ``field``: exact arithmetic at random points modulo random primes, where zero can be trusted. ``balls``: interval
@@ -138,3 +141,201 @@ def _zero_at_points(ring: Ring, node: int, points: int = 3) -> bool | None:
         if seen == points:
             return True
     return None
+
+
+Doubt = Literal["numbers", "functions"]
+#: Entries of a matrix that tells whether arguments are independent.
+MOST_TERMS = 20_000
+#: Terms of polynomials of which resultants tell whether they are coprime.
+MOST_ELIMINATED = 60
+INVERSE = ("asin", "atan", "atan2")
+
+
+def odd_constants(ring: Ring) -> bool:
+    """Do constants occur that may be related (nested roots, inverse functions and logarithms of numbers)?"""
+    constant = [v for v in ring.vars if not ring.var_expr[v.index].symbols]
+    return any(v.kind in (*INVERSE, "log", "sign") or _root_of_more(v) for v in constant)
+
+
+def independent_generators(ring: Ring) -> bool:
+    """True where the generators are algebraically independent up to the relations that the ring knows.
+
+    Symbols, sines, cosines and exponentials of different terms are [Ax1971], and so are unknown functions, square
+    roots of different primes and one root of what is linear in a symbol, so no power itself, and one transcendental
+    constant. False says that a relation may have been missed: other roots, inverse functions, logarithms, constants.
+    """
+    roots = 0
+    for var in ring.vars:
+        if var.kind in (*INVERSE, "log", "sign"):
+            return False
+        if _root_of_more(var):
+            roots += 1
+            if not _linear_somewhere(ring.var_expr[var.index].args[0]):
+                return False
+    independent = all(_independent_arguments(ring, kind) for kind in ("cos", "exp"))
+    return roots < 2 and not ring.related and independent and _one_constant(ring)
+
+
+def _one_constant(ring: Ring) -> bool:
+    """Is there at most one transcendental constant: pi, or the exponential or angle of one rational number?
+
+    These are transcendental [Lindemann1882]; of two of them it is not known, or they are related as e and e^1000 are.
+    """
+    constants = [v for v in ring.vars if not ring.var_expr[v.index].symbols]
+    found = {
+        ("pi", ex.PI) if v.kind == "pi" else (v.kind.replace("sin", "cos"), v.key[0])
+        for v in constants
+        if v.kind in ("pi", "cos", "sin", "exp")
+    }
+    return len(found) < 2 and all(kind == "pi" or _is_rational(e) for kind, e in found)
+
+
+def _is_rational(e: Expr) -> bool:
+    """A product of numbers that are not 0, as written."""
+    return all(part.op == "num" and not part.is_zero for part in (e.args if e.op == "mul" else (e,)))
+
+
+def independent_on_set(ring: Ring, relations: Sequence[object]) -> bool:
+    """The same where some relations hold.
+
+    There arguments may be related that are not related as written: of few of them a point tells (`characters`); of
+    more only what is equal, or a sum, so that no other argument may occur than a symbol.
+    """
+    return independent_generators(ring) and not (
+        relations and any(_out_of_reach(ring, kind) for kind in ("cos", "exp"))
+    )
+
+
+def _out_of_reach(ring: Ring, kind: str) -> bool:
+    moving = [v for v in ring.vars if v.kind == kind and ring.var_expr[v.index].symbols]
+    return len(moving) > MOST_REDUCED and not all(_of_symbol(v) for v in moving)
+
+
+def _of_symbol(var: Var) -> bool:
+    return isinstance(var.key[0], Expr) and var.key[0].op == "sym"
+
+
+def _independent_arguments(ring: Ring, kind: str) -> bool:
+    """Are the arguments of all exponentials, or of all angles, linearly independent over Q modulo constants? [Ax1971].
+
+    They are put over one denominator L: then so are their numerators together with L. False where they grow too large.
+    """
+    moving = [v for v in ring.vars if v.kind == kind and ring.var_expr[v.index].symbols]
+    if len(moving) < 2 or all(_of_symbol(v) for v in moving):
+        return True
+    canon = Canon(ring)
+    try:
+        pairs = [canon.quotient(v.args[0]) for v in moving]
+        below = canon.one
+        for _, bottom in pairs:
+            below = below * divided(bottom, below.gcd(bottom))
+        rows = [below, *(top * divided(below, bottom) for top, bottom in pairs)]
+    except NoValueError:
+        return False
+    terms = sorted({m for row in rows for m in row.to_dict()})
+    if len(rows) * len(terms) > MOST_TERMS:
+        return False
+    matrix = fmpq_mat([[row.to_dict().get(m, 0) for m in terms] for row in rows])
+    return bool(matrix.rref()[1] == len(rows))
+
+
+def _root_of_more(var: Var) -> bool:
+    """A root of something else than a prime number."""
+    return var.kind == "root" and not isinstance(var.key[0], Expr)
+
+
+def _linear_somewhere(e: Expr) -> bool:
+    """Is ``e`` of degree 1 in one of its symbols?"""
+    slopes = ((s, diff(e, s)) for s in e.symbols)
+    return any(not slope.is_zero and s not in slope.symbols for s, slope in slopes)
+
+
+def doubt(ring: Ring) -> Doubt | None:
+    """May what is 0 look like something else over GF(p), or a root stand there for the other one?
+
+    Of numbers only, or of functions: these may be 0 in one region and not in another, so that no point decides. Less is
+    asked than of `independent_generators`: no proof rests on the answer, but where it is None no relation among the
+    generators is known to be possible. Roots and logarithms of pairwise coprime polynomials have none [Ostrowski1946],
+    and a square root of what is no square is as good as its negative.
+    """
+    if _related_functions(ring):
+        return "functions"
+    return "numbers" if odd_constants(ring) else None
+
+
+def _related_functions(ring: Ring) -> bool:
+    """May functions of the variables be related?"""
+    moving = [v for v in ring.vars if ring.var_expr[v.index].symbols]
+    kinds = [v.kind for v in moving]
+    if sum(kind in INVERSE for kind in kinds) + kinds.count("sign") > 1:
+        return True
+    if ring.related or _odd_arguments(moving) or not all(_changes_sign(ring, v) for v in moving if v.kind == "sign"):
+        return True
+    roots = [v for v in moving if _root_of_more(v)]
+    logs = [v for v in moving if v.kind == "log"]
+    if logs and "exp" in kinds:
+        return True
+    return not (_apart(ring, roots, roots=True) and (len(logs) < 2 or _apart(ring, logs, roots=False)))
+
+
+def _changes_sign(ring: Ring, var: Var) -> bool:
+    """Is the argument of a sign linear in a symbol, so that both signs occur?"""
+    shown = ring.var_expr[var.index]
+    return any(_linear_somewhere(node.args[1]) for node in ex.nodes(shown) if node.op == "fn" and node.args[0] == "abs")
+
+
+def _odd_arguments(moving: Sequence[Var]) -> bool:
+    """Are there several sines or exponentials, one of them of something that is no polynomial?"""
+    angles = [v for v in moving if v.kind in ("cos", "exp")]
+    if len(angles) < 2:
+        return False
+    return any(_beyond_polynomials(v.key[0]) for v in angles)
+
+
+def _beyond_polynomials(e: Expr) -> bool:
+    """Do quotients, roots or functions occur?"""
+    return any(
+        node.op == "fn" or (node.op == "pow" and (node.args[1].op != "num" or not _natural(node.args[1])))
+        for node in ex.nodes(e)
+    )
+
+
+def _natural(exponent: Expr) -> bool:
+    value = exponent.args[0]
+    return bool(value.denominator == 1 and value > 0)
+
+
+def _apart(ring: Ring, functions: Sequence[Var], roots: bool) -> bool:
+    """Return whether the arguments of logarithms, or of roots, are coprime, and those of roots no powers.
+
+    They are looked at as polynomials in one symbol at a time: what has no common factor there has none at all.
+    """
+    left, canon = list(functions), Canon(ring)
+    symbols = [v.index for v in ring.vars if v.kind == "symbol"]
+    while left:
+        try:
+            independent = next((own for i in symbols if (own := _independent_along(canon, left, i, roots))), None)
+        except NoValueError:
+            return False
+        if independent is None:
+            return False
+        left = [v for v in left if v not in independent]
+    return True
+
+
+def _independent_along(canon: Canon, functions: Sequence[Var], index: int, roots: bool) -> list[Var]:
+    """Return those whose arguments hold a symbol, if they are independent over all functions of the other symbols."""
+    ring, place = canon.ring, len(canon.ring.vars) - 1 - index
+    symbol = ring.var_expr[index]
+    own = [v for v in functions if symbol in ring.var_expr[v.index].symbols]
+    polynomials = []
+    for var in own:
+        top, bottom = canon.quotient(var.args[0])
+        polynomial = top * bottom ** (var.degree - 1 if roots else 1)
+        held = {ring.var_expr[i] for i in canon.generators_in(polynomial)}
+        if symbol not in held or len(polynomial) > MOST_ELIMINATED or any(symbol in e.symbols for e in held - {symbol}):
+            return []
+        polynomials.append(polynomial)
+    pairs = [(a, b) for a, b in combinations(polynomials, 2)]
+    pairs += [(p, p.derivative(place)) for p in polynomials if roots]
+    return own if all(canon.reduce(a.resultant(b, place)) != 0 for a, b in pairs) else []

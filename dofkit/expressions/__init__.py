@@ -10,14 +10,14 @@ Mechanisms, in the order in which an equation meets them
     1. `text` reads the grammar (ASCII, Unicode, LaTeX, primes, Leibniz) into a tree, and prints a tree in it. Every
        error has a column and a hint. The grammar is bounded in length, depth and in the size of what a text may stand
        for.
-    2. `differentials` relates differentials and velocities: dq = qdot dt. `calculus` substitutes and differentiates.
-    3. `domains` lists the conditions under which powers and functions, as they were written, have a real value.
-    4. `terms` takes sums apart: linear terms, and symbols that occur in one linear combination only.
-    5. `rational_values` knows the rational values of roots and of trigonometric functions; `enclosures` gives every
+    2. `calculus` substitutes and differentiates, relates differentials and velocities (dq = qdot dt), and lists the
+       conditions under which powers and functions, as they were written, have a real value.
+    3. `terms` takes sums apart: linear terms, and symbols that occur in one linear combination only.
+    4. `rational_values` knows the rational values of roots and of trigonometric functions; `enclosures` gives every
        other constant as a certified interval.
-    6. `renaming` finds expressions that are equal up to the names in them, so that work is done once for many copies,
+    5. `renaming` finds expressions that are equal up to the names in them, so that work is done once for many copies,
        and has sequences of them that are written out only when one is needed (the equations of a joint).
-    7. `sympy_bridge` converts to and from SymPy, node by node and never through text.
+    6. `sympy_bridge` converts to and from SymPy, node by node and never through text.
 
 A zero is never decided here: `dofkit.exact` does that. The rooms above receive trees, and no text.
 """

@@ -1,11 +1,19 @@
-"""Substitution in expressions, and their partial derivatives."""
+"""Substitution, derivatives, differentials, and where powers and functions have a real value.
+
+For velocities dq = qdot dt: a relation homogeneous of degree k in (dq, dt) is divided by dt^k; one that adds
+differentials to finite terms says nothing. Second derivatives have to stand linearly: then the relation may integrate
+once.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from functools import partial
+from typing import Literal
 
+from dofkit.base.errors import TextError
+from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr, add, call, children, fn, mul, num, power, rebuild
 
 
@@ -95,3 +103,170 @@ def _diff_node(node: Expr, go: Callable[[Expr], Expr]) -> Expr:
         return (x * go(y) - y * go(x)) / (x * x + y * y)
     argument: Expr = node.args[1]
     return mul(_DERIVATIVES[node.args[0]](argument), go(argument))
+
+
+#: Functions that keep the degree of what stands inside, or do not ask for it: only ratios of their arguments count.
+HOMOGENEOUS = ("abs", "atan2")
+
+
+def differential_degree(e: Expr) -> int | None:
+    """The degree in (dq, dt), None for the number 0. Raises TextError where terms differ."""
+    if e.is_zero:
+        return None
+    if not any(map(is_differential, e.symbols)):
+        return 0
+    if e.op == "sym":
+        return 1
+    if e.op == "add":
+        degrees = {differential_degree(term) for term in e.args} - {None}
+        if len(degrees) > 1:
+            raise TextError(
+                "differentials and finite terms are added together",
+                hint="divide every term by dt (write qdot), or multiply every term by a differential",
+            )
+        return degrees.pop() if degrees else None
+    if e.op == "mul":
+        return sum(differential_degree(factor) or 0 for factor in e.args)
+    if e.op == "pow" and e.args[1].op == "num":
+        degree = (differential_degree(e.args[0]) or 0) * e.args[1].args[0]
+        if degree.denominator == 1:
+            return int(degree)
+    if e.op == "fn":
+        inside = {differential_degree(u) or 0 for u in e.args[1:]}
+        if inside == {0} or (len(inside) == 1 and e.args[0] in HOMOGENEOUS):
+            return inside.pop() if e.args[0] == "abs" else 0
+    raise TextError("a differential stands inside a function", hint="differentials are only added, multiplied, divided")
+
+
+def in_velocities(e: Expr) -> tuple[Expr, bool]:
+    """``e`` in velocities instead of differentials, and whether it had a dt to divide by."""
+    degree = differential_degree(e)
+    if not degree and not any(map(is_differential, e.symbols)):
+        return e, False
+    mapping = {s: ex.velocity(s.args[1]) for s in e.symbols if s.args[0] == "differential"}
+    mapping |= {s: ex.ONE for s in e.symbols if s.args[0] == "dt"}
+    return substitute(e, mapping), bool(degree)
+
+
+def cleared(e: Expr) -> Expr:
+    """``e`` times the denominators of its terms, so that dy/dx = f becomes dy - f dx = 0."""
+    denominators: dict[Expr, Expr] = {}
+    for term in e.args if e.op == "add" else (e,):
+        for factor in term.args if term.op == "mul" else (term,):
+            is_below = factor.op == "pow" and factor.args[1].op == "num" and factor.args[1].args[0] < 0
+            if is_below and any(s.args[0] == "velocity" for s in factor.symbols):
+                base = factor.args[0]
+                old = denominators.get(base, ex.ONE)
+                denominators[base] = max(old, ex.power(factor, ex.MINUS_ONE), key=repr)
+    if not denominators:
+        return e
+    whole = ex.mul(*denominators.values())
+    return ex.add(*(ex.mul(whole, term) for term in (e.args if e.op == "add" else (e,))))
+
+
+NOT_LINEAR = "a second derivative does not stand linearly"
+SOLVE_FOR_IT = "write the constraint solved for the second derivative, or put it into the equations of motion"
+
+
+def accelerations_of(e: Expr) -> list[Expr]:
+    """The second derivatives in an expression, by name."""
+    return sorted((s for s in e.symbols if s.args[0] == "acceleration"), key=lambda s: str(s.args[1]))
+
+
+def linear_in_accelerations(e: Expr, sense: str) -> None:
+    """Raise TextError for a relation that holds second derivatives otherwise than as a sum of them with factors."""
+    moving = accelerations_of(e)
+    if not moving:
+        return
+    if sense != "=":
+        raise TextError(
+            "an inequality in second derivatives limits no position and no velocity",
+            hint="leave it out, or put it into the equations of motion",
+        )
+    if any(accelerations_of(diff(e, s)) for s in moving):
+        raise TextError(NOT_LINEAR, hint=SOLVE_FOR_IT)
+
+
+# -- derivatives that a text may ask for -----------------------------------------------------------
+
+
+_RATES: dict[str, Callable[[str], Expr]] = {
+    "coordinate": ex.velocity, "velocity": partial(ex.sym, "acceleration"), "time": lambda _: ex.ONE,
+}  # fmt: skip
+_DIFFERENTIALS: dict[str, Callable[[str], Expr]] = {"coordinate": ex.differential, "time": lambda _: ex.DT}
+
+
+def by_time(e: Expr) -> Expr | None:
+    """Return the total derivative by time, or None where that has no meaning here."""
+    return _by_the_chain_rule(e, _RATES)
+
+
+def total_differential(e: Expr) -> Expr | None:
+    """Return the sum of the partial derivatives times the differentials, or None where motions occur."""
+    return _by_the_chain_rule(e, _DIFFERENTIALS)
+
+
+def _by_the_chain_rule(e: Expr, slopes: Mapping[str, Callable[[str], Expr]]) -> Expr | None:
+    terms = []
+    for symbol in sorted(e.symbols, key=lambda s: s.args):
+        kind, name = symbol.args
+        if kind in slopes:
+            terms.append(ex.mul(diff(e, symbol), slopes[kind](name)))
+        elif kind != "parameter":
+            return None
+    return ex.add(*terms)
+
+
+def over_dt(e: Expr) -> Expr | None:
+    """Return ``e`` divided by dt where it is linear in differentials: `dx/dt` is the velocity of x; else None."""
+    if e.op == "sym":
+        if e == ex.DT:
+            return ex.ONE
+        return ex.velocity(e.args[1]) if e.args[0] == "differential" else None
+    if e.op == "add":
+        terms = [over_dt(term) for term in e.args]
+        divided = [term for term in terms if term is not None]
+        return ex.add(*divided) if len(divided) == len(terms) else None
+    if e.op == "mul":
+        moving = [i for i, part in enumerate(e.args) if any(is_differential(s) for s in part.symbols)]
+        if len(moving) == 1 and (rate := over_dt(e.args[moving[0]])) is not None:
+            return ex.mul(*e.args[: moving[0]], rate, *e.args[moving[0] + 1 :])
+    return None
+
+
+def is_differential(e: Expr) -> bool:
+    """Return whether ``e`` is dq or dt."""
+    return e.op == "sym" and e.args[0] in ("differential", "dt")
+
+
+#: An expression, and what it has to be against 0.
+DomainSense = Literal[">=", ">", "!="]
+Requirement = tuple[Expr, DomainSense]
+
+
+def of_power(base: Expr, exponent: Expr) -> Iterator[Requirement]:
+    """Yield what ``base^exponent`` requires; a number as base was checked when it was read."""
+    if base.op == "num":
+        return
+    if exponent.op != "num":
+        yield base, ">"
+    elif exponent.args[0].denominator % 2 == 0:
+        yield base, ">=" if exponent.args[0] > 0 else ">"
+    elif exponent.args[0] < 0:
+        yield base, "!="
+
+
+def of_function(name: str, u: Expr, *others: Expr) -> Iterator[Requirement]:
+    """Yield what an elementary function requires of its arguments."""
+    if name == "sqrt":
+        yield u, ">="
+    elif name == "log":
+        yield u, ">"
+    elif name in ("asin", "acos"):
+        yield ONE - u * u, ">="
+    elif name in ("tan", "sec"):
+        yield fn("cos", u), "!="
+    elif name in ("cot", "csc"):
+        yield fn("sin", u), "!="
+    elif name == "atan2":
+        yield u * u + others[0] * others[0], "!="

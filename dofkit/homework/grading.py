@@ -44,7 +44,7 @@ from dofkit.homework.review.filled_table import read_table
 from dofkit.homework.review.queue import Decision, answer_id
 from dofkit.homework.sentences.translations import Said, in_language, say
 from dofkit.homework.variants import NobodysVariantError, own
-from dofkit.report import ToldModel
+from dofkit.report import ReportModel
 
 #: Seconds of processor time for one answer; what is not decided then needs a review.
 ANSWER_SECONDS = 5.0
@@ -336,7 +336,7 @@ def grade(assignment: Any, submission: Any, reviewed: str | os.PathLike[str] | N
     return Grader(prepared).grade(given)
 
 
-class EchoedAnswer(ToldModel):
+class EchoedAnswer(ReportModel):
     """One answer as it was understood; ``column`` is where one that is not understood could not be read further."""
 
     problem: str
@@ -347,7 +347,7 @@ class EchoedAnswer(ToldModel):
     column: int | None = None
 
 
-class Echo(ToldModel):
+class Echo(ReportModel):
     """One student's answers as they were understood. ``error``: why the submission could not be read."""
 
     student: str

@@ -7,7 +7,7 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from dofkit.base.display import Displayed
-from dofkit.report import ToldModel
+from dofkit.report import ReportModel
 
 Status = Literal["right", "partly", "wrong", "unreadable", "missing", "needs_review"]
 
@@ -17,14 +17,14 @@ def one_line(text: str) -> str:
     return text.replace("\u2028", "\\u2028").replace("\u2029", "\\u2029").replace("\x85", "\\u0085")
 
 
-class PossibleReading(ToldModel):
+class PossibleReading(ReportModel):
     """A way to read an answer that is open, and what it would earn; None where that is open too."""
 
     read_as: str
     score: float | None
 
 
-class Item(ToldModel):
+class Item(ReportModel):
     """One answer. ``score`` is None where it waits for a person: never zero then, never full marks.
 
     ``codes`` are stable names of what went wrong, the most likely first; ``answer`` is the answer as typed, at most
@@ -52,7 +52,7 @@ class Item(ToldModel):
     variant: str | None = None
 
 
-class Result(Displayed, ToldModel):
+class Result(Displayed, ReportModel):
     """One student's submission. ``score`` is the sum of what is decided; ``needs_review`` answers are open beside it:
     those that could not be decided, and those that could not be read unless the assignment gives them zero points.
 

@@ -16,8 +16,15 @@ from dofkit.base.errors import TextError
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.zero import certainly_nonzero, zero_and_verdict
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff, substitute
-from dofkit.expressions.differentials import NOT_LINEAR, SOLVE_FOR_IT, accelerations_of, by_time, in_velocities
+from dofkit.expressions.calculus import (
+    NOT_LINEAR,
+    SOLVE_FOR_IT,
+    accelerations_of,
+    by_time,
+    diff,
+    in_velocities,
+    substitute,
+)
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, GivenUpError

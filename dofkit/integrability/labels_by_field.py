@@ -11,12 +11,12 @@ from flint import nmod_mat
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.variety import Variety
-from dofkit.exact.independence import independent_on_set
 from dofkit.exact.matrices.sparse import rank_of, sparse
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.ring.canonical import error_bits
 from dofkit.exact.ring.program import Scalar, values
+from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.integrability.growth_vector import derived_flag, growth
 from dofkit.integrability.lie_algebra import Span

@@ -20,12 +20,12 @@ from dofkit.configuration.search import find
 from dofkit.configuration.states import moves, vanishes
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.independence import independent_on_set
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.ring.program import VAR, Scalar, reachable, values
 from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import Span

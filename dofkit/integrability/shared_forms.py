@@ -12,10 +12,10 @@ from itertools import combinations
 from typing import Any
 
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.independence import doubt, independent_generators
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, field_frame
 from dofkit.exact.ring.program import VAR, Scalar, gradient, values
+from dofkit.exact.zero import doubt, independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.integrability.lie_algebra import lie_span
 from dofkit.integrability.pfaffian_system import Codistribution

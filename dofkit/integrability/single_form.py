@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import combinations
 
-from dofkit.exact.independence import odd_constants
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero import zero_and_verdict
+from dofkit.exact.zero import odd_constants, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr

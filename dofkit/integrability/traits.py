@@ -11,13 +11,12 @@ from itertools import combinations
 from dofkit.base.verdicts import VERDICTS, Verdict, weakest
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.independence import independent_on_set
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
-from dofkit.exact.zero import BOTH, Engines, is_proved_zero, zero_and_verdict
+from dofkit.exact.zero import BOTH, Engines, independent_on_set, is_proved_zero, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.enclosures import interval_of

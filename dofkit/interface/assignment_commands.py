@@ -1,4 +1,4 @@
-"""The commands about assignments: a first assignment, the handout for students, and a variant per student."""
+"""The commands `assignment` and `export`: first assignments, handouts, variants, and files for course platforms."""
 
 from __future__ import annotations
 
@@ -10,15 +10,17 @@ import typer
 
 from dofkit.base.arguments import format_of_path
 from dofkit.interface import options
-from dofkit.interface.failures import failures_of
-from dofkit.interface.help_panels import PanelCommand
+from dofkit.interface.output import failures_of
 
 assignment_app = typer.Typer(
-    help="Write assignments, handouts and a variant per student.", no_args_is_help=True, rich_markup_mode=None
+    help="Write assignments, handouts and a variant per student.", no_args_is_help=True, rich_markup_mode="rich"
+)
+export_app = typer.Typer(
+    help="Export assignments and grades for course platforms.", no_args_is_help=True, rich_markup_mode="rich"
 )
 
 
-@assignment_app.command("new", cls=PanelCommand)
+@assignment_app.command("new")
 def new(
     scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Scenes: paths or catalog names.")],
     every: Annotated[bool, typer.Option("--all", help="Include every question that fits the scenes.")] = False,
@@ -30,7 +32,7 @@ def new(
         typer.echo(starting(scenes, every), nl=False)
 
 
-@assignment_app.command("handout", cls=PanelCommand)
+@assignment_app.command("handout")
 def handout(
     assignment: options.Assignment,
     form: Annotated[str | None, typer.Option("--format", metavar="NAME", help="html (default), pdf or md.")] = None,
@@ -64,7 +66,7 @@ def handout(
     typer.echo(target)
 
 
-@assignment_app.command("template", cls=PanelCommand)
+@assignment_app.command("template")
 def template(
     assignment: options.Assignment,
     out: Annotated[
@@ -84,7 +86,7 @@ def template(
             out.write_text(text, encoding="utf-8")
 
 
-@assignment_app.command("vary", cls=PanelCommand)
+@assignment_app.command("vary")
 def vary(
     assignment: options.Assignment,
     roster: Annotated[Path, typer.Option("--roster", metavar="TABLE.csv", help="The students of the course.")],
@@ -122,3 +124,50 @@ def drawing() -> Callable[[Any, Any, str], str | None]:
         return None if picture is None else picture.svg()
 
     return draw
+
+
+@export_app.command("gradescope")
+def export_gradescope(
+    assignment: options.Assignment,
+    out: Annotated[
+        Path, typer.Option("--out", metavar="PATH", callback=options.file_of("zip"), help="The zip to upload.")
+    ] = Path("autograder.zip"),
+    python: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--python",
+            metavar="VERSION",
+            help="A Python version on the platform; may be repeated. Default: 3.11 to 3.13.",
+        ),
+    ] = None,
+    wheels: Annotated[
+        bool, typer.Option(help="Include dofkit and its dependencies, so that no network is needed.")
+    ] = True,
+    reviewed: options.ReviewTable = None,
+) -> None:
+    """Write a Gradescope autograder as one zip to upload."""
+    from dofkit.homework import export
+
+    with failures_of(assignment):
+        pythons = python or export.PYTHONS
+        notes = export.export_gradescope(assignment, out, pythons, wheels=wheels, reviewed=reviewed)
+    for note in notes:
+        typer.echo(f"{out}: {note}", err=True)
+
+
+@export_app.command("grades")
+def export_grades(
+    assignment: options.Assignment,
+    results: Annotated[
+        Path, typer.Argument(metavar="RESULTS", help="The results.jsonl of `dofkit grade`, or its folder.")
+    ],
+    form: Annotated[str, typer.Option("--format", metavar="NAME", help="The format of a gradebook or platform.")],
+    out: Annotated[Path, typer.Option("--out", metavar="PATH", help="The file or folder to write.")],
+    roster: options.RosterPath = None,
+) -> None:
+    """Write existing results in another format, without regrading."""
+    from dofkit.homework.runs.run import GradingOptions, convert
+
+    with failures_of(assignment):
+        count = convert(assignment, results, GradingOptions(form, out, roster=roster))
+    typer.echo(f"{out}: {count} results")

@@ -1,48 +1,40 @@
-"""The command `classify`: each file's report as it comes, progress beside it, and a summary of several."""
+"""The command `classify`: each file's report as it comes, its progress, and a summary of several."""
 
 from __future__ import annotations
 
 import os
 import sys
 import time
-from collections.abc import Generator, Iterator, Sequence
+from collections import Counter
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import replace
+from heapq import nlargest
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import typer
 
 from dofkit.base.errors import ArgumentError
+from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import many
-from dofkit.interface.outcome import headline
-from dofkit.interface.presentation import Telling
-from dofkit.interface.progress import Progress
+from dofkit.interface.jobs import Printed, Request, name_of_file, replies
+from dofkit.interface.output import FAILED, FAILURES, UNREADABLE, Output, Progress
 from dofkit.interface.show.faults import safe
-from dofkit.interface.streams import ascii_only
-from dofkit.interface.summary import Summary
-from dofkit.interface.supervised import Printed, given_for_all, names_of, reports
-from dofkit.methods.table import MethodName
 
-#: Exit statuses: a scene is what it must not be; a file could not be read.
-FAILED, UNREADABLE = 1, 2
 #: Seconds between two looks at the files that are watched.
 LOOKING = 0.2
 #: Clears a terminal, and goes to its first line.
 _CLEARED = "\x1b[2J\x1b[H"
+#: How many scenes a summary names, and how many of the slowest.
+_MOST_NAMED, _SLOWEST = 8, 3
+#: What a finding is called after a number of scenes, where its name alone would be misread.
+_FINDINGS = {"redundant": "with redundant constraints"}
 
 
-class Asked(NamedTuple):
-    """What the command was asked: the files, how to tell of them, and what it fails on.
+class Run(NamedTuple):
+    """The findings that a run fails on, who answers many scenes at once, and the folder for their reports."""
 
-    ``workers`` and ``scheduler``: who answers many scenes at once; ``out``: the folder for their reports.
-    """
-
-    files: tuple[str, ...]
-    telling: Telling
-    budget: float | None = None
-    method: MethodName = "auto"
-    certificate: str | None = None
     fail_on: tuple[str, ...] = ()
     workers: int | None = None
     scheduler: str | None = None
@@ -50,43 +42,45 @@ class Asked(NamedTuple):
 
 
 def echo(printed: Printed) -> None:
-    """Print what there is of a file; what has colours was asked for them."""
+    """Print what there is about a file, with its colours."""
     typer.echo(printed.out, nl=False, color=True)
     typer.echo(printed.err, nl=False, err=True, color=True)
 
 
 def echo_count(errors: Sequence[int]) -> None:
-    """Print how many errors there are in how many files, where there are several."""
+    """Print how many errors there are in how many files, if there are several."""
     if sum(errors) > 1:
         typer.echo(f"{many(sum(errors), 'error')} in {many(sum(map(bool, errors)), 'file')}", err=True)
 
 
-def classified(asked: Asked) -> int:
-    """Print what there is of each file, and a summary of several; returns the exit status."""
+def classify_files(files: Sequence[str], request: Request, run: Run) -> int:
+    """Print what there is about each file, and a summary of several; return the exit status."""
     summary, errors = Summary(), []
-    telling = asked.telling
-    plain = not (telling.as_json or telling.only)
-    if plain and telling.brief and asked.out is None:
-        typer.echo(headline(max(map(len, names_of(asked.files)), default=0)))
-    progress = Progress(len(asked.files), sys.stderr)
-    for seconds, printed in _timed(asked, progress):
+    output = request.output
+    plain = not (output.as_json or output.only)
+    if plain and output.brief and run.out is None:
+        from dofkit.interface.show.line import headline  # which imports the report
+
+        typer.echo(headline(output.name_width))
+    for seconds, printed in _timed(files, request, run):
         echo(printed)
         summary.add(printed.outcome, seconds)
         errors.append(printed.errors)
-    if plain and len(asked.files) > 1:
+    if plain and len(files) > 1:
         lines = [safe(line) for line in summary.lines()]
-        typer.echo("\n".join(["", *lines] if telling.brief and asked.out is None else lines))
+        typer.echo("\n".join(["", *lines] if output.brief and run.out is None else lines))
     if any(errors):
-        if plain and asked.out is None:
+        if plain and run.out is None:
             echo_count(errors)
         return UNREADABLE
-    return FAILED if summary.fails(asked.fail_on) else 0
+    return FAILED if summary.fails(run.fail_on) else 0
 
 
-def _timed(asked: Asked, progress: Progress) -> Iterator[tuple[float, Printed]]:
-    """What is printed of each file, with the seconds that it took."""
-    with closing(_stream(asked)) as stream:
-        for file in asked.files:
+def _timed(files: Sequence[str], request: Request, run: Run) -> Iterator[tuple[float, Printed]]:
+    """Yield what is printed about each file, with the seconds that it took."""
+    progress = Progress(len(files), sys.stderr)
+    with closing(_stream(files, request, run)) as stream:
+        for file in files:
             progress.begin(file)
             start = time.perf_counter()
             try:
@@ -97,44 +91,99 @@ def _timed(asked: Asked, progress: Progress) -> Iterator[tuple[float, Printed]]:
         next(stream, None)
 
 
-def _stream(asked: Asked) -> Generator[Printed]:
-    """What is printed of each file: one after another, or many at once."""
-    if asked.workers is None and asked.scheduler is None and asked.out is None:
-        return reports(asked.files, asked.telling, asked.budget, asked.method, asked.certificate)
-    from dofkit.interface.many.run import Helpers, kept_reports, many_reports
+def _stream(files: Sequence[str], request: Request, run: Run) -> Generator[Printed]:
+    """Yield what is printed about each file: one after another, or many at once."""
+    if run.workers is None and run.scheduler is None and run.out is None:
+        return replies("report_lines", files, request)
+    from dofkit.interface.many import Helpers, kept_reports, many_reports  # which imports everything before it forks
 
-    helpers, telling = Helpers(asked.workers, asked.scheduler), asked.telling
-    telling = telling._replace(ascii_only=ascii_only())
-    if asked.out is not None:
-        telling = Telling(True, only=telling.only, without=telling.without, limits=telling.limits)
-    given = given_for_all(asked.files, telling, asked.budget, asked.method)
-    given = replace(given, certificate=asked.certificate)
-    if asked.out is None:
-        return many_reports(asked.files, given, helpers)
-    return kept_reports(asked.files, given, helpers, asked.out)
+    helpers = Helpers(run.workers, run.scheduler)
+    if run.out is None:
+        return many_reports(files, request, helpers)
+    as_json = Output(True, only=request.output.only)
+    return kept_reports(files, replace(request, output=as_json), helpers, run.out)
 
 
-def watched(asked: Asked) -> int:
-    """The same again whenever a file changes, until it is interrupted. Raises ArgumentError where there is no file."""
-    if not any(os.path.exists(file) for file in asked.files):
+def watch_files(files: Sequence[str], request: Request, run: Run) -> int:
+    """Classify again whenever a file changes, until it is interrupted. Raises ArgumentError if there is no file."""
+    if not any(os.path.exists(file) for file in files):
         raise ArgumentError("nothing can be watched: --watch takes files, no catalog names and not standard input")
     while True:
-        seen = _state(asked.files)
+        seen = _state(files)
         if sys.stdout.isatty():
             typer.echo(_CLEARED, nl=False)
-        classified(asked)
+        classify_files(files, request, run)
         sys.stdout.flush()
-        while _state(asked.files) == seen:
+        while _state(files) == seen:
             time.sleep(LOOKING)
 
 
-def _state(files: tuple[str, ...]) -> list[tuple[int, int] | None]:
-    """When each file was last changed, and how long it is; None while it is not there."""
-    found: list[tuple[int, int] | None] = []
+def _state(files: Sequence[str]) -> list[tuple[int, int] | None]:
+    """Return when each file was last changed, and its length; None for a file that does not exist."""
+    states: list[tuple[int, int] | None] = []
     for file in files:
         try:
-            told = os.stat(file)
-            found.append((told.st_mtime_ns, told.st_size))
+            status = os.stat(file)
+            states.append((status.st_mtime_ns, status.st_size))
         except OSError:
-            found.append(None)
-    return found
+            states.append(None)
+    return states
+
+
+def longest_name(files: Sequence[str]) -> int:
+    """Return the length of the longest name that scenes have by their files."""
+    return max((len(name_of_file(file)) for file in files), default=0)
+
+
+class Summary:
+    """The files so far, counted by verdict and finding, with the slowest; only the names that are printed are kept."""
+
+    def __init__(self) -> None:
+        self._files, self._unread, self._seconds = 0, 0, 0.0
+        self._verdicts, self._are = Counter[str](), Counter[str]()
+        self._expecting, self._wrong = 0, 0
+        self._named: list[str] = []
+        self._slowest: list[tuple[float, int, str]] = []
+
+    def add(self, outcome: Mapping[str, Any] | None, seconds: float) -> None:
+        """Count one file: its outcome (None: it could not be read), and its seconds, loading included."""
+        self._files += 1
+        self._seconds += seconds
+        if outcome is None:
+            self._unread += 1
+            return
+        self._verdicts[outcome["verdict"]] += 1
+        self._are.update(outcome["is"])
+        timed = (outcome.get("seconds", seconds), -self._files, outcome["scene"])
+        self._slowest = nlargest(_SLOWEST, [*self._slowest, timed])
+        if outcome.get("expects"):
+            self._expecting += 1
+        if outcome.get("expects") and outcome["unmet"]:
+            self._wrong += 1
+            self._named += [outcome["scene"]] if self._wrong <= _MOST_NAMED else []
+
+    def fails(self, on: tuple[str, ...]) -> bool:
+        """Return whether a scene has one of these findings."""
+        return any(self._are[name] for name in on)
+
+    def lines(self) -> Iterator[str]:
+        """Yield the lines of the summary."""
+        counts = [f"{self._verdicts[verdict]} {verdict}" for verdict in VERDICTS if self._verdicts[verdict]]
+        if self._unread:
+            counts.append(f"{self._unread} could not be read")
+        yield f"{many(self._files, 'scene')} in {_seconds(self._seconds)}: {', '.join(counts)}"
+        if self._expecting:
+            right = self._expecting - self._wrong
+            yield f"  agree with the answers in their files: {right} of {self._expecting}"
+        if self._wrong:
+            more = f" and {self._wrong - _MOST_NAMED} more" if self._wrong > _MOST_NAMED else ""
+            yield f"  differ from the answers in their files: {', '.join(self._named)}{more}"
+        findings = [f"{self._are[f]} {_FINDINGS.get(f, f)}" for f in FAILURES if self._are[f] and f != "undecided"]
+        if findings:
+            yield f"  {', '.join(findings)}"
+        if self._slowest:
+            yield f"  slowest: {', '.join(f'{scene} {_seconds(seconds)}' for seconds, _, scene in self._slowest)}"
+
+
+def _seconds(seconds: float) -> str:
+    return f"{seconds:.0f} s" if seconds >= 100 else f"{seconds:.2g} s" if seconds < 1 else f"{seconds:.1f} s"

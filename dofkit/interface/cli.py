@@ -1,57 +1,47 @@
-"""The command line: every command answers the files one by one, and no file stops the others."""
+"""The commands. Each answers its files one by one in a worker, and no file stops the others."""
 
 from __future__ import annotations
 
 import json
 import math
-import os
 import sys
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Mapping
 from contextlib import closing
-from copy import copy
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 
 import typer
-from typer.main import get_command_name
-from typer.models import CommandInfo
 
 from dofkit.base import __version__
 from dofkit.base.arguments import format_of_path, is_folder_path
+from dofkit.base.deadline import DEFAULT_SECONDS
 from dofkit.base.errors import ArgumentError
 from dofkit.interface import options
-from dofkit.interface.assignment_commands import assignment_app
-from dofkit.interface.catalog_commands import catalog
-from dofkit.interface.export_commands import export_app
-from dofkit.interface.failures import INTERRUPTED, UNREADABLE, failures_of, print_json
-from dofkit.interface.help_panels import MORE, PanelCommand, PanelGroup
-from dofkit.interface.presentation import Telling
+from dofkit.interface.assignment_commands import assignment_app, export_app
+from dofkit.interface.output import INTERRUPTED, UNREADABLE, Output, failures_of, print_json
 
 if TYPE_CHECKING:
-    from dofkit.interface.supervised import Printed
+    from dofkit.interface.jobs import Printed
     from dofkit.methods.table import MethodName
 
 Handler = TypeVar("Handler", bound=Callable[..., Any])
 
+#: The heading of the commands after the five that most people need.
+MORE = "More commands"
+#: Reports of more scenes than this are printed as one line each, unless full reports are asked for.
+MOST_IN_FULL = 3
+
 app = typer.Typer(
     name="dofkit",
-    cls=PanelGroup,
     help="Determine how a mechanical system can move: its degrees of freedom, constraint labels and redundancy.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
-    rich_markup_mode=None,
+    rich_markup_mode="rich",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.add_typer(assignment_app, name="assignment", rich_help_panel=MORE)
 app.add_typer(export_app, name="export", rich_help_panel=MORE)
-
-#: Reports of more scenes than this are printed as one line each, unless full reports are asked for.
-MOST_IN_FULL = 3
-
-
-def _command(panel: str | None = None) -> Callable[[Handler], Handler]:
-    """Return what adds a function to the command line, under a heading of the help."""
-    return app.command(cls=PanelCommand, rich_help_panel=panel)
 
 
 def _version(asked: bool) -> None:
@@ -69,7 +59,7 @@ def dofkit(
     """Determine how a mechanical system can move."""
 
 
-@_command()
+@app.command()
 def classify(
     files: options.Files,
     as_json: options.AsJson = False,
@@ -80,7 +70,7 @@ def classify(
     without: options.Without = None,
     fail_on: options.FailOn = None,
     watch: options.Watch = False,
-    budget: options.Budget = None,
+    budget: options.Budget = DEFAULT_SECONDS,
     method: options.Method = "auto",
     certificate: options.CertificatePath = None,
     limits: options.Limits = False,
@@ -92,22 +82,24 @@ def classify(
 
     Every answer carries a verdict: proved, probable, numeric or undecided.
     """
-    from dofkit.interface.classification import Asked, classified, watched
+    from dofkit.interface.classification import Run, classify_files, longest_name, watch_files
+    from dofkit.interface.jobs import Request
 
-    if budget is not None and math.isnan(budget):
+    if math.isnan(budget):
         raise typer.BadParameter("the budget is a number of seconds", param_hint="--budget")
     if out is not None and (watch or full or how or brief):
         raise typer.BadParameter("it cannot be combined with --watch, --brief, --full or --how", param_hint="--out")
-    telling = Telling.here(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
-    telling = telling._replace(only=options.fields(only), without=options.listed(without), limits=limits)
-    asked = Asked(tuple(files), telling, budget, cast("MethodName", method), certificate, options.failures(fail_on))
-    asked = asked._replace(workers=workers, scheduler=scheduler, out=out)
+    output = Output.here(as_json, brief or (len(files) > MOST_IN_FULL and not (full or how)), how)
+    output = output._replace(only=options.fields(only), name_width=longest_name(files))
+    request = Request("", output, budget, cast("MethodName", method), options.listed(without), limits)
+    request = replace(request, certificate=certificate)
+    run = Run(options.failures(fail_on), workers, scheduler, out)
     with failures_of("--watch" if watch else "classify"):
-        status = watched(asked) if watch else classified(asked)
+        status = watch_files(files, request, run) if watch else classify_files(files, request, run)
     raise typer.Exit(status)
 
 
-@_command()
+@app.command()
 def draw(
     files: options.Files,
     drawn_as: options.DrawnAs = "mechanism",
@@ -118,13 +110,13 @@ def draw(
     _pictures(files, drawn_as, out, form, options.STILL_KINDS)
 
 
-@_command()
+@app.command()
 def animate(files: options.Files, out: options.PicturePath = None, form: options.MovingKind = None) -> None:
     """Animate the motion: a page with a slider, a GIF or an MP4."""
     _pictures(files, "motion", out, form, options.MOVING_KINDS)
 
 
-@_command()
+@app.command()
 def lagrange(
     files: options.Files,
     as_json: options.AsJson = False,
@@ -132,12 +124,13 @@ def lagrange(
     certificate: options.CertificatePath = None,
 ) -> None:
     """Derive the equations of motion from the energies."""
-    from dofkit.interface.supervised import motions
+    from dofkit.interface.jobs import Request, replies
 
-    _print(motions(files, linearize, Telling.here(as_json), certificate), as_json)
+    request = Request("", Output.here(as_json), linearize=linearize, certificate=certificate)
+    _print(replies("motion_lines", files, request), as_json)
 
 
-@_command()
+@app.command()
 def grade(
     assignment: options.Assignment,
     submissions: options.Submissions,
@@ -158,7 +151,7 @@ def grade(
         raise typer.Exit(UNREADABLE)
 
 
-@_command(MORE)
+@app.command(rich_help_panel=MORE)
 def new(file: options.NewPath = None) -> None:
     """Write a first scene to edit, with the schema for editors."""
     from dofkit.interface.conversion import write_new
@@ -167,7 +160,7 @@ def new(file: options.NewPath = None) -> None:
         typer.echo(write_new(file), nl=False)
 
 
-@_command(MORE)
+@app.command(rich_help_panel=MORE)
 def convert(file: options.ModelPath, out: options.ScenePath = None, limits: options.Limits = False) -> None:
     """Convert a MJCF, URDF or SolveSpace model to a scene."""
     from dofkit.interface.conversion import write_converted
@@ -176,19 +169,8 @@ def convert(file: options.ModelPath, out: options.ScenePath = None, limits: opti
         typer.echo(write_converted(file, out, limits), nl=False)
 
 
-@_command(MORE)
-def explain(
-    words: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="WORD",
-            show_default=False,
-            help="A feedback code, report field, verdict, argument, theorem, constraint type or section of a scene.",
-            autocompletion=options.explained,
-        ),
-    ] = None,
-    as_json: options.AsJson = False,
-) -> None:
+@app.command(rich_help_panel=MORE)
+def explain(words: options.Word = None, as_json: options.AsJson = False) -> None:
     """Explain a field, verdict, constraint type or feedback code.
 
     Without a WORD, list every word that can be explained.
@@ -208,29 +190,51 @@ def explain(
             typer.echo(explanation.text())
 
 
-_command(MORE)(catalog)
+@app.command(rich_help_panel=MORE)
+def catalog(words: options.CatalogWords = None, as_json: options.AsJson = False) -> None:
+    """List the catalog's scenes, search them, or show one.
+
+    `dofkit catalog` lists the names, with their titles on a terminal. `dofkit catalog WORD...` lists the scenes in
+    which all the words occur. `dofkit catalog show NAME` prints the YAML of a scene.
+    """
+    from dofkit.scene.catalog import catalog_names, catalog_search, catalog_text, catalog_titles
+
+    with failures_of(" ".join(words or ())):
+        if words and words[0] == "show" and len(words) == 2:
+            typer.echo(catalog_text(words[1]), nl=False)
+        elif words:
+            _titles(catalog_search(words), as_json)
+        elif as_json or sys.stdout.isatty():
+            _titles(catalog_titles(), as_json)
+        else:
+            typer.echo("\n".join(catalog_names()))
 
 
-@_command(MORE)
+def _titles(titles: Mapping[str, str], as_json: bool) -> None:
+    width = max(map(len, titles), default=0)
+    for name, title in titles.items():
+        if as_json:
+            print_json({"name": name, "title": title})
+        else:
+            typer.echo(f"{name:<{width}}  {title}")
+
+
+@app.command(rich_help_panel=MORE)
 def verify(files: options.CertificateFiles, strict: options.Strict = False, as_json: options.AsJson = False) -> None:
     """Check a certificate with the independent checker."""
-    from dofkit.interface.supervised import CertificateGiven, verification
+    from dofkit.interface.jobs import CertificateRequest, verification
 
     if len(files) > 2:
         raise typer.BadParameter("a scene and its certificate, or a certificate alone", param_hint="[SCENE] CERT")
-    out, err, status = verification(CertificateGiven(files[0] if files[1:] else None, files[-1], strict, as_json))
+    scene, ascii_only = files[0] if files[1:] else None, Output.here(as_json).ascii_only
+    out, err, status = verification(CertificateRequest(scene, files[-1], strict, as_json, ascii_only))
     typer.echo(out, nl=False)
     typer.echo(err, nl=False, err=True)
     raise typer.Exit(status)
 
 
-@_command(MORE)
-def schema(
-    of: Annotated[
-        str,
-        typer.Argument(metavar="[WHAT]", help="scene, assignment, submission, result, report or chart."),
-    ] = "scene",
-) -> None:
+@app.command(rich_help_panel=MORE)
+def schema(of: options.SchemaName = "scene") -> None:
     """Print the JSON Schema of scenes, assignments or reports."""
     if of == "scene":
         from dofkit.scene.schema import scene_schema
@@ -249,7 +253,7 @@ def schema(
         raise typer.BadParameter(f"'{of}' is none of scene, {', '.join(SCHEMAS)}, chart", param_hint="WHAT")
 
 
-@_command(MORE)
+@app.command(rich_help_panel=MORE)
 def chart(
     question: options.Questions = None,
     families: options.Families = None,
@@ -274,14 +278,20 @@ def chart(
 
 
 def _pictures(files: list[str], kind: str, out: Path | None, form: str | None, known: tuple[str, ...]) -> None:
-    from dofkit.interface.supervised import pictures
+    """Write the picture of each file: to ``out`` if it is a file, else into that folder (None: the current one)."""
+    from dofkit.interface.jobs import Request, distinct_names, replies
 
-    if out is not None and not is_folder_path(out):
+    paths = [str(out)]
+    if out is None or is_folder_path(out):
+        suffix = f"-{kind}" if kind in ("graph", "directions") else ""
+        paths = [str((out or Path()) / f"{name}{suffix}.{form or known[0]}") for name in distinct_names(files)]
+    else:
         with failures_of("--out"):
-            form = format_of_path(out, known, form)
+            format_of_path(out, known, form)
             if len(files) > 1:
                 raise ArgumentError(f"'{out}' is one file, and {len(files)} scenes are drawn: name a folder")
-    _print(pictures(files, kind, out, form or known[0]))
+    request = Request("", Output.here(), pictures=tuple((kind, path) for path in paths))
+    _print(replies("picture_lines", files, request))
 
 
 def _print(printed: Generator[Printed], as_json: bool = False) -> None:
@@ -297,33 +307,3 @@ def _print(printed: Generator[Printed], as_json: bool = False) -> None:
         if not as_json:
             echo_count(errors)
         raise typer.Exit(UNREADABLE)
-
-
-def _app_for(words: list[str]) -> typer.Typer:
-    """Return the command line; where its first word names a command, with that command only, which starts sooner."""
-    only = copy(app)
-    only.registered_commands = [command for command in app.registered_commands if [_name_of(command)] == words]
-    only.registered_groups = [group for group in app.registered_groups if [group.name] == words]
-    return only if only.registered_commands or only.registered_groups else app
-
-
-def _name_of(command: CommandInfo) -> str | None:
-    return command.name or (command.callback and get_command_name(command.callback.__name__))
-
-
-def main() -> None:
-    """Run the command line; an interrupt or a closed pipe ends it without a traceback."""
-    for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="backslashreplace")
-    try:
-        _app_for(sys.argv[1:2])()
-    except KeyboardInterrupt:
-        sys.exit(INTERRUPTED)
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(1)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,4 +1,4 @@
-"""Where the command line begins, before anything of weight is imported."""
+"""Where the command line begins, before anything of weight is imported, and where the process ends."""
 
 from __future__ import annotations
 
@@ -7,36 +7,38 @@ import gc
 import os
 import sys
 import threading
+from typing import Any
 
-#: So many objects are made before those no longer used are looked for: imports make many, which all stay.
+from dofkit.interface.output import INTERRUPTED
+
+#: The collector of unused objects starts after this many allocations: imports make many objects, which all stay.
 OBJECTS = 100_000
 
 
 def main() -> None:
-    """Run the command line."""
+    """Run the command line and end this process; an interrupt or a closed pipe ends it without a traceback."""
     gc.set_threshold(OBJECTS)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    status: Any = 0
     try:
-        from dofkit.interface.cli import main as run  # after the settings above
+        from dofkit.interface.cli import app  # after the settings above
 
-        run()
+        app()
+    except KeyboardInterrupt:
+        status = INTERRUPTED
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        status = 1
     except SystemExit as ended:
-        if _alone() and isinstance(ended.code, int):
-            _leave(ended.code)
-        raise
-
-
-def _alone() -> bool:
-    """Does nobody wait for the end of this process: no other thread, no debugger, no profiler?"""
-    return threading.active_count() == 1 and sys.gettrace() is None and sys.getprofile() is None
-
-
-def _leave(status: int) -> None:
-    """End this process, after what is to be done at its end: to take it apart object by object takes Python long."""
-    atexit._run_exitfuncs()
-    try:
+        status = ended.code
+    watched = threading.active_count() > 1 or sys.gettrace() is not None or sys.getprofile() is not None
+    if isinstance(status, int) and not watched:
+        # Python would take every object apart, which takes a tenth of the time of a small scene.
+        atexit._run_exitfuncs()
         sys.stdout.flush()
         sys.stderr.flush()
-    except (OSError, ValueError, AttributeError):
-        return
-    os._exit(status)
+        os._exit(status)
+    sys.exit(status)

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import re
 import textwrap
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import cache
 from importlib import resources
 from typing import NamedTuple
+
+from pydantic import BaseModel
 
 from dofkit.base.errors import Fault, SceneError
 from dofkit.base.wording import closest, nearest, series
 from dofkit.classification.arguments import TABLE
 from dofkit.homework.key.misconceptions import CODES
-from dofkit.interface.field_meanings import OF_CONSTRAINT, OF_REPORT
 from dofkit.interface.show.assurance import VERDICT_MEANS
+from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES, ConstraintBase
 from dofkit.scene.hints import LINES, SECTIONS
 from dofkit.scene.scene import Scene
@@ -52,30 +54,29 @@ _WORDS = {
 
 
 class Explanation(NamedTuple):
-    """A word, what kind of word it is, and what it means."""
+    """A word, its kind, and its meaning."""
 
     word: str
     kind: str
     meaning: str
 
     def text(self) -> str:
-        """Lines for a terminal."""
+        """Return lines for a terminal."""
         wrapped = textwrap.wrap(self.meaning, _WIDTH - 2, break_long_words=False, break_on_hyphens=False)
         return "\n".join([f"{self.word}: {self.kind}", *(f"  {line}" for line in wrapped)])
 
 
 def explanations_of(word: str) -> list[Explanation]:
-    """All that a word means, in whatever case. Raises SceneError with the nearest words where it is none.
+    """Return all meanings of a word, in whatever case. Raises SceneError with the nearest words if there is none.
 
-    >>> explanations_of("NH_HALF")[0].kind, [told.kind for told in explanations_of("holonomic")]
+    >>> explanations_of("NH_HALF")[0].kind, [e.kind for e in explanations_of("holonomic")]
     ('feedback code', ['field of a report', 'field of a constraint'])
     """
     wanted = _plain(word)
-    found = [told for told in all_explanations() if _plain(told.word) == wanted]
-    if found:
-        return found
-    known = list(dict.fromkeys(told.word for told in all_explanations()))
-    lower = {_plain(name): name for name in known}
+    explanations = [explanation for explanation in all_explanations() if _plain(explanation.word) == wanted]
+    if explanations:
+        return explanations
+    lower = {_plain(explanation.word): explanation.word for explanation in all_explanations()}
     near = nearest(wanted, lower) or closest(wanted, list(lower), 0.5)
     within = [name for key, name in lower.items() if len(wanted) > 2 and wanted in key][:6]
     meant = list(dict.fromkeys(([lower[near]] if near else []) + within))
@@ -84,10 +85,10 @@ def explanations_of(word: str) -> list[Explanation]:
 
 
 def listed() -> str:
-    """All words, by their kind."""
+    """Return all words, by their kind."""
     kinds: dict[str, dict[str, None]] = {}
-    for told in all_explanations():
-        kinds.setdefault(told.kind, {})[told.word] = None
+    for explanation in all_explanations():
+        kinds.setdefault(explanation.kind, {})[explanation.word] = None
     blocks = []
     for kind, words in kinds.items():
         lines = textwrap.wrap(", ".join(words), _WIDTH - 2, break_long_words=False, break_on_hyphens=False)
@@ -101,11 +102,11 @@ def _plain(word: str) -> str:
 
 @cache
 def all_explanations() -> tuple[Explanation, ...]:
-    """Every word that is explained."""
+    """Return every word that is explained."""
     return (
         *(Explanation(code, "feedback code", meaning) for code, meaning in CODES.items()),
-        *_fields("field of a report", OF_REPORT),
-        *_fields("field of a constraint", OF_CONSTRAINT),
+        *_fields("field of a report", Report),
+        *_fields("field of a constraint", ConstraintEntry),
         *(Explanation(name, "verdict", _sentence(meaning)) for name, meaning in VERDICT_MEANS.items()),
         *(Explanation(word, "term", meaning) for word, meaning in _WORDS.items()),
         *(_section(name) for name in SECTIONS),
@@ -116,9 +117,9 @@ def all_explanations() -> tuple[Explanation, ...]:
     )
 
 
-def _fields(kind: str, meanings: Mapping[str, str]) -> Iterator[Explanation]:
-    for name, meaning in meanings.items():
-        yield Explanation(name, kind, _sentence(meaning))
+def _fields(kind: str, model: type[BaseModel]) -> Iterator[Explanation]:
+    for name, field in model.model_fields.items():
+        yield Explanation(name, kind, _sentence(field.description or ""))
 
 
 def _section(name: str) -> Explanation:

@@ -6,81 +6,72 @@ from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
+from typer import Argument, BadParameter, Option
 
 from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.errors import ArgumentError
 from dofkit.base.wording import no_such
-from dofkit.interface.help_panels import ADVANCED
-from dofkit.interface.outcome import FAILURES
-from dofkit.methods.table import METHODS
+from dofkit.interface.output import FAILURES
 
-# completion by the shell
+#: The heading of the options that few people need.
+ADVANCED = "Advanced"
+STILL_KINDS, MOVING_KINDS = ("svg", "png", "pdf", "html"), ("html", "gif", "mp4")
+DRAWN_AS = ("mechanism", "graph", "directions")
+#: The names of the methods, as `dofkit.methods.table` has them, whose import takes long.
+METHODS = ("auto", "count", "graph", "field", "balls", "exact", "numeric", "symbolic")
 
 
-def explained(incomplete: str) -> list[str]:
+# Completion by the shell
+
+
+def _explained(incomplete: str) -> list[str]:
     """Return the words that `explain` knows."""
-    from dofkit.interface.explanations import all_explanations
+    from dofkit.interface.explanations import all_explanations  # only a shell that completes needs it
 
-    known = all_explanations()
-    return list(dict.fromkeys(told.word for told in known if told.word.casefold().startswith(incomplete.casefold())))
+    words = (explanation.word for explanation in all_explanations())
+    return list(dict.fromkeys(word for word in words if word.casefold().startswith(incomplete.casefold())))
 
 
-def catalogued(incomplete: str) -> list[str]:
-    """Return the names of the catalog; where none fits the shell completes files."""
-    from dofkit.scene.catalog import catalog_names
+def _catalogued(incomplete: str) -> list[str]:
+    """Return the names of the catalog; if none fits, the shell completes files."""
+    from dofkit.scene.catalog import catalog_names  # only a shell that completes needs it
 
     return [name for name in catalog_names() if incomplete and name.startswith(incomplete)]
 
 
-# of several commands
+# Checks. Each raises BadParameter.
 
 
-def _named(arguments: list[str]) -> list[str]:
+def _files(arguments: list[str]) -> list[str]:
     """Return every file that the arguments name; folders and patterns stand for the files in them."""
-    from dofkit.interface.named_files import named_files
+    from dofkit.interface.named_files import named_files  # which imports the readers of models
 
     return named_files(arguments)
 
 
 def folder(path: Path | None) -> Path | None:
-    """Return the path of a folder. Raises BadParameter for a path with the ending of a file."""
-    return path if path is None or is_folder_path(path) else _of_format(path, ())
+    """Return the path of a folder, which has no ending."""
+    return path if path is None or is_folder_path(path) else _with_ending(path, ())
 
 
 def file_of(*known: str) -> Callable[[Path | None], Path | None]:
     """Return what checks that a path has one of the endings of the files that can be written."""
-    return lambda path: path if path is None else _of_format(path, known)
+    return lambda path: path if path is None else _with_ending(path, known)
 
 
-def _of_format(path: Path, known: Collection[str]) -> Path:
-    try:
-        format_of_path(path, known)
-    except ArgumentError as error:
-        raise typer.BadParameter(str(error)) from None
+def _certificate(path: str | None) -> str | None:
+    """Return the path of a certificate or of a folder of certificates."""
+    if path is not None and not is_folder_path(Path(path)):
+        _with_ending(Path(path), ("json",))
     return path
 
 
-Files = Annotated[
-    list[str],
-    typer.Argument(
-        metavar="FILE",
-        help="Scenes or models: paths, folders, patterns, catalog names, or - for standard input.",
-        autocompletion=catalogued,
-        callback=_named,
-    ),
-]
-AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object per line, in the order given.")]
-Budget = Annotated[
-    float | None,
-    typer.Option(
-        "--budget",
-        metavar="SECONDS",
-        min=0,
-        help="Time limit per scene; what is unfinished then is undecided.",
-        rich_help_panel=ADVANCED,
-    ),
-]
+def _with_ending(path: Path, known: Collection[str]) -> Path:
+    try:
+        format_of_path(path, known)
+    except ArgumentError as error:
+        raise BadParameter(str(error)) from None
+    return path
 
 
 def _one_of(known: Collection[str]) -> Callable[[str | None], str | None]:
@@ -88,235 +79,144 @@ def _one_of(known: Collection[str]) -> Callable[[str | None], str | None]:
 
     def checked(word: str | None) -> str | None:
         if word is not None and word not in known:
-            raise typer.BadParameter(f"'{word}' is none of {', '.join(known)}")
+            raise BadParameter(f"'{word}' is none of {', '.join(known)}")
         return word
 
     return checked
 
 
-Brief = Annotated[bool, typer.Option("--brief", help="Print one line per scene (the default for more than three).")]
-Full = Annotated[bool, typer.Option("--full", help="Print full reports, however many scenes there are.")]
-How = Annotated[bool, typer.Option("--how", help="Show the argument behind each answer and how certain it is.")]
-Only = Annotated[
-    list[str] | None,
-    typer.Option("--only", metavar="FIELD,...", help="Print these fields of the report only, such as dof."),
-]
-Without = Annotated[
-    list[str] | None,
-    typer.Option("--without", metavar="NAME,...", help="Drop these constraints, and show what changes."),
-]
-FailOn = Annotated[
-    list[str] | None,
-    typer.Option("--fail-on", metavar="WHAT,...", help=f"Exit with status 1 if a scene is {', '.join(FAILURES)}."),
-]
-SceneWorkers = Annotated[
-    int | None,
-    typer.Option(
-        "--workers",
-        metavar="N",
-        min=1,
-        help="Number of processes; with --out the default is one per core.",
-        rich_help_panel=ADVANCED,
-    ),
-]
-ReportFolder = Annotated[
-    Path | None,
-    typer.Option(
-        "--out",
-        metavar="DIR",
-        callback=folder,
-        help="Write the reports to DIR/reports.jsonl; a later run answers only what is new or changed.",
-    ),
-]
-Limits = Annotated[bool, typer.Option("--limits", help="Include the joint limits of models as inequalities.")]
-ModelPath = Annotated[str, typer.Argument(metavar="FILE", help="A MJCF or URDF file, or a SolveSpace sketch.")]
-ScenePath = Annotated[
-    Path | None,
-    typer.Option(
-        "--out",
-        metavar="SCENE.yaml",
-        callback=file_of("yaml", "yml"),
-        help="The file to write; without it the scene is printed.",
-    ),
-]
-NewPath = Annotated[
-    Path | None,
-    typer.Argument(
-        metavar="[FILE]", callback=file_of("yaml", "yml"), help="The file to write; without it the scene is printed."
-    ),
-]
-Watch = Annotated[bool, typer.Option("--watch", help="Run again whenever a file changes, until Ctrl-C.")]
-
-
-def listed(given: list[str] | None) -> tuple[str, ...]:
+def listed(texts: list[str] | None) -> tuple[str, ...]:
     """Return the names in lists with commas."""
-    return tuple(name for text in given or () for name in text.replace(",", " ").split())
+    return tuple(name for text in texts or () for name in text.replace(",", " ").split())
 
 
 def fields(only: list[str] | None) -> tuple[str, ...]:
-    """Return names of fields of a report. Raises BadParameter for any other name."""
+    """Return names of fields of a report."""
     if not only:
         return ()
-    from dofkit.report import Report
+    from dofkit.report import Report  # which imports pydantic
 
-    return _known(listed(only), Report.model_fields, "field", "--only")
+    return _names_among(listed(only), Report.model_fields, "field", "--only")
 
 
 def failures(fail_on: list[str] | None) -> tuple[str, ...]:
-    """Return the findings that a command fails on. Raises BadParameter for any other name."""
-    return _known(listed(fail_on), FAILURES, "failure", "--fail-on")
+    """Return the findings that a command fails on."""
+    return _names_among(listed(fail_on), FAILURES, "failure", "--fail-on")
 
 
-def _known(names: tuple[str, ...], known: Iterable[str], what: str, option: str) -> tuple[str, ...]:
+def _names_among(names: tuple[str, ...], allowed: Iterable[str], what: str, option: str) -> tuple[str, ...]:
     for name in names:
-        if name not in known:
-            raise typer.BadParameter(no_such(name, known, what), param_hint=option)
+        if name not in allowed:
+            raise BadParameter(no_such(name, allowed, what), param_hint=option)
     return names
-
-
-Method = Annotated[
-    str,
-    typer.Option(
-        "--method",
-        metavar="NAME",
-        callback=_one_of(METHODS),
-        help=f"Answer by one method only: {', '.join(METHODS)}.",
-        rich_help_panel=ADVANCED,
-    ),
-]
-
-
-Assignment = Annotated[str, typer.Argument(metavar="ASSIGNMENT", help="The assignment: YAML or JSON.")]
-Workers = Annotated[
-    int | None,
-    typer.Option(
-        "--workers",
-        metavar="N",
-        min=1,
-        help="Number of processes; the default is one per core.",
-        rich_help_panel=ADVANCED,
-    ),
-]
-Scheduler = Annotated[
-    str | None,
-    typer.Option(
-        "--scheduler", metavar="ADDRESS", help="Run on the Dask cluster at this address.", rich_help_panel=ADVANCED
-    ),
-]
-
-# of certificates
-
-
-def _certificate(path: str | None) -> str | None:
-    """Return the path of a certificate or of a folder. Raises BadParameter for a file that does not end in .json."""
-    if path is not None and not is_folder_path(Path(path)):
-        _of_format(Path(path), ("json",))
-    return path
-
-
-CertificatePath = Annotated[
-    str | None,
-    typer.Option(
-        "--certificate",
-        metavar="OUT.json",
-        callback=_certificate,
-        help="Write a certificate that `dofkit verify` can check; for several files name a folder.",
-    ),
-]
-CertificateFiles = Annotated[
-    list[str],
-    typer.Argument(metavar="[SCENE] CERT", help="A scene and its certificate, or a certificate that holds its scene."),
-]
-Strict = Annotated[bool, typer.Option("--strict", help="Fail if a claim is not covered by evidence, too.")]
-
-# of pictures
-
-PicturePath = Annotated[
-    Path | None,
-    typer.Option(
-        "--out", metavar="PATH", help="The file, whose ending decides the format; or a folder for several scenes."
-    ),
-]
-
-
-STILL_KINDS, MOVING_KINDS = ("svg", "png", "pdf", "html"), ("html", "gif", "mp4")
-DRAWN_AS = ("mechanism", "graph", "directions")
 
 
 def _format(kinds: Collection[str]) -> Any:
     """Return the option for the format of the pictures in a folder."""
     about = f"The format in a folder: {', '.join(kinds)}; the default is {next(iter(kinds))}."
-    return typer.Option("--format", metavar="KIND", callback=_one_of(kinds), help=about)
+    return Option("--format", metavar="KIND", callback=_one_of(kinds), help=about)
 
 
+def _workers(help_text: str) -> Any:
+    return Option("--workers", metavar="N", min=1, help=help_text, rich_help_panel=ADVANCED)
+
+
+# Of several commands
+
+_FILES = "Scenes or models: paths, folders, patterns, catalog names, or - for standard input."
+Files = Annotated[list[str], Argument(metavar="FILE", help=_FILES, autocompletion=_catalogued, callback=_files)]
+AsJson = Annotated[bool, Option("--json", help="Print one JSON object per line, in the order given.")]
+_LIMIT = "Time limit per scene; what is unfinished then is undecided."
+Budget = Annotated[float, Option("--budget", metavar="SECONDS", min=0, help=_LIMIT, rich_help_panel=ADVANCED)]
+Limits = Annotated[bool, Option("--limits", help="Include the joint limits of models as inequalities.")]
+Workers = Annotated[int | None, _workers("Number of processes; the default is one per core.")]
+_CLUSTER = "Run on the Dask cluster at this address."
+Scheduler = Annotated[str | None, Option("--scheduler", metavar="ADDRESS", help=_CLUSTER, rich_help_panel=ADVANCED)]
+Assignment = Annotated[str, Argument(metavar="ASSIGNMENT", help="The assignment: YAML or JSON.")]
+_ROSTER = "The students of the course: names, addresses, ids."
+RosterPath = Annotated[Path | None, Option("--roster", metavar="TABLE.csv", help=_ROSTER)]
+_REVIEW = "A review.csv in which a person has filled in points."
+ReviewTable = Annotated[Path | None, Option("--reviewed", metavar="CSV", help=_REVIEW)]
+
+# Of `classify`
+
+Brief = Annotated[bool, Option("--brief", help="Print one line per scene (the default for more than three).")]
+Full = Annotated[bool, Option("--full", help="Print full reports, however many scenes there are.")]
+How = Annotated[bool, Option("--how", help="Show the argument behind each answer and how certain it is.")]
+_ONLY = "Print these fields of the report only, such as dof."
+Only = Annotated[list[str] | None, Option("--only", metavar="FIELD,...", help=_ONLY)]
+_WITHOUT = "Drop these constraints, and show what changes."
+Without = Annotated[list[str] | None, Option("--without", metavar="NAME,...", help=_WITHOUT)]
+_FAIL_ON = f"Exit with status 1 if a scene is {', '.join(FAILURES)}."
+FailOn = Annotated[list[str] | None, Option("--fail-on", metavar="WHAT,...", help=_FAIL_ON)]
+SceneWorkers = Annotated[int | None, _workers("Number of processes; with --out the default is one per core.")]
+_REPORTS = "Write the reports to DIR/reports.jsonl; a later run answers only what is new or changed."
+ReportFolder = Annotated[Path | None, Option("--out", metavar="DIR", callback=folder, help=_REPORTS)]
+Watch = Annotated[bool, Option("--watch", help="Run again whenever a file changes, until Ctrl-C.")]
+_METHOD = f"Answer by one method only: {', '.join(METHODS)}."
+Method = Annotated[
+    str, Option("--method", metavar="NAME", callback=_one_of(METHODS), help=_METHOD, rich_help_panel=ADVANCED)
+]
+
+# Of certificates
+
+_CERTIFICATE = "Write a certificate that `dofkit verify` can check; for several files name a folder."
+CertificatePath = Annotated[
+    str | None, Option("--certificate", metavar="OUT.json", callback=_certificate, help=_CERTIFICATE)
+]
+_SCENE_AND_CERTIFICATE = "A scene and its certificate, or a certificate that holds its scene."
+CertificateFiles = Annotated[list[str], Argument(metavar="[SCENE] CERT", help=_SCENE_AND_CERTIFICATE)]
+Strict = Annotated[bool, Option("--strict", help="Fail if a claim is not covered by evidence, too.")]
+
+# Of pictures and equations of motion
+
+_PICTURE = "The file, whose ending decides the format; or a folder for several scenes."
+PicturePath = Annotated[Path | None, Option("--out", metavar="PATH", help=_PICTURE)]
 StillKind = Annotated[str | None, _format(STILL_KINDS)]
 MovingKind = Annotated[str | None, _format(MOVING_KINDS)]
-DrawnAs = Annotated[
-    str,
-    typer.Option(
-        "--as",
-        metavar="KIND",
-        callback=_one_of(DRAWN_AS),
-        help="mechanism; graph: constraints and what they constrain; directions: those of a growth vector.",
-    ),
-]
+_DRAWN_AS = "mechanism; graph: constraints and what they constrain; directions: those of a growth vector."
+DrawnAs = Annotated[str, Option("--as", metavar="KIND", callback=_one_of(DRAWN_AS), help=_DRAWN_AS)]
+_LINEARIZE = "Add the matrices M, C and K of small motions about an equilibrium."
+Linearize = Annotated[bool, Option("--linearize", help=_LINEARIZE)]
 
-# of `lagrange`
+# Of `grade`
 
-Linearize = Annotated[
-    bool, typer.Option("--linearize", help="Add the matrices M, C and K of small motions about an equilibrium.")
-]
+_SUBMISSION = "YAML, JSON, JSON lines or CSV files, folders of them, or - for standard input."
+Submissions = Annotated[list[str], Argument(metavar="SUBMISSION", help=_SUBMISSION)]
+_FORMAT = "native, html, or the format of a gradebook."
+ResultFormat = Annotated[str, Option("--format", metavar="NAME", help=_FORMAT)]
+_RESULT = "The file or folder to write; an interrupted run resumes there."
+ResultPath = Annotated[Path | None, Option("--out", metavar="PATH", help=_RESULT)]
+CheckOnly = Annotated[bool, Option("--check-only", help="Show how every answer is read, without grading.")]
 
-# of `grade`
+# Of `new`, `convert`, `explain`, `catalog` and `schema`
 
-Submissions = Annotated[
-    list[str],
-    typer.Argument(
-        metavar="SUBMISSION",
-        help="YAML, JSON, JSON lines or CSV files, folders of them, or - for standard input.",
-    ),
+_WRITTEN = "The file to write; without it the scene is printed."
+_YAML = file_of("yaml", "yml")
+ModelPath = Annotated[str, Argument(metavar="FILE", help="A MJCF or URDF file, or a SolveSpace sketch.")]
+ScenePath = Annotated[Path | None, Option("--out", metavar="SCENE.yaml", callback=_YAML, help=_WRITTEN)]
+NewPath = Annotated[Path | None, Argument(metavar="FILE", callback=_YAML, help=_WRITTEN)]
+_WORD = "A feedback code, report field, verdict, argument, theorem, constraint type or section of a scene."
+Word = Annotated[list[str] | None, Argument(metavar="WORD", show_default=False, help=_WORD, autocompletion=_explained)]
+_CATALOG = "Words that occur in a scene; or `show` and the name of a scene."
+CatalogWords = Annotated[
+    list[str] | None, Argument(metavar="WORD", show_default=False, help=_CATALOG, autocompletion=_catalogued)
 ]
-ResultFormat = Annotated[
-    str, typer.Option("--format", metavar="NAME", help="native, html, or the format of a gradebook.")
-]
-ResultPath = Annotated[
-    Path | None,
-    typer.Option("--out", metavar="PATH", help="The file or folder to write; an interrupted run resumes there."),
-]
-ReviewTable = Annotated[
-    Path | None,
-    typer.Option("--reviewed", metavar="CSV", help="A review.csv in which a person has filled in points."),
-]
-CheckOnly = Annotated[bool, typer.Option("--check-only", help="Show how every answer is read, without grading.")]
+SchemaName = Annotated[str, Argument(metavar="WHAT", help="scene, assignment, submission, result, report or chart.")]
 
-RosterPath = Annotated[
-    Path | None,
-    typer.Option("--roster", metavar="TABLE.csv", help="The students of the course: names, addresses, ids."),
-]
+# Of `chart`
 
-# of `chart`
-
-Questions = Annotated[
-    list[str] | None, typer.Option("--question", metavar="Q", help="dof, integrability, redundancy or equivalence.")
-]
-Families = Annotated[
-    list[str] | None, typer.Option("--families", metavar="NAME,...", help="Families of trials; the default is all.")
-]
-Methods = Annotated[
-    list[str] | None, typer.Option("--methods", metavar="NAME,...", help="Methods to compare; the default is all.")
-]
-ChartFolder = Annotated[
-    Path, typer.Option("--out", metavar="DIR", callback=folder, help="The folder for data and figures.")
-]
-ChartSource = Annotated[
-    Path | None, typer.Option("--from", metavar="DIR", help="Redraw the figures from the data of an earlier run.")
-]
-Quick = Annotated[bool, typer.Option("--quick", help="Run a few small trials of each family, in under a minute.")]
-Most = Annotated[
-    int | None,
-    typer.Option("--most", metavar="N", min=0, help="The number of trials per family and question; 0 for all."),
-]
-Timeout = Annotated[
-    float | None,
-    typer.Option("--timeout", metavar="SECONDS", min=0.01, help="Processor time per trial and method."),
-]
+_QUESTION = "dof, integrability, redundancy or equivalence."
+Questions = Annotated[list[str] | None, Option("--question", metavar="Q", help=_QUESTION)]
+_FAMILIES = "Families of trials; the default is all."
+Families = Annotated[list[str] | None, Option("--families", metavar="NAME,...", help=_FAMILIES)]
+_METHODS = "Methods to compare; the default is all."
+Methods = Annotated[list[str] | None, Option("--methods", metavar="NAME,...", help=_METHODS)]
+ChartFolder = Annotated[Path, Option("--out", metavar="DIR", callback=folder, help="The folder for data and figures.")]
+_SOURCE = "Redraw the figures from the data of an earlier run."
+ChartSource = Annotated[Path | None, Option("--from", metavar="DIR", help=_SOURCE)]
+Quick = Annotated[bool, Option("--quick", help="Run a few small trials of each family, in under a minute.")]
+_MOST = "The number of trials per family and question; 0 for all."
+Most = Annotated[int | None, Option("--most", metavar="N", min=0, help=_MOST)]
+_TIMEOUT = "Processor time per trial and method."
+Timeout = Annotated[float | None, Option("--timeout", metavar="SECONDS", min=0.01, help=_TIMEOUT)]

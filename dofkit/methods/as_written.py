@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from dofkit.base.errors import TextError
 from dofkit.expressions import tree as ex
-from dofkit.expressions.differentials import accelerations_of, cleared, in_velocities
+from dofkit.expressions.calculus import accelerations_of, cleared, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Pfaffian

@@ -9,7 +9,7 @@ from typing import Any
 
 from dofkit.base.libraries import nx
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.matrices.rows import LinearRow
+from dofkit.exact.matrices.sparse import LinearRow
 from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring

@@ -11,9 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from dofkit.exact.independence import doubt
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero import doubt
 from dofkit.expressions.tree import TIME, Expr, coordinate
 from dofkit.mobility.placement import Placement, drawn_placement
 from dofkit.mobility.twists import rows_of

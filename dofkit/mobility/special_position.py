@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
-from dofkit.exact.matrices.rows import Numbers, cross, spanning
-from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.exact.matrices.sparse import Numbers, cross, rank_of_rows, spanning
 from dofkit.expressions.text import to_text
 from dofkit.mobility.placement import Placement
 from dofkit.system import GROUND, Connection, System

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from dofkit.exact.matrices.rows import LinearRow, Numbers, less
+from dofkit.exact.matrices.sparse import LinearRow, Numbers, less
 from dofkit.system import Kinematics, TypeFacts
 
 #: Columns of the angular velocity by dimension.

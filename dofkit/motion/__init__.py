@@ -3,7 +3,7 @@
 `lagrange` derives Lagrange's equations of the second kind. The energies come from masses, springs, gravity or texts;
 linear constraints are eliminated where that is possible, otherwise they have multipliers. It reports generalized
 forces, conserved quantities (cyclic coordinates, the Jacobi integral h = sum p qdot - L), equilibria and small
-motions about them, and hands the equations to SymPy. Every equation can be rechecked by `dofkit.motion_checker`. Its
+motions about them, and hands the equations to SymPy. Every equation can be rechecked by `dofkit.checker`. Its
 result is a `MotionReport`.
 
 `sampled` follows a motion by arclength: a predictor along the tangent space, Newton's method back to the

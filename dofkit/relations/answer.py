@@ -10,8 +10,8 @@ from typing import NamedTuple
 from flint import arb
 
 from dofkit.base.verdicts import OPEN, About, ArgumentKey, Claim, Verdict
-from dofkit.exact.independence import Doubt
 from dofkit.exact.matrices.sparse import SparseRow, Supports
+from dofkit.exact.zero import Doubt
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block
 

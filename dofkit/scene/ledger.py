@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from fractions import Fraction
 
 from dofkit.base.errors import Fault, TextError
-from dofkit.expressions.differentials import in_velocities, linear_in_accelerations
+from dofkit.expressions.calculus import in_velocities, linear_in_accelerations
 from dofkit.expressions.renaming import Template
 from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.text.names import pattern_of

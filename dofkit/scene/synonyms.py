@@ -11,8 +11,7 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any, NamedTuple
 
-from dofkit.expressions.text.characters import GREEK_LETTERS, SUBSCRIPTS
-from dofkit.expressions.text.latex import without_latex
+from dofkit.expressions.text.characters import GREEK_LETTERS, SUBSCRIPTS, without_latex
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.constraints.equations import Equation
 

@@ -8,7 +8,6 @@ from typing import Any
 import typer.main
 
 from dofkit.interface.cli import app
-from dofkit.interface.help_panels import metavar_of
 from dofkit.site.markdown import SitePage, code, page, prose, table
 
 
@@ -53,3 +52,9 @@ def _option(parameter: Any) -> str:
 def _default(parameter: Any) -> str:
     default = parameter.default
     return "" if default in (None, False, (), []) or callable(default) else f" Default: {code(str(default))}."
+
+
+def metavar_of(parameter: Any) -> str:
+    """Return the name of an argument as a usage line shows it, such as ``FILE...``."""
+    name = str(parameter.metavar or parameter.name.upper())
+    return f"{name}..." if parameter.nargs == -1 and not name.endswith(("...", "]")) else name

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from importlib import resources
+
+from pydantic import BaseModel
 
 from dofkit.classification.arguments import TABLE
 from dofkit.homework.key.misconceptions import CODES
 from dofkit.interface.explanations import all_explanations
-from dofkit.interface.field_meanings import OF_CONSTRAINT, OF_REPORT
 from dofkit.interface.show.assurance import VERDICT_MEANS
+from dofkit.report import ConstraintEntry, Report
 from dofkit.site.markdown import SitePage, anchor, code, prose, table
 
 THEOREMS, GLOSSARY = "about/theorems.md", "reference/glossary.md"
@@ -34,10 +36,10 @@ def _tables() -> Iterator[str]:
     yield table(("term", "meaning"), [(prose(word), prose(meaning)) for word, meaning in words])
     yield "## Fields of a report"
     yield "`report.NAME` in Python, the keys of `dofkit classify --json`, and what `dofkit explain NAME` prints."
-    yield _fields(OF_REPORT)
+    yield _fields(Report)
     yield "## Fields of a constraint"
     yield "Each entry of `constraints` in a report has these fields."
-    yield _fields(OF_CONSTRAINT)
+    yield _fields(ConstraintEntry)
     yield "## Verdicts"
     yield "From the most to the least certain; the verdict of a report is the weakest in it."
     yield table(("verdict", "meaning"), [(code(name), prose(meaning)) for name, meaning in VERDICT_MEANS.items()])
@@ -49,8 +51,9 @@ def _tables() -> Iterator[str]:
     yield table(("code", "meaning"), [(code(name), prose(meaning)) for name, meaning in CODES.items()])
 
 
-def _fields(meanings: Mapping[str, str]) -> str:
-    return table(("field", "meaning"), [(code(name), prose(meaning)) for name, meaning in meanings.items()])
+def _fields(model: type[BaseModel]) -> str:
+    rows = [(code(name), prose(field.description or "")) for name, field in model.model_fields.items()]
+    return table(("field", "meaning"), rows)
 
 
 def _arguments() -> str:

@@ -432,7 +432,7 @@ def test_a_file_in_the_working_folder_is_not_run(tmp_path: Path) -> None:
 
 
 STUCK = """
-import sys, dofkit.interface.one_file as telling, dofkit.interface.cli
+import sys, dofkit.interface.answers as telling, dofkit.interface.entry
 from pathlib import Path
 import pytest
 from shared import worker_jobs
@@ -446,7 +446,7 @@ def classified(scene, *others):
     return real(scene, *others)
 telling.classified = classified
 sys.argv = ["dofkit", "classify", *sys.argv[1:]]
-dofkit.interface.cli.main()
+dofkit.interface.entry.main()
 """
 
 
@@ -467,7 +467,7 @@ def test_a_scene_without_end_does_not_stop_the_others(tmp_path: Path) -> None:
 
 
 CRASHING = """
-import sys, dofkit.interface.one_file as telling, dofkit.interface.cli
+import sys, dofkit.interface.answers as telling, dofkit.interface.entry
 from pathlib import Path
 import pytest
 from shared import worker_jobs
@@ -481,7 +481,7 @@ def read(data, name, *more):
     return real(data, name, *more)
 telling.SceneFile.read = read
 sys.argv = ["dofkit", "classify", *sys.argv[1:]]
-dofkit.interface.cli.main()
+dofkit.interface.entry.main()
 """
 
 

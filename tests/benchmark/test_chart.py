@@ -284,11 +284,11 @@ def test_scores_points_and_auto_against_the_fastest() -> None:
         ("3", 1e-3, 1, 0, 0),
         ("3", 1e-1, 0, 0, 1),
     ]
-    assert command.auto_sentences(chart)[0] == "auto: 4 trials, 0 wrong, 0 without an answer"
-    assert command.auto_sentences(chart)[1:] == [
-        "auto: at most twice the time of the fastest method that is right on a family and never wrong: 0 of 1 families",
+    assert list(command.auto_sentences(chart)) == [
+        "8 trials by four methods, at most 4 s each: of the answers of `auto` none is wrong and 0 % are undecided.",
+        "On 0 of 1 families `auto` takes at most twice the time of the fastest method that is right there and wrong "
+        "nowhere; with those that are right there by luck it does on 0 of 1.",
         "  dof, boxes: 4.0 times graph",
-        "auto: the same, with methods that are wrong elsewhere: 0 of 1 families",
     ]
     assert all(text.endswith("Made by: dofkit chart --quick") for text in chart.captions.values())
 
@@ -346,7 +346,7 @@ def test_the_command_runs_tells_and_redraws(tmp_path: Path) -> None:
     out = tmp_path / "new" / "folder"
     done = CliRunner().invoke(app, [*arguments, "--out", str(out)])
     assert done.exit_code == 0, done.output
-    assert "auto: 2 trials, 0 wrong, 0 without an answer" in done.output
+    assert "of the answers of `auto` none is wrong and 0 % are undecided." in " ".join(done.output.split())
     assert "nothing is drawn without matplotlib: pip install 'dofkit[chart]'" in done.output
     data = record.read(out)
     assert len(data.lines) == 2 * 2

@@ -12,8 +12,22 @@ from flint import arb
 from dofkit.base.errors import TextError
 from dofkit.checker.grammar import EULER, PI, KnownNames, parse, parse_relations
 from dofkit.checker.trees import FUNCTIONS as HEADS
-from dofkit.checker.trees import ONE, ZERO, CheckError, Effort, Tree, add, call, negative, number, power, symbol, times
-from dofkit.checker.values import derivative, evaluated
+from dofkit.checker.trees import (
+    ONE,
+    ZERO,
+    CheckError,
+    Effort,
+    Tree,
+    add,
+    call,
+    derivative,
+    evaluated,
+    negative,
+    number,
+    power,
+    symbol,
+    times,
+)
 from dofkit.expressions.text import AmbiguousError, Names, parse_expression
 from dofkit.expressions.tree import num, parameter
 

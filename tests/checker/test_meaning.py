@@ -15,7 +15,7 @@ from shared.known_scenes import SCENES, few, scene_of, stem
 
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import document_of, read_problem
-from dofkit.expressions.differentials import in_velocities
+from dofkit.expressions.calculus import in_velocities
 from dofkit.expressions.tree import Expr, coordinate, parameter, sym, velocity
 from dofkit.scene.lowering import lower
 from dofkit.system import Constraint, System

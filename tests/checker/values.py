@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dofkit.checker.trees import Tree
-from dofkit.checker.values import derivative
+from dofkit.checker.trees import Tree, derivative
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 

@@ -9,9 +9,8 @@ import pytest
 
 import dofkit
 from dofkit.exact import zero
-from dofkit.exact.independence import doubt, independent_generators
 from dofkit.exact.ring.ring import Ring
-from dofkit.exact.zero import is_proved_zero, zero_and_verdict
+from dofkit.exact.zero import doubt, independent_generators, is_proved_zero, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import coordinate

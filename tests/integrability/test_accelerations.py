@@ -10,7 +10,7 @@ import dofkit
 from dofkit.base.errors import TextError
 from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
-from dofkit.expressions.differentials import by_time
+from dofkit.expressions.calculus import by_time
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.integrability.accelerations import integrated_once
 

@@ -15,8 +15,7 @@ from shared.known_scenes import SCENES, report_of, scene_of, stem
 import dofkit
 from dofkit.classification.labels import companions
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff
-from dofkit.expressions.differentials import in_velocities
+from dofkit.expressions.calculus import diff, in_velocities
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.tree import Expr
 from dofkit.integrability import first_integrals

@@ -49,7 +49,8 @@ def test_a_first_scene_is_written_once_and_is_a_scene(tmp_path: Path) -> None:
     again = CliRunner().invoke(app, ["new", str(out)])
     assert (again.exit_code, "exists" in again.stderr) == (2, True)
     assert dofkit.loads(CliRunner().invoke(app, ["new"]).stdout).title == dofkit.load(out).title
-    assert "the endings are .yaml, .yml" in CliRunner().invoke(app, ["new", "pendulum.txt"]).stderr
+    refused = CliRunner().invoke(app, ["new", "pendulum.txt"])
+    assert (refused.exit_code, "there is no ending '.txt'" in refused.stderr) == (2, True)
 
 
 def test_without_a_path_it_is_printed(robot: Path) -> None:

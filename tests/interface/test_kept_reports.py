@@ -17,12 +17,11 @@ from shared.late import LONG
 import dofkit
 from dofkit.base.runs import BusyError, Journal, Pool
 from dofkit.base.workers import Job, JobOutcome
-from dofkit.interface.many.run import Helpers, answer, kept_reports
-from dofkit.interface.many.scene_files import SceneGiven
+from dofkit.interface.answers import streams
+from dofkit.interface.jobs import Cut, Printed, Request
+from dofkit.interface.many import Helpers, QueuedScene, answer, kept_reports
 from dofkit.interface.named_files import named_files
-from dofkit.interface.one_file import streams
-from dofkit.interface.presentation import Telling
-from dofkit.interface.supervised import Cut, Given, Printed
+from dofkit.interface.output import Output
 
 BAD = "coordinates: [theta]\nconstraints:\n- thta = 1\n"
 
@@ -112,8 +111,8 @@ def test_options_that_print_do_not_go_with_a_folder(folder: Path, capsys: pytest
     assert "it cannot be combined with" in err
 
 
-def asked(budget: float = 60.0) -> Given:
-    return Given("", budget, "auto", Telling(True))
+def request(budget: float = 60.0, file: str = "") -> Request:
+    return Request(file, Output(True), budget)
 
 
 class Counting:
@@ -121,17 +120,17 @@ class Counting:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.files: list[str] = []
-        monkeypatch.setattr("dofkit.interface.many.run.answer", self.answered)
+        monkeypatch.setattr("dofkit.interface.many.answer", self.answered)
         monkeypatch.setattr(Pool, "fork", lambda pool: None)
 
-    def answered(self, pool: Pool, asked: Given, scene: SceneGiven) -> Printed:
-        self.files.append(Path(scene.file).stem)
-        return Printed(f"{len(scene.data or b'')}\n", "", 0, {"verdict": "proved", "is": []})
+    def answered(self, pool: Pool, scene: QueuedScene) -> Printed:
+        self.files.append(Path(scene.request.file).stem)
+        return Printed(f"{len(scene.request.data or b'')}\n", "", 0, {"verdict": "proved", "is": []})
 
     def run(self, out: Path, files: list[Path], stop: int | None = None, budget: float = 60.0) -> list[str]:
         """Which files are asked about by a run that is stopped after so many."""
         self.files = []
-        stream = kept_reports([str(file) for file in files], asked(budget), Helpers(1), out)
+        stream = kept_reports([str(file) for file in files], request(budget), Helpers(1), out)
         for _, _ in zip(range(len(files) if stop is None else stop), stream, strict=False):
             pass
         if stop is None:
@@ -235,16 +234,16 @@ class Breaking:
     """A pool whose workers end where they are asked about the scene s3."""
 
     def run(self, job: Job) -> JobOutcome:
-        if (job.payload.given if isinstance(job.payload, Cut) else job.payload).file == "s3":
+        if (job.payload.request if isinstance(job.payload, Cut) else job.payload).file == "s3":
             return JobOutcome(None, "died", "it ended")
         return JobOutcome(streams(f"{job.payload.file}\n"), "done")
 
 
 def test_a_scene_that_ends_its_worker_ends_no_other() -> None:
     pool: Any = Breaking()
-    printed = [answer(pool, asked(), SceneGiven(f"s{k}", b"")) for k in range(6)]
+    printed = [answer(pool, QueuedScene(request(file=f"s{k}"))) for k in range(6)]
     assert [one.out for one in printed if not one.errors] == ["s0\n", "s1\n", "s2\n", "s4\n", "s5\n"]
-    assert "it could not be looked at: it ended" in printed[3].out
+    assert "it could not be processed: it ended" in printed[3].out
 
 
 @pytest.mark.sweep

@@ -25,7 +25,7 @@ def called(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, st
 
 #: What a shell starts in the background ignores interrupts, and so does all that it starts.
 _INTERRUPTIBLE = (
-    "import signal\nfrom dofkit.interface import cli\nsignal.signal(2, signal.default_int_handler)\ncli.main()"
+    "import signal\nfrom dofkit.interface import entry\nsignal.signal(2, signal.default_int_handler)\nentry.main()"
 )
 
 

@@ -15,8 +15,8 @@ from pathlib import Path
 
 import dofkit
 from dofkit.checker.dimension_rules import MOST
+from dofkit.checker.verification import RULES
 from dofkit.configuration.local.criteria import CRITERIA
-from dofkit.motion_checker import MOTION_RULES
 
 PACKAGE = Path(dofkit.__file__).parent
 TABLE = PACKAGE / "THEOREMS.md"
@@ -79,7 +79,7 @@ def test_rows_name_the_rules_of_certificates_that_rest_on_them() -> None:
         rule for *_, text, _ in rows().values() for told in IN_CERTIFICATES.findall(text) for rule in told.split("`")
     }
     named -= {"", ", "}
-    known = {rule for _, rule in MOTION_RULES} | set(MOST) | {"span", "regular", "family"}
+    known = {rule for _, rule in RULES} | set(MOST) | {"span", "regular", "family"}
     assert named <= known
     assert known - named == {
         *("squeeze", "count", "rank", "conflict", "integrals"),  # by bounds, by counting, by arithmetic, by other rules

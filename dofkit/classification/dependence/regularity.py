@@ -17,8 +17,7 @@ from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.balls import jacobian
 from dofkit.exact.ring.program import values
 from dofkit.exact.zero import is_proved_zero
-from dofkit.expressions.calculus import diff
-from dofkit.expressions.differentials import in_velocities
+from dofkit.expressions.calculus import diff, in_velocities
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.chart import make_chart

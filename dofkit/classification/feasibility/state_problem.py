@@ -20,8 +20,7 @@ from dofkit.base.components import components
 from dofkit.classification.feasibility.refutation import SignClaim
 from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
-from dofkit.expressions.differentials import accelerations_of
+from dofkit.expressions.calculus import accelerations_of, substitute
 from dofkit.expressions.enclosures import has_call
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr

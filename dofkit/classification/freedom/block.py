@@ -18,11 +18,10 @@ from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety
 from dofkit.configuration.witness import of_real_point, of_reference
 from dofkit.exact.errors import NoPointError
-from dofkit.exact.independence import doubt, independent_generators
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
-from dofkit.exact.zero import BALLS, BOTH
+from dofkit.exact.zero import BALLS, BOTH, doubt, independent_generators
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.labels_by_balls import ball_labels
 from dofkit.integrability.labels_by_field import field_labels

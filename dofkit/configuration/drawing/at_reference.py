@@ -21,8 +21,7 @@ from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import Echelon, SparseRow, echelon, rank_of, rank_of_rows, sparse, without_time
-from dofkit.exact.points.balls import BallPoint, jacobian, precision
-from dofkit.exact.points.exact import exact_rank, rational_values
+from dofkit.exact.points.balls import BallPoint, exact_rank, jacobian, precision, rational_values
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots
 from dofkit.exact.ring.program import values

@@ -13,23 +13,130 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from fractions import Fraction
 from functools import lru_cache, partial
-from math import gcd, lcm
+from math import gcd, lcm, prod
+from typing import Any
 
-from flint import fmpz, nmod, nmod_poly
+from flint import fmpz, fmpz_mat, nmod, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
-from dofkit.exact.errors import NoPointError, NoValueError
-from dofkit.exact.points.characters import Character
-from dofkit.exact.ring.program import NUM, Scalar, Var, value_of
+from dofkit.exact.errors import NoPointError
+from dofkit.exact.ring.program import NUM, Scalar, Var
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+
+#: Arguments among which relations are looked for; among more of them only equal and opposite ones are seen.
+MOST_REDUCED = 7
+#: A relation that is found is there by chance with a probability of 2 to the minus this.
+SURENESS = 30
+#: Multiples of a unit are looked for up to so many times its order.
+TURNS = 64
+#: Roots are taken up to this degree.
+LARGEST = 512
+
+
+class Character:
+    """The values of one homomorphism at a point: each argument that was asked for with its value.
+
+    ``drawn``: arguments that were drawn at random, each by itself: they are related by chance only.
+    """
+
+    def __init__(self, p: int, drawn: set[int], values: dict[int, Any] | None = None) -> None:
+        self.p, self.drawn = p, drawn
+        self.values: dict[int, Any] = {} if values is None else values
+        self._unit: tuple[Any, Any, int] | None = None
+
+    def copy(self, drawn: set[int]) -> Character:
+        """Return a character with the same values so far."""
+        other = Character(self.p, drawn, dict(self.values))
+        other._unit = self._unit
+        return other
+
+    def settle(self, argument: Any, root: Any, order: int) -> None:
+        """Let the value at an argument be a certain root of unity of this order: 2 pi / n gives exp(2 pi i / n)."""
+        self._unit = argument, root, order
+
+    def at(self, argument: Any, draw: Callable[[], Any]) -> Any:
+        """Return the value at an argument, from relations or else drawn. Raises NoPointError for a fraction."""
+        u = int(argument)
+        if u == 0:
+            return nmod(1, self.p)
+        if u not in self.values:
+            related = self._related(u)
+            self.values[u] = draw() if related is None else related
+        return self.values[u]
+
+    def agree(self, argument: Any, value: Any) -> None:
+        """Take a value that was settled elsewhere. Raises NoPointError where another one is known."""
+        if self.at(argument, lambda: value) != value:
+            raise NoPointError("an exponential or an angle with two values at one place")
+
+    def _related(self, u: int) -> Any | None:
+        """Return the value that the others give, or None where the argument is related to none of them."""
+        if u in self.drawn and self.drawn.issuperset(self.values):
+            return None
+        multiple = self._multiple_of_unit(u)
+        if multiple is not None:
+            return multiple
+        if self.p - u in self.values:
+            return 1 / self.values[self.p - u]
+        relation = self._reduced(u) if len(self.values) <= MOST_REDUCED else None
+        if relation is None:
+            return None
+        degree = relation.pop(u)
+        if self._unit is not None and abs(degree) > 1 and int(self._unit[0]) in relation:
+            raise NoPointError("an argument is a fraction of pi that is none of those written")
+        known = {**self.values} if self._unit is None else {**self.values, int(self._unit[0]): self._unit[1]}
+        sign = 1 if degree > 0 else -1
+        power = prod((known[v] ** (-k * sign) for v, k in relation.items()), start=nmod(1, self.p))
+        return _root(power, abs(degree), self.p)
+
+    def _multiple_of_unit(self, u: int) -> Any | None:
+        """Return the value where u is a multiple of the unit, or differs by one from an argument or from minus one."""
+        if self._unit is None:
+            return None
+        unit, root, order = self._unit
+        for at, value in ((0, nmod(1, self.p)), *self.values.items()):
+            for other, known in ((at, value), (-at, 1 / value)):
+                k = int((nmod(u, self.p) - other) / unit)
+                k = k if 2 * k < self.p else k - self.p
+                if abs(k) <= TURNS * order:
+                    return known * root**k
+        return None
+
+    def _reduced(self, u: int) -> dict[int, int] | None:
+        """Return a short integer relation among the arguments and ``u``, by the reduction of a lattice (LLL)."""
+        args = [u, *self.values, *(() if self._unit is None else (int(self._unit[0]),))]
+        n = len(args)
+        if n < 2:
+            return None
+        most = 2.0 ** ((self.p.bit_length() - SURENESS) / n - 1)
+        weight = 1 << (self.p.bit_length() + n)
+        rows = [[int(i == j) for j in range(n)] + [a * weight] for i, a in enumerate(args)]
+        reduced = fmpz_mat([*rows, [0] * n + [self.p * weight]]).lll()
+        for i in range(reduced.nrows()):
+            row = [int(reduced[i, j]) for j in range(n)]
+            if int(reduced[i, n]) == 0 and 0 < abs(row[0]) <= LARGEST and max(map(abs, row)) <= most:
+                return {v: k for v, k in zip(args, row, strict=True) if k}
+        return None
+
+
+def _root(value: Any, degree: int, p: int) -> Any:
+    """Return a root of a value: any is as good as the others. Raises NoPointError where there is none (Euler).
+
+    The group of p - 1 elements is cyclic: with g = gcd(d, p - 1) the d-th powers are the g-th ones, and w^g = v
+    gives (w^e)^d = v where d e = g modulo p - 1.
+    """
+    shared = gcd(degree, p - 1)
+    if value ** ((p - 1) // shared) != 1:
+        raise NoPointError("an argument is a fraction of others, and there is no root")
+    if shared > 1:
+        value = min((w for w, _ in nmod_poly([-value, *([0] * (shared - 1)), 1], p).roots()), key=int)
+    return value ** pow(degree // shared, -1, (p - 1) // shared)
+
 
 PRIME_BITS = 61
 #: Tries for a prime modulo which every root of a number exists.
 PRIME_TRIES = 4000
-#: Primes that are tried where roots of roots must exist: each does modulo every other prime or so.
-NESTED_TRIES = 12
-
 
 #: Parts of a turn that are exact wherever pi is written, the largest number of parts that a number makes, and of all.
 WHOLE_TURNS, MOST_PARTS, MOST_ORDER = 12, 360, 10**5
@@ -103,9 +210,8 @@ class FieldPoint:
         self.given: dict[tuple[str, object], Scalar] = {}
         self._taken: dict[tuple[object, ...], Scalar] = {}
         self._drawn: set[int] = set()
-        self._exponentials, self._turns = Character(p, drawn=self._drawn), Character(p, drawn=self._drawn)
+        self._exponentials, self._turns = Character(p, self._drawn), Character(p, self._drawn)
         self._agreed: set[tuple[str, object]] = set()
-        self._logarithms = False
         self._zeta: Scalar = None
         self._imaginary: Scalar = None
 
@@ -120,7 +226,7 @@ class FieldPoint:
         """A point with the same values so far; what is drawn later differs."""
         other = FieldPoint(self.p, self.rng, self.order)
         other.given = dict(self.given)
-        other._taken, other._agreed, other._logarithms = dict(self._taken), set(self._agreed), self._logarithms
+        other._taken, other._agreed = dict(self._taken), set(self._agreed)
         other._drawn = set(self._drawn)
         other._exponentials, other._turns = self._exponentials.copy(other._drawn), self._turns.copy(other._drawn)
         other._zeta, other._imaginary = self._zeta, self._imaginary
@@ -157,9 +263,6 @@ class FieldPoint:
     def _agree(self, var: Var, args: Sequence[Scalar], value: Scalar) -> None:
         """Take the value that a generator was given. Raises NoPointError where its function has another one there."""
         if var.kind == "exp":
-            known = self._exponentials.argument_of(value) if self._logarithms else None
-            if known not in (None, args[0]):
-                raise NoPointError("a logarithm was drawn before the exponential whose argument it is")
             self._exponentials.agree(args[0], value)
         elif var.kind in ("cos", "sin"):
             if var.key[0] != ex.PI and ("sin" if var.kind == "cos" else "cos", var.key) in self.given:
@@ -168,8 +271,6 @@ class FieldPoint:
                 self._turns.agree(args[0], cos + self._imaginary * sin)
         elif self._of_arguments(var, args, lambda: value) != value:
             raise NoPointError("a function with two values at one place")
-        elif var.kind == "log":
-            self._exponentials.take(value, args[0])
 
     def _of_arguments(self, var: Var, args: Sequence[Scalar], draw: Callable[[], Scalar]) -> Scalar:
         """The value that this function has taken at these arguments, however they are written; else a new one.
@@ -202,22 +303,9 @@ class FieldPoint:
             return self._root(var, args[0])
         if var.kind == "sign":
             return self._sign()
-        if var.kind == "log":
-            return self._logarithm(args[0])
         if args and var.kind != "call" and args[0] == 0:
             return nmod(0, self.p)
         return self.random()
-
-    def _logarithm(self, value: Scalar) -> Scalar:
-        """u where v = exp(u) follows from what was taken before; else at random, and then exp(u) = v."""
-        known = self._exponentials.argument_of(value)
-        if known is not None:
-            self._exponentials.take(known, value)
-            return known
-        drawn = self.random()
-        self._exponentials.agree(drawn, value)
-        self._logarithms = True
-        return drawn
 
     def _draw_angle(self, var: Var, args: Sequence[Scalar]) -> None:
         rest, denominator = var.key
@@ -298,31 +386,14 @@ class FieldPoint:
 def field_point(
     rings: Sequence[Ring], seed: int, given: Mapping[Var, Scalar] | None = None, beside: str = ""
 ) -> FieldPoint:
-    """A fresh random point for programs that share their symbols, modulo a prime where roots of roots exist.
+    """A fresh random point for programs that share their symbols, modulo a prime where the roots of numbers exist.
 
     Primes and values are drawn by a hash of the programs, and of what stands ``beside`` them: a coefficient that is
     made to vanish modulo the primes in use changes them.
     """
     order, roots, own = circle_order(rings), number_roots(rings), " ".join((*(ring.digest for ring in rings), beside))
-    nested = [(ring, var) for ring in rings for var in ring.vars if _nested(ring, var)]
-    for attempt in range(NESTED_TRIES if nested else 1):
-        p = prime_for(order, roots, f"{seed % 3 + 3 * attempt} {own}")
-        point = FieldPoint(p, random.Random(f"dofkit point {seed} {own}"), order)
-        for var, value in (given or {}).items():
-            point.set(var, value)
-        if all(_exists(ring, var, point) for ring, var in nested):
-            break
+    p = prime_for(order, roots, f"{seed % 3} {own}")
+    point = FieldPoint(p, random.Random(f"dofkit point {seed} {own}"), order)
+    for var, value in (given or {}).items():
+        point.set(var, value)
     return point
-
-
-def _nested(ring: Ring, var: Var) -> bool:
-    """A root of a number that is no integer itself."""
-    return var.kind == "root" and not isinstance(var.key[0], ex.Expr) and not ring.var_expr[var.index].symbols
-
-
-def _exists(ring: Ring, var: Var, point: FieldPoint) -> bool:
-    try:
-        value_of(ring, point, ring.var_node[var.index])
-    except NoValueError:
-        return False
-    return True

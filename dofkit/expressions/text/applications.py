@@ -6,12 +6,11 @@ from collections.abc import Callable
 from itertools import islice
 from typing import NoReturn
 
-from dofkit.expressions.calculus import diff
-from dofkit.expressions.differentials import by_time, over_dt, total_differential
-from dofkit.expressions.domains import of_function, of_power
-from dofkit.expressions.text.bounds import MAX_DIFFERENTIATED, MAX_ORDER, applied, inverse, product
+from dofkit.expressions.calculus import by_time, diff, of_function, of_power, over_dt, total_differential
+from dofkit.expressions.text.characters import MAX_DIFFERENTIATED, MAX_ORDER
 from dofkit.expressions.text.grammar import Parser
 from dofkit.expressions.text.names import AmbiguousError
+from dofkit.expressions.text.reader import applied, inverse, product
 from dofkit.expressions.text.tokens import Token
 from dofkit.expressions.tree import DT, FUNCTIONS, MINUS_ONE, TIME, Expr, call, mul, nodes
 

@@ -18,11 +18,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Literal, NoReturn, cast
 
-from dofkit.expressions.differentials import is_differential, over_dt
-from dofkit.expressions.domains import Requirement, of_power
-from dofkit.expressions.text.bounds import MAX_DEPTH, bounded, inverse, product, raised
+from dofkit.expressions.calculus import Requirement, is_differential, of_power, over_dt
+from dofkit.expressions.text.characters import MAX_DEPTH
 from dofkit.expressions.text.names import AmbiguousError, Names, derivative
-from dofkit.expressions.text.reader import TextReader
+from dofkit.expressions.text.reader import TextReader, bounded, inverse, product, raised
 from dofkit.expressions.text.tokens import Token, Tokens
 from dofkit.expressions.tree import DT, MINUS_ONE, PI, TIME, ZERO, E, Expr, add, fn, mul, num
 

@@ -10,8 +10,7 @@ from typing import Any, Literal, NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.expressions.renaming import MOVING
-from dofkit.expressions.text.bounds import MAX_NAME
-from dofkit.expressions.text.characters import DOT, TWO_DOTS, check_name_characters, spelled
+from dofkit.expressions.text.characters import DOT, MAX_NAME, TWO_DOTS, check_name_characters, spelled
 from dofkit.expressions.tree import DT, FUNCTIONS, PI, TIME, E, Expr, coordinate, differential, sym, velocity
 
 SYNONYMS: dict[str, str] = {

@@ -1,19 +1,39 @@
-"""Tokens: plain characters -> numbers, meanings of words, and signs, each with its place."""
+"""Tokens: plain characters -> numbers, meanings of words, and signs, each with its place.
+
+Letters written together are one declared name, or a product of declared names in one way only.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import cache
+from itertools import islice
 from typing import NamedTuple, NoReturn
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.text.bounds import MAX_CHARACTERS, MAX_DIGITS, MAX_EXPONENT, MAX_NODES, MAX_TEXT_BITS
-from dofkit.expressions.text.characters import DEGREE, DOT, FRACTIONS, GREEK_LETTERS, SUPERSCRIPTS, TWO_DOTS, fold
-from dofkit.expressions.text.latex import FRACTION_MARK, unlatex
-from dofkit.expressions.text.names import VARIATION, Lookup, Meaning
-from dofkit.expressions.text.words import read_word
-from dofkit.expressions.tree import PI, Expr, mul, num, sym
+from dofkit.base.wording import closest
+from dofkit.expressions.text.characters import (
+    DEGREE,
+    DOT,
+    FRACTION_MARK,
+    FRACTIONS,
+    GREEK_LETTERS,
+    MAX_CHARACTERS,
+    MAX_DIGITS,
+    MAX_EXPONENT,
+    MAX_NAME,
+    MAX_NODES,
+    MAX_TEXT_BITS,
+    SUPERSCRIPTS,
+    TWO_DOTS,
+    fold,
+    spelled,
+    unlatex,
+)
+from dofkit.expressions.text.names import ELEMENTARY, SYNONYMS, VARIATION, Lookup, Meaning, UnknownNameError, unmarked
+from dofkit.expressions.tree import PI, E, Expr, mul, num, sym
 
 
 class Token(NamedTuple):
@@ -63,15 +83,15 @@ _ALIKE = {"**": "^", "==": "=", "[": "(", "{": "(", "]": ")", "}": ")", FRACTION
 
 _STRANGE: dict[str, tuple[str, str]] = {
     ";": ("a text holds one relation, and `;` would begin another", "give each relation its own text"),
-    "\n": ("a text holds one relation, and a new line would begin another", "give each line its own text"),
-    "\r": ("a text holds one relation, and a new line would begin another", "give each line its own text"),
+    **dict.fromkeys(
+        "\n\r", ("a text holds one relation, and a new line would begin another", "give each line its own text")
+    ),
     "#": ("a comment cannot stand inside a text", "delete `#` and what follows it"),
     "!": ("factorials are not read", "write the number"),
     "%": ("`%` is not read", "write a quotient with `/`"),
     ".": ("a point is read only inside a number", "write a product with `*`"),
     ":": ("`:` is not read", "write a quotient with `/`, an equation with `=`"),
-    '"': ("quotes cannot stand in a text", "delete them"),
-    "`": ("quotes cannot stand in a text", "delete them"),
+    **dict.fromkeys('"`', ("quotes cannot stand in a text", "delete them")),
     "$": ("this `$` is not read", "write `$` around the whole text, or leave it out"),
     "&": ("`&` is not read", "give each relation its own text"),
     "~": ("`~` is not read", "write `=`"),
@@ -119,11 +139,10 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
         elif kind == "degree" or (kind == "word" and match[kind] in _DEGREES and lookup.meaning(match[kind]) is None):
             found[-1:] = [_in_degrees(found, start, end, columns)]
         elif kind == "word":
-            called = text[end : end + 1] == "("
             before = found[-1] if found and found[-1].kind == "number" else None
             number = "" if before is None else text[before.start : before.end]
-            for meaning, a, b in read_word(match[kind], lookup, columns[start], called, number):
-                found.append(_word_token(meaning, start + a, start + b, text))
+            parts = read_word(match[kind], lookup, columns[start], text[end : end + 1] == "(", number)
+            found += [_word_token(part, start, text) for part in parts]
         elif kind == "sign" or kind == "relation":
             sign = match[kind]
             sign = _ALIKE.get(sign, sign)
@@ -142,20 +161,34 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
         position = end
 
 
+def _word_token(part: WordPart, start: int, text: str) -> Token:
+    first, end, meaning = start + part.start, start + part.end, part.meaning
+    if meaning is None:
+        return Token("number", first, end, num(int(text[first:end])))
+    return Token(meaning.kind, first, end, meaning.expr, meaning.name, meaning.order)
+
+
 def _motion(word: str, text: str, start: int, lookup: Lookup, columns: Sequence[int]) -> Token | None:
     """Return the acceleration or the differential that begins at ``start``: ``d^2x/dt^2``, ``δ x``; None for none.
 
     ``δ x`` is a product where δ is declared.
     """
     if word[0] == "d" and (second := _SECOND.match(text, start)) is not None:
-        return _second_derivative(second, lookup, columns)
-    if word != VARIATION or lookup.meaning(VARIATION) is not None:
+        name, column = second["name"], columns[second.start("name")]
+        meaning = read_word(name, lookup, column, False)[0].meaning
+        if meaning is not None and meaning.kind == "call":
+            return Token("call", start, second.end(), None, meaning.name, 2)
+        if meaning is not None and meaning.expr is not None and meaning.expr.args[:1] == ("coordinate",):
+            return Token("motion", start, second.end(), sym("acceleration", meaning.expr.args[1]))
+        message = f"`{name}` is not a coordinate, so it has no acceleration"
+        raise TextError(message, column, f"declare it: `coordinates: [{name}]`")
+    match = _SPACED_VARIATION.match(text, start) if word == VARIATION else None
+    if match is None or lookup.meaning(VARIATION) is not None:
         return None
-    match = _SPACED_VARIATION.match(text, start)
-    meaning = None if match is None else lookup.meaning(VARIATION + match["name"])
-    if match is None or meaning is None or meaning.kind != "motion":
+    differential = lookup.meaning(VARIATION + match["name"])
+    if differential is None or differential.kind != "motion":
         return None
-    return Token("motion", start, match.end(), meaning.expr)
+    return Token("motion", start, match.end(), differential.expr)
 
 
 def _in_degrees(found: list[Token], start: int, end: int, columns: Sequence[int]) -> Token:
@@ -172,30 +205,11 @@ def _check_size(found: list[Token], columns: Sequence[int]) -> None:
     total = 0
     for token in found:
         if token.kind == "number" and token.expr is not None:
-            e = token.expr.args[0] if token.expr.op == "mul" else token.expr
-            value: Fraction = e.args[0]
+            value: Fraction = (token.expr.args[0] if token.expr.op == "mul" else token.expr).args[0]
             total += value.numerator.bit_length() + value.denominator.bit_length() - 2
             if total > MAX_TEXT_BITS:
-                message = "the numbers in this text have too many digits in total"
-                raise TextError(message, columns[token.start], "split it into several texts, or choose other units")
-
-
-def _word_token(meaning: Meaning | None, start: int, end: int, text: str) -> Token:
-    if meaning is None:
-        return Token("number", start, end, num(int(text[start:end])))
-    return Token(meaning.kind, start, end, meaning.expr, meaning.name, meaning.order)
-
-
-def _second_derivative(match: re.Match[str], lookup: Lookup, columns: Sequence[int]) -> Token:
-    """`d^2x/dt^2`, the acceleration of x."""
-    name = match["name"]
-    for meaning, _, _ in read_word(name, lookup, columns[match.start("name")], False)[:1]:
-        if meaning is not None and meaning.kind == "call":
-            return Token("call", match.start(), match.end(), None, meaning.name, 2)
-        if meaning is not None and meaning.expr is not None and meaning.expr.args[:1] == ("coordinate",):
-            return Token("motion", match.start(), match.end(), sym("acceleration", meaning.expr.args[1]))
-    message = f"`{name}` is not a coordinate, so it has no acceleration"
-    raise TextError(message, columns[match.start("name")], f"declare it: `coordinates: [{name}]`")
+                hint = "split it into several texts, or choose other units"
+                raise TextError("the numbers in this text have too many digits in total", columns[token.start], hint)
 
 
 def _other(match: re.Match[str], columns: Sequence[int], text: str, lookup: Lookup) -> Token:
@@ -231,25 +245,18 @@ def _check_number(found: str, text: str, end: int, column: int, lookup: Lookup) 
     letter = "e" if "e" in found else "E"
     if letter in found and letter in lookup.declared:
         head, _, tail = found.partition(letter)
-        question = f"write `{head}*10^({tail.lstrip('+')})` or `{head}*{letter}*{tail}`"
-        raise TextError(
-            f"`{found}` can be read as a power of ten or as a product with the declared name `{letter}`",
-            column,
-            question,
-        )
+        message = f"`{found}` can be read as a power of ten or as a product with the declared name `{letter}`"
+        raise TextError(message, column, f"write `{head}*10^({tail.lstrip('+')})` or `{head}*{letter}*{tail}`")
 
 
 def _number(found: str, column: int) -> Fraction:
     """The exact value of a decimal."""
-    match = _PARTS.fullmatch(found)
-    if match is None:  # pragma: no cover - the token's pattern is the same
-        raise TextError(f"`{found}` is not a number", column)
-    whole, rest, power = match.groups()
+    whole, rest, power = _PARTS.findall(found)[0]
     if len(whole) + len(rest) > MAX_DIGITS:
         message = f"this number has {len(whole) + len(rest)} digits; at most {MAX_DIGITS} are read"
         raise TextError(message, column, "write fewer digits, or a fraction")
     value = Fraction(int(whole + rest), 10 ** len(rest))
-    if power is None:
+    if not power:
         return value
     if len(power) > 6 or abs(int(power)) > MAX_EXPONENT:
         message = f"the power of ten in this number is too large; at most {MAX_EXPONENT} is read"
@@ -262,10 +269,132 @@ def _stop(text: str, position: int, columns: Sequence[int]) -> NoReturn:
     while text[position] in " \t\f\v":
         position += 1
     char, column = text[position], columns[position]
-    if text.startswith("...", position) or text.startswith("..", position):
+    if text.startswith("..", position):
         raise TextError("an ellipsis is not read", column, "write out what the dots stand for")
     if char in _STRANGE:
         message, hint = _STRANGE[char]
         raise TextError(message, column, hint)
     shown = f"`{char}`" if char.isprintable() else f"the control character U+{ord(char):04X}"
     raise TextError(f"{shown} has no meaning here", column, "write arithmetic with names, numbers and `+ - * / ^`")
+
+
+_CONSTANT = "give the constant a name: `parameters: {C: real}`, and `... = C`"
+_RELATIONS = "give each relation its own text"
+#: Words of programs and of prose; each gets its own advice unless it is declared.
+_FOREIGN: dict[str, str] = {
+    **dict.fromkeys(("const", "constant", "konst", "cst", "cte"), _CONSTANT),
+    **dict.fromkeys(("and", "or", "if", "else"), _RELATIONS),
+    "not": "write `=`, `<=`, `>=`, `<` or `>`", "in": "write a chain `0 <= x <= L`", "is": "write `=`",
+    "lambda": "a text is mathematics, not code", "True": "write an equation", "False": "write an equation",
+    "None": "write an equation, or leave the field out", "nan": "write a number", "NaN": "write a number",
+    "inf": "leave that bound out", "oo": "leave that bound out",
+}  # fmt: skip
+#: What is written in place of a letter that people use for something else.
+_ADVICE = {"e": "write `E` for Euler's number, or `exp(x)` for its powers",
+           "d": "write the differential of `x` as `dx`, its velocity as `xdot`"}  # fmt: skip
+#: Names of units: a number has none here.
+_UNITS = frozenset({
+    "km", "m", "dm", "cm", "mm", "um", "nm", "in", "inch", "ft", "kg", "g", "mg", "lb", "s", "ms", "min", "h", "Hz",
+    "N", "kN", "Nm", "J", "kJ", "W", "rad", "rpm", "Pa", "K", "mol",
+})  # fmt: skip
+_NEAR = 200
+
+
+class WordPart(NamedTuple):
+    """A part of a word: its meaning (None for the digits after a function's name) and its place in the word."""
+
+    meaning: Meaning | None
+    start: int
+    end: int
+
+
+def read_word(word: str, lookup: Lookup, column: int, called: bool, number: str = "") -> tuple[WordPart, ...]:
+    """Return the parts of ``word``; ``called`` says that a parenthesis follows, ``number`` is what stands before it."""
+    meaning = lookup.meaning(word)
+    if meaning is not None:
+        return (WordPart(meaning, 0, len(word)),)
+    if len(word) > MAX_NAME:
+        message = f"this name has {len(word)} letters; at most {MAX_NAME} are read"
+        raise TextError(message, column, "write the product with `*`, or shorten the name")
+    readings = [] if word in _FOREIGN else _splits(word, lookup)
+    if len(readings) == 1:
+        return readings[0]
+    if readings:
+        written = " or ".join("`" + "*".join(word[p.start : p.end] for p in reading) + "`" for reading in readings)
+        raise TextError(f"`{word}` can be read as {written}", column, "write `*` between the names")
+    if number and word in _UNITS:
+        hint = f"write `{number}`, with every quantity in one consistent system of units"
+        hint = f"angles are in radians: write `{number}`" if word == "rad" else hint
+        raise UnknownNameError(f"`{word}` is not declared, and numbers are written without units", column, hint)
+    raise _unknown(word, lookup, column, called)
+
+
+def _splits(word: str, lookup: Lookup) -> list[tuple[WordPart, ...]]:
+    """Return at most two ways to read ``word`` as a product of known words."""
+
+    @cache
+    def readings(start: int, after_function: bool) -> tuple[tuple[WordPart, ...], ...]:
+        if start == len(word):
+            return ((),)
+        complete: list[tuple[WordPart, ...]] = []
+        for part in _parts(word, start, after_function, lookup):
+            is_function = part.meaning is not None and part.meaning.kind == "function"
+            complete.extend((part, *following) for following in readings(part.end, is_function))
+            if len(complete) > 1:
+                break
+        return tuple(complete[:2])
+
+    return list(readings(0, False))
+
+
+def _parts(word: str, start: int, after_function: bool, lookup: Lookup) -> list[WordPart]:
+    """Return the known words that may begin at ``start``."""
+    if word[start].isdigit():
+        digits = re.match(r"\d+", word[start:])
+        logarithm = word[:start].endswith(("log", "ln"))  # `log10` and `log2` name other functions
+        return [WordPart(None, start, start + digits.end())] if digits and after_function and not logarithm else []
+    parts = []
+    for end in range(start + 1, min(len(word), start + lookup.longest + 4) + 1):
+        if end < len(word) and not (word[end].isalpha() or word[end].isdigit()):
+            continue  # `_` and the dots above a letter belong to what stands before them
+        meaning = lookup.meaning(word[start:end])
+        if meaning is None or meaning.kind == "operator":
+            continue
+        if end < len(word) and word[end].isdigit() and meaning.kind != "function":
+            continue
+        if start and word[start:end].isascii() and meaning.expr in (PI, E):
+            continue  # Latin letters are a number only where they begin a word: `piR`, never `spin`
+        parts.append(WordPart(meaning, start, end))
+    return parts
+
+
+def _unknown(word: str, lookup: Lookup, column: int, called: bool) -> UnknownNameError:
+    what = f"there is no function `{word}`" if called else f"`{word}` is not declared"
+    near = None if word in _FOREIGN or word in _ADVICE else _nearest(word, lookup, called)
+    if word in _FOREIGN:
+        hint = _FOREIGN[word]
+        what = f"`{word}` is not declared" if hint is _CONSTANT else f"`{word}` has no meaning in a text"
+    elif word in _ADVICE or near:
+        hint = _ADVICE.get(word, f"did you mean `{near}`?")
+    elif called:
+        functions = [*list(lookup.names.functions)[:8], *(f for f in ELEMENTARY if f not in SYNONYMS)]
+        hint = f"the functions are {', '.join(functions)}"
+    else:
+        listed = ", ".join(lookup.declared[:8]) + (", ..." if len(lookup.declared) > 8 else "")
+        hint = f"the declared names are {listed}" if listed else "no names are declared"
+    return UnknownNameError(what, column, hint)
+
+
+def _nearest(word: str, lookup: Lookup, called: bool) -> str | None:
+    """Return the known name that looks most like ``word``."""
+    target, declared, coordinates = spelled(word), lookup.declared, lookup.names.coordinates
+    same = lookup.unmarked.get(unmarked(word))
+    if same is not None:
+        return same
+    pool = [*lookup.names.functions, *ELEMENTARY] if called else [*declared, "pi"]
+    pool += ["d" + name for name in coordinates] if target.startswith("d") else []
+    pool += [name + "dot" for name in coordinates] if target.endswith("dot") else []
+    if len(pool) > _NEAR:  # keep the comparison short in a scene of thousands of names
+        alike = (n for n in pool if abs(len(n) - len(target)) < 2 and (n[:1] == target[:1] or n[1:] == target[1:]))
+        pool = list(islice(alike, _NEAR))
+    return closest(target, pool, 0.5) or closest(target, [*declared[:_NEAR], *ELEMENTARY], 0.7)

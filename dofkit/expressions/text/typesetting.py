@@ -11,18 +11,19 @@ from typing import NamedTuple
 from xml.etree import ElementTree
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.text.bounds import MAX_CHARACTERS, MAX_DEPTH
 from dofkit.expressions.text.characters import (
     DOT,
     FRACTIONS,
     GREEK,
     GREEK_LETTERS,
     LETTERS_OF_NAMES,
+    MAX_CHARACTERS,
+    MAX_DEPTH,
     SUPERSCRIPTS,
     TWO_DOTS,
     fold,
+    unlatex,
 )
-from dofkit.expressions.text.latex import unlatex
 from dofkit.expressions.text.names import ELEMENTARY
 from dofkit.expressions.text.tokens import NUMBER, WORD
 

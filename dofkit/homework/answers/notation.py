@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 
-from dofkit.expressions.text.latex import BROKEN_COMMAND, COMMANDS, CONTROLS
+from dofkit.expressions.text.characters import BROKEN_COMMAND, COMMANDS, CONTROLS
 from dofkit.expressions.text.names import ELEMENTARY
 from dofkit.homework.answers.script import By, Script
 

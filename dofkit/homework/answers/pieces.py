@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import Names, parse_relations
 from dofkit.expressions.text.characters import GREEK
-from dofkit.expressions.text.words import read_word
+from dofkit.expressions.text.tokens import read_word
 from dofkit.homework.answers.notation import ARROW, script_of, with_differentials
 from dofkit.homework.answers.prose import plain, takes_back, words
 from dofkit.homework.answers.script import Script

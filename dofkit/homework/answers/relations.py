@@ -12,7 +12,7 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import AmbiguousError, Comparison, Names, UnknownNameError, parse_relations, spelled
 from dofkit.expressions.text.characters import GREEK
 from dofkit.expressions.text.names import in_words, unmarked
-from dofkit.expressions.text.words import read_word
+from dofkit.expressions.text.tokens import read_word
 from dofkit.expressions.tree import E, Expr, coordinate, parameter
 from dofkit.homework.answers.declared import DeclaredNames, usual_name
 from dofkit.homework.answers.pieces import Pieces, pieces_of

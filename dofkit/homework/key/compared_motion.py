@@ -17,9 +17,9 @@ from typing import NamedTuple
 from flint import nmod_mat
 
 from dofkit.exact.errors import NoValueError, raising_no_value
-from dofkit.exact.independence import independent_generators
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr

@@ -8,12 +8,11 @@ from typing import Any
 
 from dofkit.base.errors import DofkitError
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.independence import independent_generators
 from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
-from dofkit.exact.zero import zero_and_verdict
+from dofkit.exact.zero import independent_generators, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import ZERO, Expr

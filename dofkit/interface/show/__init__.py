@@ -1,27 +1,7 @@
-"""Rendering of what was found: each for a person at a terminal, imported when it is first asked for."""
+"""What a person reads: how do a report, a motion, a scene or a fault look at a terminal and in a page?
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
-import lazy_loader as lazy
-
-if TYPE_CHECKING:
-    from dofkit.interface.show.brief import brief_line
-    from dofkit.interface.show.faults import complaint
-    from dofkit.interface.show.motion import sheet_of_motion
-    from dofkit.interface.show.report import sheet_of_report
-    from dofkit.interface.show.terminal import Screen, as_text
-
-__all__ = ["Screen", "as_text", "brief_line", "complaint", "sheet_of_motion", "sheet_of_report"]
-
-__getattr__, __dir__, _ = lazy.attach(
-    __name__,
-    submod_attrs={
-        "brief": ["brief_line"],
-        "faults": ["complaint"],
-        "motion": ["sheet_of_motion"],
-        "report": ["sheet_of_report"],
-        "terminal": ["Screen", "as_text"],
-    },
-)
+`report`, `motion` and `scene` turn a value into a `Sheet` (`sheet`): facts, then sections of remarks and tables.
+`assurance` says how certain a report is and why. `terminal` writes a sheet as lines, by rich; `page` as HTML with
+MathML. `line` is a report on one line, `faults` prints what is wrong with a file, `decimals` gives numbers back as the
+scene wrote them, and `drawn` chooses the sheet of any value that `print` or a notebook shows.
+"""

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from typing import TypeVar
+from typing import Any, TypeVar
 
+from dofkit.base.deadline import limited
 from dofkit.base.display import Companion
+from dofkit.base.errors import DofkitError
 from dofkit.expressions.text.typesetting import typeset
-from dofkit.homework.result import Result
+from dofkit.homework.formats.wording import STATUSES, line, number, points, standing, title
+from dofkit.homework.result import Item, Result, Status
 from dofkit.interface.show.decimals import as_the_scene
 from dofkit.interface.show.faults import panel_of
 from dofkit.interface.show.motion import sheet_of_motion
 from dofkit.interface.show.page import as_html
-from dofkit.interface.show.picture import picture_of
 from dofkit.interface.show.report import sheet_of_entry, sheet_of_report
-from dofkit.interface.show.result import sheet_of_result
 from dofkit.interface.show.scene import sheet_of_linkage, sheet_of_scene
-from dofkit.interface.show.sheet import Sheet
+from dofkit.interface.show.sheet import Column, Fact, Grid, Remark, Sheet, SheetSection, Tone
 from dofkit.interface.show.terminal import Screen, as_text
 from dofkit.mobility.graph.linkage import Linkage
 from dofkit.motion.lagrange.report import MotionReport
@@ -92,3 +93,44 @@ def _beside(sheet: Sheet, companion: Companion, report: Report | None = None) ->
     if not isinstance(scene, Scene):
         return sheet
     return sheet._replace(title=scene.title or "", picture=partial(picture_of, scene, report))
+
+
+#: Seconds for a picture; without a report the scene is classified for it.
+DRAWING = 5.0
+
+
+def picture_of(scene: Any, report: Report | None = None) -> str | None:
+    """Return the inline SVG of a scene, or None without pictures or if it cannot be drawn in time."""
+    try:
+        from dofkit.pictures.still import svg  # most values are shown without a picture
+
+        with limited(DRAWING):
+            return svg(scene, report)
+    except (ImportError, DofkitError):
+        return None
+
+
+_TONES: dict[Status, Tone] = {"right": "good", "partly": "care", "wrong": "bad"}
+_COLUMNS = (Column("question"), Column("points"), Column("status"), Column("read as", 1))
+
+
+def sheet_of_result(result: Result) -> Sheet:
+    """Return the sheet of a graded submission: the points, one line for each answer, and the feedback."""
+    tone = _TONES.get("right" if result.score == result.max_score else "partly", "plain")
+    score = "open" if result.score is None else f"{number(result.score)} of {number(result.max_score)}"
+    sections = (
+        [SheetSection("Answers", [Grid(_COLUMNS, [_row(item) for item in result.items])])] if result.items else []
+    )
+    feedback = [Remark(title(item), line(item.feedback)) for item in result.items if item.feedback]
+    if feedback:
+        sections.append(SheetSection("Feedback", feedback))
+    facts = (
+        [Fact("points", score, standing(result), tone)]
+        if result.error or result.needs_review
+        else [Fact("points", score, tone=tone)]
+    )
+    return Sheet(line(result.student), facts=facts, sections=sections)
+
+
+def _row(item: Item) -> tuple[str, str, str, str]:
+    return title(item), points(item), STATUSES[item.status], line(item.read_as)

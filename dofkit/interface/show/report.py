@@ -1,4 +1,4 @@
-"""The printed report: the counts, the constraints with their labels and reasons, and how certain the answers are."""
+"""The printed report: counts, constraints with labels and reasons, certainty, and how two reports differ."""
 
 from __future__ import annotations
 
@@ -270,3 +270,59 @@ def names_of(names: Sequence[str]) -> str:
 def number(value: int | None) -> str:
     """Return a number, or a dash where it is not known."""
     return "-" if value is None else str(value)
+
+
+#: An inequality may bound the motion all the same, and so no more is said.
+SAME = "no degree of freedom, no count and no label changes"
+#: The numbers that are compared, and what they are called.
+_NUMBERS = (
+    ("degrees of freedom", "dof"),
+    ("velocity freedom", "velocity_dof"),
+    ("instantaneous freedom", "instantaneous_dof"),
+    ("redundant equations", "redundant_equations"),
+)
+
+
+def changed(before: Report, after: Report, names: Sequence[str]) -> SheetSection:
+    """Return what changes where the constraints of these names are dropped."""
+    remarks = [*_changes(before, after), *_undecided(before, after)]
+    return SheetSection(f"Without {names_of(names)}", remarks or [Remark("", SAME)])
+
+
+def _undecided(before: Report, after: Report) -> Iterator[Remark]:
+    """Yield which fields are not compared, because they are undecided before or after."""
+    unsure = [
+        label
+        for label, name in (*_NUMBERS, ("consistent", "consistent"))
+        if any((entry := report.verdicts.get(name)) and entry.verdict == "undecided" for report in (before, after))
+    ]
+    if unsure:
+        yield Remark("undecided", f"it is undecided whether these change: {', '.join(unsure)}")
+
+
+def _changes(before: Report, after: Report) -> Iterator[Remark]:
+    for label, name in _NUMBERS:
+        was, now = getattr(before, name), getattr(after, name)
+        if was != now:
+            yield Remark(label, f"{number(was)} -> {number(now)}")
+    if before.consistent != after.consistent:
+        yield Remark("consistent", f"{_yes(before.consistent)} -> {_yes(after.consistent)}")
+    if system_labels(before) != system_labels(after):
+        yield Remark("system", f"{system_labels(before)} -> {system_labels(after)}")
+    kept = {e.name: e for e in after.constraints}
+    for entry in before.constraints:
+        now_entry = kept.get(entry.name)
+        if now_entry is not None and entry.holonomic != now_entry.holonomic:
+            old, new = _label(entry.holonomic, "holonomic"), _label(now_entry.holonomic, "holonomic")
+            yield Remark(entry.name, f"{old} -> {new}")
+
+
+def _yes(value: bool | None) -> str:
+    return {True: "yes", False: "no", None: "undecided"}[value]
+
+
+def unexpected(missed: Sequence[str]) -> list[SheetSection]:
+    """Return the section of the fields that differ from what the scene expects, if there are any."""
+    return (
+        [SheetSection("Differs from what the scene expects", [Remark("!", line) for line in missed])] if missed else []
+    )

@@ -7,6 +7,8 @@ from typing import Literal, NamedTuple
 
 #: How a fact is meant: ``good`` and ``bad`` are told by colour, and by their words.
 Tone = Literal["plain", "good", "care", "bad"]
+#: Numbers of colours of a terminal, in the words of rich.
+Colours = Literal["standard", "256", "truecolor", "windows"]
 #: How a verdict is meant.
 TONES: dict[str, Tone] = {"proved": "good", "probable": "good", "numeric": "care", "undecided": "bad"}
 

@@ -12,8 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from dofkit.interface.show.faults import safe
-from dofkit.interface.show.sheet import Fact, Grid, Remark, Sheet, SheetSection, Tone
-from dofkit.interface.streams import Colours
+from dofkit.interface.show.sheet import Colours, Fact, Grid, Remark, Sheet, SheetSection, Tone
 
 #: How a tone is coloured.
 STYLES: dict[Tone, str] = {"plain": "", "good": "green", "care": "yellow", "bad": "red"}

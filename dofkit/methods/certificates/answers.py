@@ -9,18 +9,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from dofkit.checker.problem import canonical, read_problem, sha256_of
+from dofkit.checker.problem import canonical, read_problem
 from dofkit.checker.relations import FAULTS
 from dofkit.checker.trees import CheckError
-from dofkit.checker.verification import PARTS
-from dofkit.methods.certificates.dependence import combined, rate_of
-from dofkit.methods.certificates.estimates import NoEstimateError
 from dofkit.methods.certificates.lowering import document_of_scene
-from dofkit.methods.certificates.multiples import multiple
-from dofkit.methods.certificates.room import Room, Told
-from dofkit.methods.certificates.scenery import Scenery
-from dofkit.methods.certificates.texts import text_of
-from dofkit.methods.certificates.trial import ClaimTrial
+from dofkit.methods.certificates.numerics import NoEstimateError
+from dofkit.methods.certificates.room import ClaimTrial, Room, Told, empty_certificate
+from dofkit.methods.certificates.scenery import Scenery, multiple, text_of
+from dofkit.methods.certificates.steps import combined, rate_of
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
 
@@ -58,10 +54,8 @@ def certificate_of_answer(one: PosedScene, report: Report, feasible: bool) -> di
     """A certificate that a posed scene is feasible, or that it is not; None where no evidence was found."""
     try:
         problem = read_problem(one.document)
-        parts: dict[str, list[Told]] = {part: [] for part in PARTS}
-        scene = {"name": APART, "sha256": sha256_of(one.document), "document": one.document}
-        found: dict[str, Any] = {"certificate": 1, "scene": scene, "cayley": [], **parts, "claims": [], "uncovered": []}
-        room = Room(report, one.document, Scenery(problem, False, parts))
+        found = empty_certificate(APART, one.document)
+        room = Room(report, one.document, Scenery(problem, False, found))
         trial = ClaimTrial(one.document, found, problem)
         trial.admit(room.scenery)
         for evidence in _met(room) if feasible else _refuted(room, one.function):

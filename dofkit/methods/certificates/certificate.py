@@ -6,10 +6,9 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any, TypeVar
 
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import canonical, read_problem, sha256_of
+from dofkit.checker.problem import read_problem
 from dofkit.checker.trees import CheckError
-from dofkit.checker.verification import PARTS
-from dofkit.methods.certificates import emptiness, forms, freedom, labels
+from dofkit.methods.certificates import emptiness, fields, freedom, labels
 from dofkit.methods.certificates.contradictions import (
     Contradiction,
     as_if,
@@ -19,10 +18,9 @@ from dofkit.methods.certificates.contradictions import (
     is_told_of_less,
     other_reports,
 )
-from dofkit.methods.certificates.estimates import NoEstimateError
-from dofkit.methods.certificates.room import Room, Told
+from dofkit.methods.certificates.numerics import NoEstimateError
+from dofkit.methods.certificates.room import ClaimTrial, Room, Told, empty_certificate
 from dofkit.methods.certificates.scenery import Scenery
-from dofkit.methods.certificates.trial import ClaimTrial
 from dofkit.report import ConstraintEntry, Report
 
 Maker = Callable[[Room], Iterator[Told]]
@@ -42,7 +40,7 @@ NUMBERS: dict[str, Maker] = {
     "feasible": freedom.feasible,
     "redundant": freedom.redundant,
     "generalized_coordinates": freedom.generalized_coordinates,
-    "growth_vector": forms.growth_vector,
+    "growth_vector": fields.growth_vector,
     "conflicting": emptiness.conflicting,
 }
 LABELS: dict[str, Callable[[Room, ConstraintEntry, str], Iterator[Told]]] = {
@@ -82,10 +80,7 @@ class Certifying:
 
     def __init__(self, document: Mapping[str, Any], report: Report) -> None:
         self.document, self.report = document, report
-        scene = {"name": report.scene, "sha256": sha256_of(document), "document": canonical(document)}
-        self.parts: dict[str, list[Told]] = {part: [] for part in PARTS}
-        self.found: dict[str, Any] = {"certificate": 1, "scene": scene, "cayley": [], **self.parts}
-        self.found |= {"claims": [], "uncovered": []}
+        self.found = empty_certificate(report.scene, document)
         self.rooms: list[Room] = []
         self.trial: ClaimTrial | None = None
         self.contradictions: dict[str, str] = {}
@@ -94,7 +89,7 @@ class Certifying:
     def written(self) -> dict[str, Any]:
         """All claims that are said to be proved, each with evidence or among the uncovered."""
         try:
-            self.rooms = _rooms(self.document, self.report, self.parts, self.found)
+            self.rooms = _rooms(self.document, self.report, self.found)
             self.trial = ClaimTrial(self.document, self.found, self.rooms[-1].problem)
             for room in self.rooms:
                 self.trial.admit(room.scenery)
@@ -111,7 +106,7 @@ class Certifying:
             else:
                 self.found["claims"].append(claim)
                 self._compare_about(path, claim)
-        written = without_spare_parts(self.found)
+        written = without_spare_parts({**self.found})  # what is searched for below adds parts to the lists
         for path, value, make in left:
             self._look_for_others(path, value, make)
         written["uncovered"] = [path for path in written["uncovered"] if path not in self.contradictions]
@@ -228,18 +223,16 @@ def _texts_in(value: Any) -> set[str]:
     return {text for one in value for text in _texts_in(one)} if isinstance(value, list) else set()
 
 
-def _rooms(
-    document: Mapping[str, Any], report: Report, parts: dict[str, list[Told]], found: dict[str, Any]
-) -> list[Room]:
+def _rooms(document: Mapping[str, Any], report: Report, found: dict[str, Any]) -> list[Room]:
     """The readings that evidence is looked for in: with Cayley parameters first, where a drawing is given."""
     plain = read_problem(document)
-    rooms = [Room(report, document, Scenery(plain, False, parts))]
+    rooms = [Room(report, document, Scenery(plain, False, found))]
     bodies = frozenset(_names(document.get("bodies")))
     if plain.world.dimension == 3 and bodies and plain.reference:
         chart = _with_cayley(document, bodies)
         if chart is not None:
             found["cayley"] = sorted(bodies)
-            rooms.insert(0, Room(report, document, Scenery(chart, True, parts)))
+            rooms.insert(0, Room(report, document, Scenery(chart, True, found)))
     return rooms
 
 

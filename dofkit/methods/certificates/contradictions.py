@@ -12,12 +12,11 @@ from typing import Any, NamedTuple
 
 from dofkit.checker.evidence import admissible, field_named, involutive, span
 from dofkit.checker.label_rules import consistent, moves
-from dofkit.checker.trees import CheckError, add, negative, number, times
-from dofkit.checker.values import along, derivative, not_zero
-from dofkit.methods.certificates.elimination import echelon
-from dofkit.methods.certificates.everywhere import graph_order
-from dofkit.methods.certificates.forms import Words, involutive_rows, tangent_fields, words_of
+from dofkit.checker.trees import CheckError, add, along, derivative, negative, not_zero, number, times
+from dofkit.methods.certificates.dimension import graph_order
+from dofkit.methods.certificates.fields import Words, involutive_rows, tangent_fields, words_of
 from dofkit.methods.certificates.labels import integral_text
+from dofkit.methods.certificates.numerics import echelon
 from dofkit.methods.certificates.room import Room, Standing
 from dofkit.report import ConstraintEntry, Report
 

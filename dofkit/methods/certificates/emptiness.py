@@ -8,11 +8,10 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.checker.trees import ONE, CheckError, Tree
-from dofkit.checker.values import substituted
-from dofkit.methods.certificates.dependence import rate_of
+from dofkit.checker.trees import ONE, CheckError, Tree, substituted
 from dofkit.methods.certificates.room import Room, Told
-from dofkit.methods.certificates.texts import number_text
+from dofkit.methods.certificates.scenery import number_text
+from dofkit.methods.certificates.steps import rate_of
 
 Monomial = tuple[int, ...]
 Polynomial = dict[Monomial, Fraction]

@@ -6,14 +6,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
+from dofkit.methods.certificates.dimension import everywhere, families, stationary, velocities_everywhere
 from dofkit.methods.certificates.emptiness import inconsistent
-from dofkit.methods.certificates.everywhere import everywhere, velocities_everywhere
-from dofkit.methods.certificates.families import families
-from dofkit.methods.certificates.forms import integrable_names, involutive_rows, orbit
-from dofkit.methods.certificates.integrals import integral_of_text
-from dofkit.methods.certificates.rigid_fields import backing
+from dofkit.methods.certificates.fields import backing, integrable_names, involutive_rows, orbit
+from dofkit.methods.certificates.labels import integral_of_text
 from dofkit.methods.certificates.room import Room, Told
-from dofkit.methods.certificates.stationary import stationary
 from dofkit.report import ConstraintEntry
 
 

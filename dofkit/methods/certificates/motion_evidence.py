@@ -6,20 +6,16 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
+from dofkit.checker.motion import MOTION_FIELDS
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.problem import canonical, read_problem, sha256_of
-from dofkit.checker.trees import MINUS, ONE, Tree, number, power, symbol, times
-from dofkit.checker.values import along, substituted
-from dofkit.checker.verification import PARTS
+from dofkit.checker.problem import read_problem
+from dofkit.checker.trees import MINUS, ONE, Tree, along, number, power, substituted, symbol, times
 from dofkit.methods.certificates.certificate import HINDRANCES, without_spare_parts
-from dofkit.methods.certificates.estimates import Estimates
-from dofkit.methods.certificates.found_points import FoundPoint
 from dofkit.methods.certificates.lowering import document_of_scene
-from dofkit.methods.certificates.room import Room, Told
-from dofkit.methods.certificates.scenery import Scenery
-from dofkit.methods.certificates.texts import number_text, text_of
-from dofkit.methods.certificates.trial import ClaimTrial
-from dofkit.motion_checker import MOTION_RULES, TOLD
+from dofkit.methods.certificates.numerics import Estimates
+from dofkit.methods.certificates.points import FoundPoint
+from dofkit.methods.certificates.room import ClaimTrial, Room, Told, empty_certificate
+from dofkit.methods.certificates.scenery import Scenery, number_text, text_of
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
 
@@ -34,15 +30,13 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
     ``report``: what the equations rest on.
     """
     document = document_of_scene(scene)
-    parts: dict[str, list[Told]] = {part: [] for part in PARTS}
-    named = {"name": report.scene, "sha256": sha256_of(document), "document": canonical(document)}
-    found: dict[str, Any] = {"certificate": 1, "scene": named, "cayley": [], **parts, "claims": [], "uncovered": [PATH]}
+    found = empty_certificate(report.scene, document) | {"uncovered": [PATH]}
     try:
         problem = read_problem(document)
-        room = Room(report, document, Scenery(problem, False, parts))
-        trial = ClaimTrial(document, found, problem, MOTION_RULES)
+        room = Room(report, document, Scenery(problem, False, found))
+        trial = ClaimTrial(document, found, problem)
         trial.admit(room.scenery)
-        for evidence in MotionEvidence(room, {name: motion[name] for name in TOLD}).found():
+        for evidence in MotionEvidence(room, {name: motion[name] for name in MOTION_FIELDS}).found():
             if trial.outcome(evidence) == "shown":
                 found |= {"claims": [evidence], "uncovered": []}
                 break

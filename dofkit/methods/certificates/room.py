@@ -1,27 +1,70 @@
-"""What one certificate is made of while it is made: both readings of the scene, the main point, rows and columns."""
+"""What one certificate is made of while it is made: a reading of the scene, its main point, rows and columns."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal
 
 from dofkit.checker.label_rules import form_of
 from dofkit.checker.problem import CheckedProblem as Problem
+from dofkit.checker.problem import canonical, sha256_of
+from dofkit.checker.relations import FAULTS, told
 from dofkit.checker.trees import CheckError, Tree
-from dofkit.methods.certificates.dependence import accounted, rate_of
-from dofkit.methods.certificates.elimination import echelon
-from dofkit.methods.certificates.estimates import Estimates, NoEstimateError
-from dofkit.methods.certificates.found_points import FoundPoint
-from dofkit.methods.certificates.points import PointSearch
-from dofkit.methods.certificates.reductions import reduced
-from dofkit.methods.certificates.scenery import MOST_ROWS, Scenery
+from dofkit.checker.verification import PARTS, Verifier
+from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
+from dofkit.methods.certificates.points import FoundPoint, PointSearch
+from dofkit.methods.certificates.scenery import FAR, MOST_ROWS, Scenery
+from dofkit.methods.certificates.steps import accounted, rate_of, reduced
 from dofkit.report import Report
 
+Outcome = Literal["shown", "contradicted", "open"]
+
+
+def empty_certificate(name: str, document: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a certificate of a scene without parts, claims, or what is uncovered."""
+    scene = {"name": name, "sha256": sha256_of(document), "document": canonical(document)}
+    parts: dict[str, list[dict[str, Any]]] = {part: [] for part in PARTS}
+    return {"certificate": 1, "scene": scene, "cayley": [], **parts, "claims": [], "uncovered": []}
+
+
+class ClaimTrial:
+    """The checker at work on a certificate that grows."""
+
+    def __init__(self, document: Mapping[str, Any], certificate: dict[str, Any], problem: Problem) -> None:
+        self.verifier = Verifier(document, certificate, problem)
+        self.reasons: dict[str, str] = {}
+
+    def admit(self, scenery: Scenery) -> None:
+        """Use a reading with what is known of it."""
+        self.verifier.evidences[scenery.cayley] = scenery.evidence
+
+    def outcome(self, claim: dict[str, Any]) -> Outcome:
+        """Whether a claim is shown; ``contradicted`` where the evidence gives another value."""
+        known = {cayley: len(one.consequences) for cayley, one in self.verifier.evidences.items()}
+        try:
+            self.verifier.check(claim)
+        except FAULTS as error:
+            self.reasons[claim["path"]] = told(error)
+            self._forget(known)
+            return "contradicted" if told(error).startswith("the evidence gives") else "open"
+        return "shown"
+
+    def _forget(self, known: Mapping[bool, int]) -> None:
+        """Leave out what follows by covers of a claim that is not written down: who reads the others has it not."""
+        for cayley, one in self.verifier.evidences.items():
+            number = known.get(cayley, len(one.consequences))
+            if number < len(one.consequences):
+                del one.consequences[number:]
+                gone = [key for key in one.seen if key[0] == "covers" or (key[0] == "met" and key[1] >= number)]
+                for key in gone:
+                    del one.seen[key]
+
+
+# What one certificate is made of while it is made: both readings of the scene, the main point, rows and columns.
+
 Told = dict[str, Any]
-#: What is farther from 0 than this, in floats, is taken to be none.
-FAR = 1e-7
 
 
 @dataclass
@@ -82,10 +125,7 @@ class RoomParts:
 
     def differs(self, tree: Tree, point: FoundPoint) -> bool:
         """Whether a tree is not 0 at a point, by far."""
-        try:
-            return abs(Estimates(point.floats).value(self.scenery.chosen(tree))) > FAR
-        except NoEstimateError:
-            return False
+        return self.scenery.differs(tree, point.floats)
 
 
 class Room(RoomParts):

@@ -1,4 +1,4 @@
-"""The checker's reading of a scene, with choices made for what it leaves open."""
+"""The checker's reading of a scene, with choices for what it leaves open, and its trees as texts."""
 
 from __future__ import annotations
 
@@ -9,9 +9,55 @@ from typing import Any
 
 from dofkit.checker.evidence import CheckedEvidence
 from dofkit.checker.problem import CheckedProblem as Problem
-from dofkit.checker.trees import CheckError, Effort, Tree
-from dofkit.checker.values import substituted
+from dofkit.checker.ring import CheckedRing
+from dofkit.checker.trees import CheckError, Effort, Tree, substituted
+from dofkit.methods.certificates.numerics import Estimates, NoEstimateError
 
+
+def number_text(value: Fraction | int) -> str:
+    """A rational number."""
+    value = Fraction(value)
+    return str(value.numerator) if value.denominator == 1 else f"{value.numerator}/{value.denominator}"
+
+
+def text_of(tree: Tree) -> str:
+    """A tree as a text that is read as the same tree, up to the order of what commutes."""
+    head = tree.head
+    if isinstance(tree.value, Fraction):
+        return number_text(tree.value) if tree.value >= 0 else f"({number_text(tree.value)})"
+    if head == "symbol":
+        return str(tree.value)
+    if head == "pi":
+        return "pi"
+    if head == "sum":
+        return "(" + " + ".join(text_of(part) for part in tree.below) + ")"
+    if head == "product":
+        return "*".join(_factor(part) for part in tree.below)
+    if head == "power":
+        return f"({text_of(tree.below[0])})^({text_of(tree.below[1])})"
+    if head == "apply":
+        return _applied(tree)
+    return f"{head}({', '.join(text_of(part) for part in tree.below)})"
+
+
+def _factor(tree: Tree) -> str:
+    text = text_of(tree)
+    return f"({text})" if "/" in text or tree.head == "product" else text
+
+
+def _applied(tree: Tree) -> str:
+    """A declared function, or its derivative by its arguments."""
+    called = f"{tree.value}({', '.join(text_of(part) for part in tree.below)})"
+    for argument, order in zip(tree.below, tree.orders, strict=True):
+        for _ in range(order):
+            called = f"diff({called}, {text_of(argument)})"
+    return called
+
+
+# The checker's reading of a scene, with choices made for what it leaves open.
+
+#: What is farther from 0 than this, in floats, is not 0.
+FAR = 1e-7
 #: Units of the checker's work that looking for the evidence of one scene may cost.
 WORK = 12_000_000
 #: Scenes with more relations or coordinates than this are left to what needs no numbers.
@@ -29,6 +75,7 @@ class Scenery:
         self.evidence = CheckedEvidence(problem, self._view, self.effort)
         self._prepared: dict[str, Tree] = {}
         self.reduced_from: dict[str, str] = {}
+        self.steps: set[str] = set()
 
     @property
     def label(self) -> str:
@@ -79,9 +126,16 @@ class Scenery:
         }
         return substituted(tree, {}, made)
 
+    def differs(self, tree: Tree, floats: Mapping[str, float]) -> bool:
+        """Return whether a tree is not 0 at a point, by far."""
+        try:
+            return abs(Estimates(floats, slopes=False).value(self.chosen(tree))) > FAR
+        except NoEstimateError:
+            return False
+
     def has_step(self, name: str) -> bool:
-        """Whether there is such a step."""
-        return any(step["id"] == name for step in self.parts["relations"])
+        """Return whether there is such a step."""
+        return name in self.steps
 
     def add_step(self, step: dict[str, Any]) -> None:
         """A further step, if it stands up; `CheckError` where it does not."""
@@ -96,6 +150,7 @@ class Scenery:
             self.evidence.known, self.evidence.consequences = before
             raise CheckError(self.evidence.faults[step["id"]])
         self.parts["relations"].append(step)
+        self.steps.add(step["id"])
 
 
 def _polynomial(count: int, place: int) -> dict[str, Any]:
@@ -109,3 +164,30 @@ def _polynomial(count: int, place: int) -> dict[str, Any]:
 def floats_of(values: Mapping[str, Fraction]) -> dict[str, float]:
     """Values in floats."""
     return {name: float(value) for name, value in values.items()}
+
+
+# A relation as a multiple of another, by normal forms.
+
+
+def multiple(scenery: Scenery, name: str, other: str) -> dict[str, Any] | None:
+    """h and c with h name = c other, in symbols; None where other functions would be needed."""
+    ring = scenery.evidence.ring
+    one, by = (ring.read(scenery.evidence.relation(each).left) for each in (name, other))
+    if by.above == 0:
+        return None
+    quotient = ring.times(one, ring.to_power(by, -1))
+    above, below = (polynomial_text(ring, part) for part in quotient)
+    return None if above is None or below is None else {"h": below, "c": {other: above}}
+
+
+def polynomial_text(ring: CheckedRing, polynomial: Any) -> str | None:
+    """A polynomial in symbols as a text."""
+    names = {place: key[1] for key, place in ring.places.items() if key[0] == "symbol"}
+    terms = []
+    for exponents, coefficient in polynomial.terms():
+        powers = {place: int(k) for place, k in enumerate(reversed(exponents)) if k}
+        if not powers.keys() <= names.keys():
+            return None
+        factors = [f"{names[place]}^{k}" for place, k in powers.items()]
+        terms.append("*".join([f"({number_text(Fraction(int(coefficient.p), int(coefficient.q)))})", *factors]))
+    return " + ".join(terms) or "0"

@@ -15,7 +15,6 @@ from dofkit.checker import verify as rechecked
 from dofkit.expressions.text.characters import SUBSCRIPTS
 from dofkit.methods.certificates.lowering import document_of_scene
 from dofkit.models.formats import is_model
-from dofkit.motion_checker import MOTION_RULES
 from dofkit.scene.found_files import find
 from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
@@ -55,7 +54,7 @@ def verify(scene: SceneLike | None, certificate: Given) -> Verification:
     >>> dofkit.verify("four-bar-linkage", report.certificate).failed
     []
     """
-    return rechecked(_written(scene), _text_of(certificate), MOTION_RULES)
+    return rechecked(_written(scene), _text_of(certificate))
 
 
 def _written(scene: SceneLike | None) -> Mapping[str, Any] | str | None:

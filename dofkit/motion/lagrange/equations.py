@@ -16,7 +16,7 @@ from dofkit.classification.passes import Examined, studied
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import Names, to_text
-from dofkit.expressions.text.bounds import MAX_CHARACTERS
+from dofkit.expressions.text.characters import MAX_CHARACTERS
 from dofkit.expressions.tree import Expr
 from dofkit.motion.lagrange.angles import compound
 from dofkit.motion.lagrange.conserved import conserved, cyclic

@@ -8,7 +8,7 @@ from pydantic import Field, PrivateAttr
 
 from dofkit.base.display import Companion, DisplayedFormulas, text_of
 from dofkit.base.verdicts import Verdict
-from dofkit.report import Report, ToldModel
+from dofkit.report import Report, ReportModel
 
 if TYPE_CHECKING:
     from dofkit.motion.lagrange.derivation import Derived
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 QP = "action, M L^2 T^-1: each product q*p has the dimension of energy times time, whatever q is"
 
 
-class Conserved(ToldModel):
+class Conserved(ReportModel):
     """A quantity that does not change along the motion: what it is called, it, and why."""
 
     name: str
@@ -26,7 +26,7 @@ class Conserved(ToldModel):
     reason: str
 
 
-class Linearized(ToldModel):
+class Linearized(ReportModel):
     """M qddot + C qdot + K q = 0 for small deviations q of ``coordinates`` from an equilibrium.
 
     ``characteristic``: det(M s^2 + C s + K), empty for large systems; ``frequencies``: the angular ones where C is 0,
@@ -45,7 +45,7 @@ class Linearized(ToldModel):
     others: list[dict[str, str]] = Field(default_factory=list)
 
 
-class MotionReport(DisplayedFormulas, ToldModel):
+class MotionReport(DisplayedFormulas, ReportModel):
     """Lagrange's equations of a scene, as texts in the grammar of scenes (``qddot`` for accelerations).
 
     ``coordinates`` are those kept; ``eliminated`` ones are functions of them. ``forces`` are dL/dq plus the

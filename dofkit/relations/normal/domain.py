@@ -19,8 +19,7 @@ from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
-from dofkit.expressions.domains import DomainSense, of_function, of_power
+from dofkit.expressions.calculus import DomainSense, of_function, of_power, substitute
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.semidefinite import never_holds

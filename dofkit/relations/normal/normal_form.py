@@ -22,8 +22,7 @@ from dofkit.exact.ring.canonical import Canon, divided, lowest_terms
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff, substitute
-from dofkit.expressions.differentials import SOLVE_FOR_IT, accelerations_of, cleared, in_velocities
+from dofkit.expressions.calculus import SOLVE_FOR_IT, accelerations_of, cleared, diff, in_velocities, substitute
 from dofkit.expressions.terms import Combined, combined, without_cancelled
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import (

@@ -11,7 +11,7 @@ from typing import Annotated, ClassVar, Literal, NamedTuple
 from pydantic import Discriminator, Field, Tag, WrapValidator
 
 from dofkit.base.errors import NoValueError
-from dofkit.exact.matrices.rows import combined
+from dofkit.exact.matrices.sparse import combined
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.terms import linear_terms

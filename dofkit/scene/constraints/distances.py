@@ -10,7 +10,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field
 
 from dofkit.base.wording import many, verb
-from dofkit.exact.matrices.rows import along, less
+from dofkit.exact.matrices.sparse import along, less
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.renaming import is_name

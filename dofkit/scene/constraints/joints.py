@@ -14,7 +14,7 @@ from typing import ClassVar, NamedTuple
 
 from pydantic import Field
 
-from dofkit.exact.matrices import rows
+from dofkit.exact.matrices import sparse as rows
 from dofkit.expressions.renaming import Unwritten
 from dofkit.expressions.tree import HALF, MINUS_ONE, ONE, ZERO, Expr, fn, mul
 from dofkit.expressions.vectors import Vec, cross, difference, dot, is_zero, length, minus, scaled, unit

@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Literal
 
 from pydantic import Field
 
-from dofkit.exact.matrices.rows import across, less
+from dofkit.exact.matrices.sparse import across, less
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import ZERO, Expr, coordinate, mul
 from dofkit.expressions.vectors import Vec, difference, dot, minus, scaled

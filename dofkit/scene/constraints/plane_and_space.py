@@ -7,7 +7,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from dofkit.exact.matrices.rows import across
+from dofkit.exact.matrices.sparse import across
 from dofkit.expressions.tree import Expr
 from dofkit.expressions.vectors import difference
 from dofkit.scene.constraints.joints import (

@@ -7,7 +7,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from dofkit.exact.matrices.rows import combined
+from dofkit.exact.matrices.sparse import combined
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr, add, mul, velocity
 from dofkit.expressions.vectors import difference

@@ -7,7 +7,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from dofkit.exact.matrices import rows
+from dofkit.exact.matrices import sparse as rows
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import PI, ZERO, Expr, add, fn, mul
 from dofkit.expressions.vectors import Vec, cross, difference, dot, length, plus, scaled

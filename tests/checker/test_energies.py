@@ -8,9 +8,9 @@ from typing import Any
 from checker.values import of_tree
 
 from dofkit.checker.grammar import KnownNames, parse
+from dofkit.checker.motion import CheckedEnergies
 from dofkit.checker.problem import read_problem
 from dofkit.checker.trees import Tree, symbol
-from dofkit.motion_checker.energies import CheckedEnergies
 
 
 def read(**scene: Any) -> CheckedEnergies:

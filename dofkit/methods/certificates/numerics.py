@@ -1,12 +1,90 @@
-"""Values and gradients of trees in floats: good for looking, never for deciding."""
+"""Floating point: values and gradients of trees, elimination; good for looking, never for deciding."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from typing import NamedTuple
+
+import numpy as np
 
 from dofkit.checker.trees import Tree
+
+Row = Mapping[str, float]
+SMALL = 1e-8
+
+
+class Pivot(NamedTuple):
+    """A row that is independent of those before it, and a column in which it is."""
+
+    row: int
+    column: str
+
+
+class FloatEchelon(NamedTuple):
+    """The pivots in the order of the rows, and the rows that depend on those before."""
+
+    pivots: list[Pivot]
+    dependent: list[int]
+
+
+def echelon(rows: Sequence[Row], prefer: Callable[[int, str], float] | None = None) -> FloatEchelon:
+    """Rows in their order, each kept where it is not in the span of those kept before.
+
+    ``prefer`` gives a weight to a row's column: of those that are not tiny the one of largest size times weight is
+    the pivot.
+    """
+    kept: list[tuple[str, dict[str, float]]] = []
+    pivots: list[Pivot] = []
+    dependent: list[int] = []
+    for place, given in enumerate(rows):
+        row = {name: value for name, value in given.items() if value}
+        size = max(map(abs, row.values()), default=0.0)
+        for column, other in kept:
+            factor = row.get(column)
+            if factor:
+                for name, value in other.items():
+                    row[name] = row.get(name, 0.0) - factor * value
+                row[column] = 0.0
+        largest = max(map(abs, row.values()), default=0.0)
+        if largest <= SMALL * max(size, 1e-3):
+            dependent.append(place)
+            continue
+        fit = [name for name in sorted(row) if abs(row[name]) > 1e-3 * largest]
+        column = max(fit, key=lambda name: abs(row[name]) * (prefer(place, name) if prefer else 1.0))
+        lead = row[column]
+        kept.append((column, {name: value / lead for name, value in row.items() if value}))
+        pivots.append(Pivot(place, column))
+    return FloatEchelon(pivots, dependent)
+
+
+def solved(rows: Sequence[Row], right: Sequence[float], columns: Sequence[str]) -> dict[str, float] | None:
+    """Return the solution of a square system; None where it is singular in floats."""
+    if not columns:
+        return {}
+    matrix = np.array([[row.get(c, 0.0) for c in columns] for row in rows])
+    try:
+        solution = np.linalg.solve(matrix, np.array(right, dtype=float))
+    except np.linalg.LinAlgError:
+        return None
+    small = np.linalg.norm(matrix) * np.linalg.norm(solution) * 1e-13
+    return dict(zip(columns, solution.tolist(), strict=True)) if small < 1 + np.linalg.norm(right) else None
+
+
+def least_step(rows: Sequence[Row], right: Sequence[float]) -> dict[str, float]:
+    """Return a short step x with rows x = right, as nearly as that can be: J^T (J J^T + small)^-1 right."""
+    names = sorted({name for row in rows for name in row})
+    matrix = np.array([[row.get(name, 0.0) for name in names] for row in rows])
+    if not names:
+        return {}
+    normal = matrix @ matrix.T
+    normal += 1e-10 * (normal.diagonal().max() or 1.0) * np.eye(len(rows))
+    step = matrix.T @ np.linalg.solve(normal, np.array(right, dtype=float))
+    return dict(zip(names, step.tolist(), strict=True))
+
+
+# Values and gradients of trees in floats: good for looking, never for deciding.
 
 Gradient = dict[str, float]
 Estimate = tuple[float, Gradient]
@@ -16,51 +94,11 @@ class NoEstimateError(Exception):
     """A tree has no value in floats here."""
 
 
-class Values:
-    """Values alone at one point."""
-
-    def __init__(self, values: Mapping[str, float]) -> None:
-        self.values = values
-        self._done: dict[int, tuple[Tree, float]] = {}
-
-    def value(self, tree: Tree) -> float:
-        """The value; `NoEstimateError` where there is none."""
-        known = self._done.get(id(tree))
-        if known is None:
-            try:
-                known = self._done[id(tree)] = tree, self._read(tree)
-            except (ValueError, OverflowError, ZeroDivisionError, KeyError):
-                raise NoEstimateError(tree.head) from None
-        return known[1]
-
-    def _read(self, tree: Tree) -> float:
-        head = tree.head
-        if isinstance(tree.value, Fraction):
-            return float(tree.value)
-        if head == "symbol":
-            return self.values[str(tree.value)]
-        if head == "pi":
-            return math.pi
-        below = [self.value(part) for part in tree.below]
-        if head == "sum":
-            return sum(below)
-        if head == "product":
-            return math.prod(below)
-        if head == "atan2":
-            return math.atan2(below[0], below[1])
-        if head != "power":
-            return _elementary(head, below[0])[0]
-        found = below[0] ** below[1]
-        if isinstance(found, complex):
-            raise NoEstimateError("power")
-        return float(found)
-
-
 class Estimates:
-    """Values and gradients at one point, by every symbol."""
+    """Values and gradients at one point, by every symbol; values alone, which cost less, without ``slopes``."""
 
-    def __init__(self, values: Mapping[str, float]) -> None:
-        self.values = values
+    def __init__(self, values: Mapping[str, float], slopes: bool = True) -> None:
+        self.values, self.slopes = values, slopes
         self._done: dict[int, tuple[Tree, Estimate]] = {}
 
     def value(self, tree: Tree) -> float:
@@ -87,7 +125,7 @@ class Estimates:
             return float(tree.value), {}
         if head == "symbol":
             name = str(tree.value)
-            return self.values[name], {name: 1.0}
+            return self.values[name], {name: 1.0} if self.slopes else {}
         if head == "pi":
             return math.pi, {}
         below = [self.value_and_gradient(part) for part in tree.below]

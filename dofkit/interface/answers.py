@@ -1,0 +1,262 @@
+"""What a worker does for one file of the command line: from its bytes to the lines that are printed."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import dofkit
+from dofkit.base.documents import Document
+from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
+from dofkit.base.workers import Json
+from dofkit.checker import CheckError, Verification
+from dofkit.checker import verify as verify_independently
+from dofkit.classification.undecided import sketch, undecided
+from dofkit.interface.jobs import STDIN, CertificateRequest, Cut, Request
+from dofkit.interface.output import FAILED, UNREADABLE
+from dofkit.interface.show.decimals import as_the_scene
+from dofkit.interface.show.faults import complaint
+from dofkit.interface.show.line import brief_line, outcome_of, selected_line, selection_of
+from dofkit.interface.show.motion import sheet_of_motion
+from dofkit.interface.show.report import changed, sheet_of_report, unexpected
+from dofkit.interface.show.sheet import SheetSection
+from dofkit.interface.show.terminal import Screen, as_text
+from dofkit.methods.stages import classified, lowered, stages
+from dofkit.report import Report
+from dofkit.scene.dropped import without
+from dofkit.scene.expectation import unmet
+from dofkit.scene.found_files import FoundFile, find
+from dofkit.scene.reading import SceneFile
+from dofkit.scene.scene import Scene
+
+#: The public functions that draw, by the kind of the picture.
+_PICTURES = {"mechanism": "draw", "graph": "graph", "directions": "phase", "motion": "animate"}
+
+
+def report_lines(request: Request) -> Iterator[Json]:
+    """Yield what is printed of the report on a file; before that an empty mapping, as soon as the file is read."""
+    return answer_lines(request, _report)
+
+
+def motion_lines(request: Request) -> Iterator[Json]:
+    """Yield what is printed of the equations of motion of a file."""
+    return answer_lines(request, _equations)
+
+
+def picture_lines(request: Request) -> Iterator[Json]:
+    """Write the picture of a file, and yield its path, which is printed."""
+    return answer_lines(request, _picture)
+
+
+def cut_lines(cut: Cut) -> Json:
+    """Return what is printed if `report_lines` was cut short: of a scene that was read, that nothing was decided."""
+    if cut.is_read:
+        *_, printed = answer_lines(cut.request, partial(_undecided, cut.reason))
+        return printed
+    fault = Fault(f"it could not be read: {cut.reason}", hint="make the scene smaller, or split it")
+    return _fault_streams(cut.request, cut.request.name, (fault,), None)
+
+
+def answer_lines(request: Request, answer: Callable[[Scene, Request], Iterator[Json]]) -> Iterator[Json]:
+    """Read a file and yield its answer, or else its faults, each with its location."""
+    name, document = request.name, None
+    try:
+        path = Path(request.file) if request.file != "-" and os.path.isfile(request.file) else None
+        file = find(request.file) if request.data is None else FoundFile(name, request.data, path)
+        name = file.name
+        read = SceneFile.read(file.data, name, file.path, request.limits)
+        document = read.document
+        scene = read.scene(checked=False)
+        try:
+            yield from answer(scene, request)
+        except SceneError as error:
+            raise read.with_places(error) from None
+    except MemoryError:
+        raise
+    except Exception as error:
+        yield _fault_streams(request, name, _faults_of_error(error), document)
+
+
+def streams(out: str = "", err: str = "", errors: int = 0, outcome: Json = None) -> Json:
+    """Return the fields of `Printed`: what goes to the two streams, and what a summary counts."""
+    return {"out": out, "err": err, "errors": errors, "outcome": outcome}
+
+
+def _report(whole: Scene, request: Request) -> Iterator[Json]:
+    start = time.perf_counter()
+    scene = without(whole, request.without) if request.without else whole
+    system = lowered(scene, request.budget)
+    yield {}
+    remaining = request.budget - (time.perf_counter() - start)
+    report = system if isinstance(system, Report) else classified(system, remaining, request.method)
+    if request.certificate is not None:
+        report = _with_certificate(scene, report, request.certificate)
+    as_json = request.output.as_json
+    sections: tuple[SheetSection, ...] = ()
+    if request.without and not as_json:
+        *_, before = stages(whole, request.budget, request.method)
+        sections = (changed(before, report, request.without),)
+    missed = unmet(scene, report.model_dump(mode="json")) if scene.expect else []
+    text = _report_text(
+        report if as_json else as_the_scene(report, scene), scene, request, (*sections, *unexpected(missed))
+    )
+    seconds = time.perf_counter() - start
+    yield streams(
+        text, outcome={**outcome_of(report), "expects": bool(scene.expect), "unmet": missed, "seconds": seconds}
+    )
+
+
+def _undecided(reason: str, scene: Scene, request: Request) -> Iterator[Json]:
+    """Yield the report on a scene about which nothing could be decided, for that reason."""
+    part = without(scene, request.without) if request.without else scene
+    system = lowered(part, request.budget)
+    report = undecided(system if isinstance(system, Report) else sketch(system, reason), reason)
+    yield streams(_report_text(report, scene, request), outcome=outcome_of(report))
+
+
+def _report_text(report: Report, scene: Scene, request: Request, sections: Sequence[SheetSection] = ()) -> str:
+    output = request.output
+    if output.as_json:
+        fields = report.model_dump(mode="json")
+        return _line(selection_of(fields, output.only) if output.only else fields, request)
+    if output.only:
+        return selected_line(report, output.only) + "\n"
+    if output.brief:
+        return brief_line(report, output.name_width, _screen(request)) + "\n"
+    sheet = sheet_of_report(report, scene.title, output.how)
+    return as_text(sheet._replace(sections=(*sections, *sheet.sections)), _screen(request)) + "\n\n"
+
+
+def _with_certificate(scene: Scene, report: Report, path: str) -> Report:
+    """Return the report with its certificate, which is written to a path."""
+    from dofkit.methods.classify import with_certificate  # few runs ask for certificates, whose search is large
+
+    report = with_certificate(scene, report)
+    _write_certificate(report.certificate, path)
+    return report
+
+
+def _write_certificate(certificate: dict[str, Any] | None, path: str) -> None:
+    target = Path(path)
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(json.dumps(certificate, ensure_ascii=False) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise DofkitError(f"the certificate cannot be written to '{path}': {error.strerror or error}") from None
+
+
+def _equations(scene: Scene, request: Request) -> Iterator[Json]:
+    report = dofkit.lagrange(scene, request.linearize, request.budget)
+    if request.certificate is not None:
+        from dofkit.methods.certificates.motion_evidence import certificate_of_motion  # few runs ask for certificates
+
+        fields = report.model_dump(mode="json")
+        _write_certificate(certificate_of_motion(scene, fields, report.classification), request.certificate)
+    if request.output.as_json:
+        yield streams(_line(report.model_dump(mode="json"), request))
+    else:
+        sheet = sheet_of_motion(as_the_scene(report, scene), scene.title)
+        yield streams(as_text(sheet, _screen(request)) + "\n\n")
+
+
+def _picture(scene: Scene, request: Request) -> Iterator[Json]:
+    if request.picture is None:
+        raise DofkitError("no picture was asked for")
+    kind, path = request.picture
+    try:
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        getattr(dofkit, _PICTURES[kind])(scene).save(path)
+    except OSError as error:
+        raise DofkitError(f"the picture cannot be written to '{path}': {error.strerror or error}") from None
+    yield streams(f"{path}\n")
+
+
+def _screen(request: Request) -> Screen:
+    return Screen(request.output.width, request.output.colours)
+
+
+def _line(value: Any, request: Request) -> str:
+    """Return one line of JSON."""
+    return json.dumps(value, ensure_ascii=request.output.ascii_only) + "\n"
+
+
+def _fault_streams(request: Request, name: str, faults: tuple[Fault, ...], document: Document | None) -> Json:
+    """Return what is printed about a file that could not be read, or not be answered."""
+    if request.output.as_json:
+        return streams(out=_line({"scene": name, "error": _error_object(faults)}, request), errors=len(faults))
+    file = STDIN if request.file == "-" else request.file
+    text = complaint(file, faults, document, request.output.coloured_errors)
+    return streams(err=text + "\n", errors=len(faults))
+
+
+def _error_object(faults: Iterable[Fault]) -> dict[str, Any]:
+    """Return the first fault, with all further ones under ``faults``."""
+    first, *others = [
+        {"message": fault.message, "line": fault.line, "column": fault.column, "hint": fault.hint} for fault in faults
+    ] or [{"message": "unknown error", "line": None, "column": None, "hint": None}]
+    return {**first, "faults": others}
+
+
+def _faults_of_error(error: Exception) -> tuple[Fault, ...]:
+    """Return what went wrong, as faults; an error of dofkit itself in one line."""
+    if isinstance(error, SceneError):
+        return error.faults
+    if isinstance(error, TextError):
+        return (Fault(error.message, hint=error.hint),)
+    if isinstance(error, DofkitError):
+        return (Fault(str(error)),)
+    detail = " ".join(str(error).split())[:200]
+    message = f"internal error, {type(error).__name__}" + (f": {detail}" if detail else "")
+    return (Fault(message, hint="this is a fault of dofkit, please report it with this scene"),)
+
+
+# certificates
+
+
+def verification_lines(request: CertificateRequest) -> Json:
+    """Return what is printed about a certificate, and the exit status."""
+    try:
+        checked = _verified(request)
+    except OSError as error:
+        return _unreadable(request, f"it cannot be read: {error.strerror or error}")
+    except (CheckError, DofkitError, ValueError) as error:
+        return _unreadable(request, " ".join(str(error).split()))
+    refused = bool(checked.failed) or (request.strict and bool(checked.uncovered))
+    out = (
+        json.dumps(checked._asdict(), ensure_ascii=request.ascii_only)
+        if request.as_json
+        else _verification_text(checked)
+    )
+    return {"out": out + "\n", "err": "", "status": FAILED if refused else 0}
+
+
+def _verified(request: CertificateRequest) -> Verification:
+    """Return the checker's own result; a scene that it cannot read may use synonyms, which are replaced first."""
+    certificate = Path(request.certificate).read_bytes()
+    if request.scene is None:
+        return verify_independently(None, certificate)
+    data = find(request.scene).data
+    try:
+        return verify_independently(data if isinstance(data, str) else data.decode("utf-8"), certificate)
+    except (CheckError, UnicodeDecodeError):
+        return dofkit.verify(request.scene, certificate)
+
+
+def _unreadable(request: CertificateRequest, message: str) -> Json:
+    if request.as_json:
+        error: dict[str, Any] = {"message": message, "line": None, "column": None, "hint": None}
+        line = {"scene": request.scene or request.certificate, "error": error}
+        return {"out": json.dumps(line, ensure_ascii=request.ascii_only) + "\n", "err": "", "status": UNREADABLE}
+    return {"out": "", "err": f"{request.certificate}: error: {message}\n", "status": UNREADABLE}
+
+
+def _verification_text(checked: Verification) -> str:
+    lines = [f"{checked.scene}: {checked.verified} of {checked.claims} claims verified"]
+    lines += [f"  failed     {f['path']} by {f['rule']}: {f['why']}" for f in checked.failed]
+    lines += [f"  uncovered  {path}" for path in checked.uncovered]
+    return "\n".join(lines)

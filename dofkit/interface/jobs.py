@@ -1,0 +1,187 @@
+"""One file after another in a worker that is watched: no file stops those that follow.
+
+Nothing heavy is imported here: the worker does that. Where this process may be forked the worker is a copy of it, so
+that a single scene costs hardly more than without a worker.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+import sys
+from collections import Counter
+from collections.abc import Generator, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple, Protocol
+
+from dofkit.base.deadline import DEFAULT_SECONDS, limit
+from dofkit.base.documents import MOST_BYTES
+from dofkit.base.workers import Job, JobOutcome, Worker
+from dofkit.interface.output import UNREADABLE, Output
+from dofkit.methods.table import MethodName
+
+STDIN = "stdin"
+#: The module that a worker imports.
+ANSWERS = "dofkit.interface.answers"
+#: Seconds for printing the report of a scene whose worker was killed.
+TELLING_SECONDS = 10.0
+#: The time limit of a certificate or a picture is this many times that of a report.
+SHARE = 3
+
+
+@dataclass(frozen=True)
+class Request:
+    """A file as it was named, and what is asked about it.
+
+    ``data``: its bytes, if they have been read already. ``without``: constraints that are dropped; ``limits``: joint
+    limits of models become inequalities; ``linearize``: small motions too. ``certificate``: the path or folder that its
+    certificate is written to. ``pictures``: of each file the kind of a picture (mechanism, graph, directions or motion)
+    and its path; ``picture``: that of this file.
+    """
+
+    file: str
+    output: Output
+    budget: float = DEFAULT_SECONDS
+    method: MethodName = "auto"
+    without: tuple[str, ...] = ()
+    limits: bool = False
+    linearize: bool = False
+    data: bytes | None = None
+    certificate: str | None = None
+    pictures: tuple[tuple[str, str], ...] = ()
+    picture: tuple[str, str] | None = None
+
+    @property
+    def name(self) -> str:
+        """The scene's name if the file does not give one."""
+        return name_of_file(self.file)
+
+
+class CertificateRequest(NamedTuple):
+    """A certificate's file and that of the scene (None: the certificate's own); ``strict``: nothing uncovered."""
+
+    scene: str | None
+    certificate: str
+    strict: bool
+    as_json: bool
+    ascii_only: bool = False
+
+
+class Cut(NamedTuple):
+    """A request whose answer was cut short: whether the file had been read, and why there is no more."""
+
+    request: Request
+    is_read: bool
+    reason: str
+
+
+class Printed(NamedTuple):
+    """What is printed about a file on standard output and standard error, and how many errors it has.
+
+    ``outcome``: what a summary counts of a report.
+    """
+
+    out: str
+    err: str
+    errors: int
+    outcome: Mapping[str, Any] | None = None
+
+
+class Runner(Protocol):
+    """A worker, or a pool of them."""
+
+    def run(self, job: Job) -> JobOutcome:
+        """Do one job."""
+
+
+def replies(function: str, files: Sequence[str], request: Request) -> Generator[Printed]:
+    """Yield what is printed about each file, in order; ``function``: the one of the answers that the worker calls."""
+    worker = Worker(modules=(ANSWERS,), fork=True)
+    try:
+        for each in requests(files, request):
+            yield reply(worker, function, each)
+    finally:
+        worker.kill()
+
+
+def requests(files: Sequence[str], request: Request) -> Iterator[Request]:
+    """Yield the request for each file, with the bytes of standard input and of pipes."""
+    pictures = request.pictures or (None,) * len(files)
+    for file, path, picture in zip(files, certificate_paths(files, request.certificate), pictures, strict=True):
+        yield replace(request, file=file, data=data_of(file), certificate=path, picture=picture, pictures=())
+
+
+def certificate_paths(files: Sequence[str], certificate: str | None) -> list[str | None]:
+    """Return the path of the certificate of each file; those of several files are in a folder."""
+    if certificate is None:
+        return [None] * len(files)
+    if len(files) == 1 and not os.path.isdir(certificate):
+        return [certificate]
+    return [os.path.join(certificate, f"{name}.json") for name in distinct_names(files)]
+
+
+def name_of_file(file: str) -> str:
+    """Return the name that a scene has by its file."""
+    stem = os.path.splitext(os.path.basename(os.path.normpath(file)))[0]
+    return STDIN if file == "-" else stem.encode("utf-8", "replace").decode("utf-8")
+
+
+def distinct_names(files: Sequence[str]) -> list[str]:
+    """Return the name of each file, numbered if an earlier file has it."""
+    names, counts = [], Counter[str]()
+    for name in map(name_of_file, files):
+        counts[name] += 1
+        names.append(name if counts[name] == 1 else f"{name}-{counts[name]}")
+    return names
+
+
+def reply(runner: Runner, function: str, request: Request) -> Printed:
+    """Return what is printed about one file, whatever happens to the worker."""
+    share = 1 if request.certificate is None and request.picture is None else SHARE
+    reading = limit(max(request.budget, DEFAULT_SECONDS)) if function == "report_lines" else None
+    outcome = runner.run(Job(f"{ANSWERS}:{function}", request, share * limit(request.budget), reading))
+    if outcome.finished:
+        return Printed(**outcome.value)
+    if function == "report_lines":
+        cut = Cut(request, outcome.value is not None, outcome.reason)
+        shortened = runner.run(Job(f"{ANSWERS}:cut_lines", cut, TELLING_SECONDS))
+        if shortened.finished:
+            return Printed(**shortened.value)
+    return _without_worker(request.name, outcome.reason, request.output.as_json)
+
+
+def verification(request: CertificateRequest) -> tuple[str, str, int]:
+    """Return what is printed about a certificate on standard output and standard error, and the exit status."""
+    worker = Worker(modules=(ANSWERS,), fork=True)
+    try:
+        outcome = worker.run(Job(f"{ANSWERS}:verification_lines", request, limit(DEFAULT_SECONDS)))
+    finally:
+        worker.kill()
+    if outcome.finished:
+        return outcome.value["out"], outcome.value["err"], outcome.value["status"]
+    printed = _without_worker(name_of_file(request.certificate), outcome.reason, request.as_json)
+    return printed.out, printed.err, UNREADABLE
+
+
+def _without_worker(name: str, reason: str, as_json: bool) -> Printed:
+    """Return what is printed about a file if no worker could process it."""
+    message = f"it could not be processed: {reason}"
+    if not as_json:
+        return Printed("", f"{name}: error: {message}\n", 1)
+    error: dict[str, Any] = {"message": message, "line": None, "column": None, "hint": None, "faults": []}
+    return Printed(json.dumps({"scene": name, "error": error}) + "\n", "", 1)
+
+
+def data_of(file: str, regular: bool = False) -> bytes | None:
+    """Return the bytes of standard input or of a pipe, which no clock limits; of a ``regular`` file if asked to."""
+    if file == "-":
+        return b"" if sys.stdin is None else sys.stdin.buffer.read(MOST_BYTES + 1)
+    try:
+        mode = os.stat(file).st_mode
+        if stat.S_ISDIR(mode) or (stat.S_ISREG(mode) and not regular):
+            return None
+        with open(file, "rb") as source:
+            return source.read(MOST_BYTES + 1)
+    except (OSError, ValueError):
+        return None

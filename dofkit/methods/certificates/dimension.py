@@ -1,0 +1,352 @@
+"""Evidence for dimensions: families of configurations, the whole set, and points at which rows are stationary."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from itertools import combinations
+
+from flint import arb
+
+from dofkit.checker.evidence import HIGHEST_ORDER, along_curve
+from dofkit.checker.trees import CheckError
+from dofkit.methods.certificates.fields import backing, kept_motions, orbit
+from dofkit.methods.certificates.numerics import SMALL, NoEstimateError, echelon
+from dofkit.methods.certificates.room import Room, Standing, Told
+from dofkit.methods.certificates.scenery import FAR, number_text
+from dofkit.methods.certificates.steps import accounted
+
+#: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
+STEP, NOISE, DENOMINATOR = 0.25, 0.05, 60
+#: Scenes are followed up to this product of the size of their relations and of the number of their coordinates.
+MOST_FOLLOWED = 6000
+Samples = list[dict[str, float]]
+
+
+def families(room: Room, size: int) -> Iterator[Told]:
+    """The rule `family` with so many freedoms, for some motions through the main point."""
+    size_of_all = sum(one.left.size for one in room.problem.relations) * len(room.problem.coordinates)
+    if room.point is None or room.scenery.evidence.moving or size_of_all > MOST_FOLLOWED:
+        return
+    for seed in range(2):
+        try:
+            found = _family(room, size, seed)
+        except (CheckError, NoEstimateError):
+            continue
+        if found is not None:
+            yield found
+
+
+def _family(room: Room, size: int, seed: int) -> Told | None:
+    point, scenery = room.point, room.scenery
+    if point is None:
+        return None
+    assumed = []
+    for i, text in enumerate(_linear_relations(room, _samples(room, seed))):
+        step = f"{scenery.label}family {seed}.{i}"
+        if not scenery.has_step(step):
+            scenery.add_step({"id": step, "by": "assumed", "function": text})
+        assumed.append(step)
+    standing = room.standing_of([*assumed, *scenery.evidence.finite])
+    if standing is None or len(standing.rows) != len(room.problem.coordinates) - size:
+        return None
+    left = [name for name in standing.dependent if name not in assumed]
+    if not all(accounted(scenery, name, standing.rows, point, f"family {seed}") for name in left):
+        return None
+    minor = {"at": point.name, "rows": standing.rows, "columns": standing.columns}
+    return {"rule": "family", "minor": minor}
+
+
+def _samples(room: Room, seed: int) -> Samples:
+    """Configurations along a motion that leaves the main point: as many as span its linear hull."""
+    drawn, found = random.Random(seed), Samples()
+    coordinates = room.problem.coordinates
+    now = before = dict(room.point.floats) if room.point is not None else {}
+    for place in range(len(coordinates) + 4):
+        far = max((abs(now[q] - before[q]) for q in coordinates), default=0.0)
+        noise = NOISE if place else STEP
+        moved = {
+            q: now[q] + (now[q] - before[q]) * STEP / (far or 1.0) + noise * drawn.uniform(-1, 1) for q in coordinates
+        }
+        start = {name: Fraction(value) for name, value in {**now, **moved}.items()}
+        reached = room.search.approached(start, room.equations, set(coordinates))
+        if reached is not None:
+            found.append(reached)
+            before, now = now, reached
+    return found
+
+
+def _linear_relations(room: Room, samples: Samples) -> Iterator[str]:
+    """Texts that are 0 at the main point and at all samples, linear with rational coefficients, each in few terms."""
+    point, coordinates = room.point, room.problem.coordinates
+    if point is None or not samples:
+        return
+    rows = [{q: one[q] - point.floats[q] for q in coordinates} for one in samples]
+    basis = reduced_rows(rows)
+    for q in coordinates:
+        if q in basis:
+            continue
+        terms = {p: row.get(q, 0.0) for p, row in basis.items()}
+        short = {p: Fraction(value).limit_denominator(DENOMINATOR) for p, value in terms.items()}
+        if all(abs(float(short[p]) - value) < 1e-6 for p, value in terms.items()):
+            parts = [(q, Fraction(1)), *((p, -value) for p, value in short.items() if value)]
+            yield " + ".join(f"({number_text(c)})*{_from(point.values[p], p)}" for p, c in parts)
+
+
+def _from(value: str, q: str) -> str:
+    return q if value == "0" else f"({q} - ({value}))"
+
+
+def reduced_rows(rows: Samples) -> dict[str, dict[str, float]]:
+    """A basis of what rows span, by pivots: in each row the pivot's entry is 1, and those of the other pivots are 0."""
+    found: dict[str, dict[str, float]] = {}
+    for pivot in echelon(rows).pivots:
+        row = dict(rows[pivot.row])
+        for column, other in found.items():
+            factor = row.get(column, 0.0)
+            row = {q: value - factor * other.get(q, 0.0) for q, value in row.items()}
+        lead = row[pivot.column]
+        if abs(lead) < SMALL:
+            continue
+        row = {q: value / lead for q, value in row.items()}
+        for column, other in found.items():
+            factor = other[pivot.column]
+            found[column] = {q: value - factor * row[q] for q, value in other.items()}
+        found[pivot.column] = row
+    return found
+
+
+# Evidence that no part of the set is larger: graphs, single relations, relations with symbols of their own.
+
+Order = list[list[str]]
+
+
+def everywhere(room: Room) -> Iterator[Told]:
+    """dof of the whole set; with forms from that near the main point."""
+    if room.scenery.cayley or room.standing is None:
+        return
+    evidence, finite = room.scenery.evidence, room.finite_standing
+    if not evidence.moving:
+        yield from _of_set(room, room.standing)
+        return
+    for local in orbit(room):
+        for parts in _of_forms(room):
+            yield {**local, **parts}
+        for parts in _of_set(room, finite) if finite is not None else ():
+            yield {**local, **parts}
+
+
+def velocities_everywhere(room: Room) -> Iterator[Told]:
+    """The independent velocities, at the whole set."""
+    if not room.scenery.cayley and room.standing is not None:
+        yield from _of_forms(room)
+
+
+def _of_forms(room: Room) -> Iterator[Told]:
+    """All relations in an order; or the finite ones, and a single form."""
+    evidence, standing = room.scenery.evidence, room.standing
+    if standing is None or not standing.accounted:
+        return
+    found = {"rule": "everywhere", "about": "everywhere", "minor": room.minor(standing)}
+    order, left = graph_order(room, _needed(standing, evidence.equations))
+    moving = _needed(standing, evidence.moving)
+    if not left:
+        yield {**found, "order": order}
+    elif len(moving) == 1:
+        order, left = graph_order(room, _needed(standing, evidence.finite))
+        if not left:
+            yield {**found, "order": order, "blocks": moving}
+
+
+def _needed(standing: Standing, names: Sequence[str]) -> list[str]:
+    """Relations without those that follow from the rows."""
+    return [name for name in names if not (standing.accounted and name in standing.dependent)]
+
+
+def _of_set(room: Room, standing: Standing) -> Iterator[Told]:
+    """What the geometric equations define."""
+    evidence = room.scenery.evidence
+    finite = _needed(standing, evidence.finite)
+    order, left = graph_order(room, finite, columns=["t"])
+    found: Told = {"rule": "everywhere", "about": "everywhere"}
+    if not left:
+        yield {**found, "order": order}
+    found["minor"] = room.minor(standing)
+    if not left:
+        yield {**found, "order": order}
+    own = own_symbols(room)
+    if not standing.dependent or standing.accounted:
+        for tried, rest in ((order, left), given_first(room, finite), ([], finite)):
+            blocks, generic = _split(room, tried, rest, own)
+            if all(name in own for name in generic):
+                yield {**found, "order": tried, "blocks": blocks, "generic": [[name, own[name]] for name in generic]}
+    if all(name in own for name in evidence.finite) and (backed := backing(room, standing)):
+        yield {**found, "generic": [[name, own[name]] for name in evidence.finite], **backed}
+
+
+def graph_order(room: Room, names: Sequence[str] | None = None, columns: Sequence[str] = ()) -> tuple[Order, list[str]]:
+    """Relations with a coordinate that each alone gives, once those after it are taken away; and those left over.
+
+    ``names``: the finite ones where it is left out; ``columns``: what may be given besides coordinates.
+    """
+    left, columns = (
+        list(room.scenery.evidence.finite if names is None else names),
+        [*room.problem.coordinates, *columns],
+    )
+    held = {name: _moved(room, name) for name in left}
+    order: Order = []
+    found: list[str] | None = []
+    while left and found is not None:
+        found = next(
+            (
+                [name, q]
+                for q in columns
+                for name in left
+                if q in held[name]
+                and not any(q in held[other] for other in left if other != name)
+                and _gives(room, name, q)
+            ),
+            None,
+        )
+        if found is not None:
+            order.insert(0, found)
+            left.remove(found[0])
+    return order, left
+
+
+def _moved(room: Room, name: str) -> set[str]:
+    """The variables of a finite relation; those with velocities in another."""
+    one = room.scenery.evidence.relation(name)
+    held = one.left.symbols
+    if one.kind == "finite":
+        return set(held) & set(room.scenery.evidence.variables)
+    return {q for q in room.problem.coordinates if f"{q}dot" in held}
+
+
+def given_first(room: Room, names: Sequence[str]) -> tuple[Order, list[str]]:
+    """Relations that give a coordinate which those chosen before do not hold, short ones first; and the others."""
+    coordinates = room.problem.coordinates
+    held = {name: room.scenery.evidence.relation(name).left.symbols & set(coordinates) for name in names}
+    order: Order = []
+    taken: set[str] = set()
+    for name in sorted(held, key=lambda one: len(held[one])):
+        fit = [q for q in coordinates if q in held[name] and q not in taken and _gives(room, name, q)]
+        if fit:
+            order.append([name, fit[0]])
+            taken |= held[name]
+    return order, [name for name in names if all(name != chosen for chosen, _ in order)]
+
+
+def _gives(room: Room, name: str, q: str) -> bool:
+    """Whether a relation gives a coordinate with a factor of numbers and parameters."""
+    evidence = room.scenery.evidence
+    try:
+        slope = evidence.slope(name, q)
+        plain = slope.symbols <= evidence.chosen and room.point is not None and room.differs(slope, room.point)
+        return plain or bool(evidence.ring.rational(slope))
+    except CheckError:
+        return False
+
+
+def own_symbols(room: Room) -> dict[str, str]:
+    """For each relation a generic symbol or parameter that occurs in no other."""
+    relations = room.problem.relations
+    held = {one.name: one.left.symbols for one in relations}
+    found: dict[str, str] = {}
+    for one in relations:
+        for symbol in (*room.problem.world.generic, *room.problem.world.signs):
+            if symbol in held[one.name] and not any(symbol in held[other] for other in held if other != one.name):
+                found.setdefault(one.name, symbol)
+    return found
+
+
+def _split(room: Room, order: Order, left: list[str], own: dict[str, str]) -> tuple[list[str], list[str]]:
+    """What is left as single relations, and those that share coordinates."""
+    given: dict[str, frozenset[str]] = {}
+    coordinates = set(room.problem.coordinates)
+
+    def free(name: str) -> frozenset[str]:
+        held = room.scenery.evidence.relation(name).left.symbols & coordinates
+        return frozenset().union(*(given.get(q, frozenset((q,))) for q in held))
+
+    for name, q in order:
+        given[q] = free(name) - {q}
+    sets = {name: free(name) for name in left}
+    alone = [name for name in left if all(sets[name].isdisjoint(sets[other]) for other in left if other != name)]
+    return alone, [name for name in left if name not in alone]
+
+
+# Evidence where rows are stationary at the main point: what is isolated along a curve, and what crosses itself.
+
+SIGNS = (1, -1)
+#: The engines' arguments by which it is so.
+ISOLATED, CROSSING = "isolated zero of one variable", "indefinite form"
+
+
+def stationary(room: Room) -> Iterator[Told]:
+    """dof near a point at which a relation depends on the others to first order alone."""
+    standing = room.standing
+    if standing is None or not standing.dependent:
+        return
+    for found in _isolations(room):
+        most = {key: part for key, part in found.items() if key not in ("fields", "pins")}
+        yield {"rule": "squeeze", "about": room.about, "most": most, "least": _orbit(room, found)}
+    if room.report.verdicts["dof"].argument == CROSSING:
+        for least in families(room, room.report.dof or 0):
+            for most in _crossings(room, standing):
+                yield {"rule": "squeeze", "about": room.about, "most": most, "least": least}
+
+
+def _isolations(room: Room) -> Iterator[Told]:
+    """The rule `isolated`, with the generalized coordinates for pins, or what moves with the fields."""
+    chosen = room.report.generalized_coordinates
+    for wanted in (chosen, room.problem.coordinates) if room.report.verdicts["dof"].argument == ISOLATED else ():
+        fields = kept_motions(room, wanted) if wanted else {}
+        if wanted is not None and len(fields) == room.report.dof:
+            yield from _pinned(room, list(fields), list(fields.values()))
+
+
+def _pinned(room: Room, fields: list[str], pins: list[str]) -> Iterator[Told]:
+    if room.standing is None:
+        return
+    others = [q for q in room.problem.coordinates if q not in pins]
+    standing = room.standing_of(room.standing.order, others)
+    if standing is None or len(standing.rows) != len(others) - 1:
+        return
+    free = next(q for q in others if q not in standing.columns)
+    given: Told = {"rule": "isolated", "minor": room.minor(standing), "speeds": {free: "1"}}
+    given |= {"fields": fields, "pins": pins}
+    for order in range(2, HIGHEST_ORDER + 1):
+        for zero in standing.dependent:
+            yield {**given, "zero": zero, "order": order}
+
+
+def _orbit(room: Room, most: Told) -> Told:
+    """From below: the orbit of the fields, or the point alone."""
+    at, finite = room.standing.point.name if room.standing else "", list(room.scenery.evidence.finite)
+    words = [[name] for name in most["fields"]]
+    return {"rule": "span", "at": at, "fields": most["fields"], "rows": finite, "words": words, "columns": most["pins"]}
+
+
+def _crossings(room: Room, standing: Standing) -> Iterator[Told]:
+    """The rule `isolated`: a direction in which a relation has a second derivative."""
+    free = [q for q in room.problem.coordinates if q not in standing.columns]
+    ways = [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
+    for zero in standing.dependent:
+        for way in ways:
+            if abs(_bends(room, standing, zero, way)) > FAR:
+                speeds = {q: str(value) for q, value in way.items()}
+                yield {"rule": "isolated", "minor": room.minor(standing), "zero": zero, "speeds": speeds, "order": 2}
+                break
+
+
+def _bends(room: Room, standing: Standing, zero: str, way: dict[str, int]) -> float:
+    """The second derivative of a relation in a direction; 0 where it cannot be told."""
+    evidence = room.scenery.evidence
+    try:
+        minor = evidence.minor(room.minor(standing))
+        speeds = {q: arb(value) for q, value in way.items()}
+        return float(along_curve(evidence, minor, speeds, evidence.relation(zero).left, 2).mid())
+    except (CheckError, ArithmeticError):
+        return 0.0

@@ -1,0 +1,285 @@
+"""Steps of a certificate: relations made simpler, coordinates put in, and relations that follow from others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from itertools import combinations
+from typing import Any
+
+from dofkit.checker.trees import (
+    ZERO,
+    CheckError,
+    Tree,
+    add,
+    difference,
+    linear_in,
+    negative,
+    number,
+    power,
+    put_in,
+    times,
+)
+from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon, solved
+from dofkit.methods.certificates.points import FoundPoint
+from dofkit.methods.certificates.scenery import Scenery, number_text, text_of
+
+Step = dict[str, object]
+
+
+def reduced(scenery: Scenery, names: Sequence[str]) -> list[str]:
+    """Relations, each one that is a power or a sum of squares replaced by its bases."""
+    return [one for name in names for one in _reduced(scenery, name)]
+
+
+def _reduced(scenery: Scenery, name: str) -> list[str]:
+    known = [one for one, source in scenery.reduced_from.items() if source == name]
+    if known:
+        return known
+    left = scenery.evidence.relation(name).left
+    steps = _steps(scenery.label, name, left)
+    if not steps or not _stand(scenery, *steps):
+        return [name]
+    ids = [str(step["id"]) for step in steps if "function" in step]
+    scenery.reduced_from |= dict.fromkeys(ids, name)
+    return ids
+
+
+def _stand(scenery: Scenery, *steps: Step) -> bool:
+    """Return whether steps stand up, one after the other; those that are there already do."""
+    try:
+        for step in steps:
+            if not scenery.has_step(str(step["id"])):
+                scenery.add_step(step)
+    except CheckError:
+        return False
+    return True
+
+
+def _steps(label: str, name: str, left: Tree) -> list[Step]:
+    """Steps to the bases of a power or a sum of squares, and back; none where it is no such thing."""
+    squares = [_square(term) for term in (left.below if left.head == "sum" else (left,))]
+    pairs = [pair for pair in squares if pair is not None]
+    signs = {coefficient > 0 for coefficient, *_ in pairs}
+    if len(pairs) < len(squares) or len(signs) > 1 or (len(pairs) > 1 and any(k != 2 for *_, k in pairs)):
+        return []
+    sign, found = "1" if signs == {True} else "-1", list[Step]()
+    ids = [f"{label}root {i} of {name}" for i in range(1, len(pairs) + 1)]
+    for i, (coefficient, base, exponent) in enumerate(pairs):
+        others = [[number_text(abs(c)), text_of(a)] for j, (c, a, _) in enumerate(pairs) if j != i]
+        told = {"function": text_of(base), "power": exponent, "h": number_text(abs(coefficient)), "c": {name: sign}}
+        found.append({"id": ids[i], "by": "implied", **told, **({"sos": others} if others else {})})
+    cofactors = {
+        one: text_of(times(number(c), power(a, number(k - 1)))) for one, (c, a, k) in zip(ids, pairs, strict=True)
+    }
+    return [*found, {"id": f"{label}{name} from its roots", "by": "implied", "of": name, "c": cofactors}]
+
+
+def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
+    """A term as a number times an even power of what is no number."""
+    factors = term.below if term.head == "product" else (term,)
+    coefficient, base, exponent = Fraction(1), None, 0
+    for factor in factors:
+        if isinstance(factor.value, Fraction):
+            coefficient *= factor.value
+        elif base is None and factor.head == "power" and isinstance(factor.below[1].value, Fraction):
+            base, exponent = factor.below[0], int(factor.below[1].value)
+            if factor.below[1] != number(exponent) or exponent < 2 or exponent % 2:
+                return None
+        else:
+            return None
+    return None if base is None or not base.symbols else (coefficient, base, exponent)
+
+
+def without_factor(scenery: Scenery, name: str) -> str:
+    """The id of a step that drops a factor that is a positive number plus squares; the relation's own without one."""
+    step, left = f"{scenery.label}{name} without its factor", scenery.evidence.relation(name).left
+    if scenery.has_step(step):
+        return step
+    terms = [_factors(term) for term in (left.below if left.head == "sum" else (left,))]
+    for factor in terms[0]:
+        positive = _positive(factor)
+        if positive is None or not all(factor in term for term in terms):
+            continue
+        places = [term.index(factor) for term in terms]
+        rest = add(*(times(*term[:i], *term[i + 1 :]) for term, i in zip(terms, places, strict=True)))
+        made = {"id": step, "by": "implied", "function": text_of(rest), "c": {name: text_of(rest)}, "power": 2}
+        sos = [[c, text_of(times(base, rest))] for c, base in positive[1]]
+        back: dict[str, object] = {"id": f"{step}, and back", "by": "implied", "of": name, "c": {step: text_of(factor)}}
+        if _stand(scenery, {**made, "h": positive[0], "sos": sos}, back):
+            return step
+    return name
+
+
+def _factors(term: Tree) -> list[Tree]:
+    return [one for part in term.below for one in _factors(part)] if term.head == "product" else [term]
+
+
+def _positive(tree: Tree) -> tuple[str, list[tuple[str, Tree]]] | None:
+    """A sum as a positive number and squares of bases with positive coefficients."""
+    numbers = [part.value for part in tree.below if isinstance(part.value, Fraction)]
+    squares = [_square(part) for part in tree.below if not isinstance(part.value, Fraction)]
+    terms = [
+        (number_text(one[0]), power(one[1], number(one[2] // 2))) for one in squares if one is not None and one[0] > 0
+    ]
+    if tree.head != "sum" or len(terms) < len(squares) or not numbers or numbers[0] <= 0:
+        return None
+    return number_text(numbers[0]), terms
+
+
+# Coordinates that finite relations give by others: put into a relation, they may leave nothing of it.
+
+#: A relation and the coordinate that it gives.
+Order = list[list[str]]
+#: Relations that are longer are not solved in pairs.
+LARGEST_OF_PAIR = 30
+
+
+def puts(scenery: Scenery, names: Sequence[str]) -> Order:
+    """Finite relations with the coordinates that they give, in the order in which these are put into others.
+
+    The later one is put in, the fewer coordinates its relation holds that another one gives.
+    """
+    evidence, coordinates = scenery.evidence, scenery.problem.coordinates
+    lefts = {name: evidence.relation(name).left for name in names if evidence.relation(name).kind == "finite"}
+    held = {name: left.symbols.intersection(coordinates) for name, left in lefts.items()}
+    order: Order = []
+    taken: set[str] = set()
+    for name in sorted(held, key=lambda one: len(held[one])):
+        fit = [q for q in coordinates if q in held[name] - taken and evidence.is_nowhere_zero(_slope(lefts[name], q))]
+        if fit:
+            order.insert(0, [name, fit[0]])
+            taken |= held[name]
+    return order
+
+
+def _slope(left: Tree, q: str) -> Tree:
+    return put_in(ZERO, q, left)[0]
+
+
+def with_puts(scenery: Scenery, tree: Tree, order: Order) -> Tree:
+    """A tree with coordinates put in."""
+    for name, q in order:
+        tree = put_in(tree, q, scenery.evidence.relation(name).left)[1]
+    return tree
+
+
+def needed_puts(scenery: Scenery, trees: Iterable[Tree], order: Order) -> Order:
+    """Those that change trees."""
+    held, found = frozenset[str]().union(*(tree.symbols for tree in trees)), Order()
+    for name, q in order:
+        if q in held:
+            found.append([name, q])
+            held |= scenery.evidence.relation(name).left.symbols
+    return found
+
+
+def solved_pairs(scenery: Scenery, names: Sequence[str], point: FoundPoint) -> list[str]:
+    """Steps by which coordinates are 0: of two relations that are linear in them, and hold nothing beside."""
+    found = []
+    short = [name for name in names if scenery.evidence.relation(name).left.size <= LARGEST_OF_PAIR]
+    for pair in combinations(short, 2):
+        for step in _pair_steps(scenery, pair, point):
+            if _stand(scenery, step):
+                found.append(str(step["id"]))
+    return found
+
+
+def _pair_steps(scenery: Scenery, pair: tuple[str, str], point: FoundPoint) -> Iterator[dict[str, object]]:
+    lefts = [scenery.evidence.relation(name).left for name in pair]
+    shared = lefts[0].symbols & lefts[1].symbols
+    for one, other in combinations([q for q in scenery.problem.coordinates if q in shared], 2):
+        parts = [linear_in(left, (one, other)) for left in lefts]
+        if any(part is None or not scenery.evidence.ring.vanishes(part[1]) for part in parts):
+            continue
+        (a, b), (c, d) = ([part[0].get(q, ZERO) for q in (one, other)] for part in parts if part is not None)
+        h = difference(times(a, d), times(b, c))
+        if not scenery.differs(h, point.floats):
+            continue
+        for q, factors in ((one, (d, negative(b))), (other, (negative(c), a))):
+            told = {"h": text_of(h), "c": {name: text_of(part) for name, part in zip(pair, factors, strict=True)}}
+            yield {"id": f"{scenery.label}{q} by {' and '.join(pair)}", "by": "implied", "function": q, **told}
+
+
+# Rows that follow from others: cofactors by linear algebra over the rationals.
+
+
+def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint, what: str = "others") -> bool:
+    """Whether a step was found by which a relation follows from others near the point."""
+    own = scenery.evidence.relation(name)
+    kinds = [row for row in rows if scenery.evidence.relation(row).kind == own.kind]
+    if own.kind == "velocity":
+        kinds += [rate for row in rows if row not in kinds and (rate := rate_of(scenery, row))]
+    step = f"{scenery.label}{name} from {what}"
+    if scenery.has_step(step):
+        return True
+    try:
+        for found in combined(scenery, name, kinds, point):
+            scenery.add_step({"id": step, "by": "implied", "of": name, **found})
+            return True
+    except (CheckError, NoEstimateError):
+        return False
+    return False
+
+
+def combined(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint) -> Iterator[dict[str, Any]]:
+    """Cofactors that are numbers, as they seem; and those after coordinates that relations give are put in."""
+    found = _combination(scenery, name, rows, point, [])
+    if found is not None:
+        yield found
+    finite = [row for row in rows if scenery.evidence.relation(row).kind == "finite"]
+    order = puts(scenery, [*solved_pairs(scenery, finite, point), *finite])
+    found = _combination(scenery, name, rows, point, order) if order else None
+    if found is not None:
+        yield found
+
+
+def _combination(
+    scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint, order: Order
+) -> dict[str, Any] | None:
+    """Numbers by which a relation is a sum of multiples of others, once coordinates that relations give are put in."""
+    trees = {one: with_puts(scenery, scenery.left(one), order) for one in (name, *rows)}
+    put = {row for row, _ in order}
+    left = trees.pop(name)
+    factors = constant_cofactors(scenery, left, {row: tree for row, tree in trees.items() if row not in put}, point)
+    if factors is None:
+        return None
+    found: dict[str, Any] = {"c": {row: number_text(value) for row, value in factors.items()}}
+    used = [scenery.evidence.relation(one).left for one in (name, *factors)]
+    return {**found, "put": needed_puts(scenery, used, order)} if order else found
+
+
+def rate_of(scenery: Scenery, name: str) -> str:
+    """Return the id of a step for the rate of a configuration-level equation; "" where it does not stand up."""
+    step = f"{scenery.label}rate of {name}"
+    return step if _stand(scenery, {"id": step, "by": "rate", "of": name}) else ""
+
+
+def constant_cofactors(
+    scenery: Scenery, left: Tree, trees: Mapping[str, Tree], point: FoundPoint
+) -> dict[str, Fraction] | None:
+    """Numbers c with left = sum c_i tree_i, as they seem from the point and one other; None where there are none."""
+    rows = list(trees)
+    coordinates = [s for q in scenery.problem.coordinates for s in (q, f"{q}dot")]
+    rates = {f"{q}dot": 0.0 for q in (*scenery.problem.coordinates, "t")} | {"tdot": 1.0}
+    estimates = Estimates({**rates, **point.floats})
+    wanted = set(coordinates)
+    entries = [{s: v for s, v in estimates.gradient(tree).items() if s in wanted} for tree in trees.values()]
+    target = {s: v for s, v in estimates.gradient(left).items() if s in wanted}
+    pivots = echelon(entries).pivots
+    chosen = [rows[p.row] for p in pivots]
+    transposed = [
+        {one: entries[p.row].get(q.column, 0.0) for one, p in zip(chosen, pivots, strict=True)} for q in pivots
+    ]
+    found = solved(transposed, [target.get(q.column, 0.0) for q in pivots], chosen)
+    if found is None:
+        return None
+    short = {one: Fraction(value).limit_denominator(1000) for one, value in found.items()}
+    if any(abs(float(short[one]) - value) > 1e-7 for one, value in found.items()):
+        return None
+    shifted = {s: value + 0.137 * (1 + i % 7) for i, (s, value) in enumerate({**rates, **point.floats}.items())}
+    other = Estimates(shifted)
+    rest = sum(float(value) * other.value(trees[one]) for one, value in short.items() if value)
+    if abs(other.value(left) - rest) > 1e-6 * (1 + abs(rest)):
+        return None
+    return {one: value for one, value in short.items() if value}
