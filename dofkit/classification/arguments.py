@@ -114,7 +114,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the equations have no value on their own solution set",
         "",
         "the argument of a root or logarithm is negative, or a denominator is zero, wherever they are satisfied",
-        "dofkit.classification.freedom.domain.restricted_to_domain",
+        "dofkit.classification.freedom.common_point.restricted_to_domain",
     ),
     "number left over": Argument(
         "no configuration satisfies the equations",
@@ -258,7 +258,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "without any one of them the others can be satisfied",
         "dofkit.classification.dependence.implied_constraints.conflict",
     ),
-    "count": Argument("a number determined by other fields", "", "the others", "dofkit.classification.claims.claims"),
+    "count": Argument("a number determined by other fields", "", "the others", "dofkit.classification.report.claims"),
     "exact elimination": Argument(
         "every field of a linear system",
         "",

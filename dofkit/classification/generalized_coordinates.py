@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -177,8 +177,7 @@ def _of_system(study: Study) -> list[str] | None:
         if a.kind is not None and not system.rotations:
             known[a.kind] = [block.coordinates.index(name) for name in own]
         chosen.update(own)
-    turning = partly_turned(chosen, system.rotations)
-    for group in turned_together(outcome.blocks, outcome.answers, outcome.untouched, turning):
+    for group in _turned_groups(study, chosen):
         if group.places == 1:
             continue
         free = chosen.intersection(group.block.coordinates)
@@ -188,6 +187,13 @@ def _of_system(study: Study) -> list[str] | None:
             return None
         chosen = chosen - free | set(own)
     return [c.name for c in system.coordinates if c.name in chosen]
+
+
+def _turned_groups(study: Study, chosen: Collection[str]) -> Iterable[TurnedGroup]:
+    """Return the groups of blocks that hold the angles of bodies of which some angles are chosen and some are not."""
+    turning = partly_turned(chosen, study.system.rotations) if study.system.rotations else ()
+    outcome = study.outcome
+    return turned_together(outcome.blocks, outcome.answers, outcome.untouched, turning) if turning else ()
 
 
 def claim_of_choice(study: Study, free: Claim, chosen: Sequence[str]) -> Claim:
@@ -212,8 +218,7 @@ def claim_of_choice(study: Study, free: Claim, chosen: Sequence[str]) -> Claim:
             parts.append(replace(a.claim, about="component"))
         else:
             parts.append(together(a.claim, Claim("probable", "generic points", bits=BITS)))
-    outcome, turning = study.outcome, partly_turned(chosen, study.system.rotations)
-    for group in turned_together(outcome.blocks, outcome.answers, outcome.untouched, turning):
+    for group in _turned_groups(study, chosen):
         if not are_coordinates(group, chosen, study.setting, study.system.rotations):
             parts.append(Claim("probable", "generic points", bits=BITS, about="component"))
     return together(*parts) if parts else counted(free)
@@ -239,7 +244,7 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
         return direct if chosen is None or not _is_regular(block, a, chosen, setting) else chosen
     if setting.engines != BOTH:
         return direct if len(direct) == a.dof and not turning else None
-    whole = direct if len(direct) == a.dof and not partly_turned(direct, turning) else None
+    whole = direct if len(direct) == a.dof and not (turning and partly_turned(direct, turning)) else None
     drawn = None if whole or not turning else chosen_at_drawing(TurnedGroup(block, tuple(a.hidden)), setting, turning)
     if drawn is not None and len(drawn) == a.dof:
         return drawn

@@ -7,29 +7,148 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import DEFAULT_SECONDS, gc_rarely, limited, part, unless_late
-from dofkit.base.verdicts import Claim, weakest
+from dofkit.base.verdicts import OPEN, Claim, weakest
 from dofkit.classification import report as fields
-from dofkit.classification.agreements import agreed
-from dofkit.classification.claims import claims, freedom
 from dofkit.classification.counts import counts_beside
 from dofkit.classification.feasibility.feasibility import inequalities_together
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.reference_branches import all_of
+from dofkit.classification.freedom.preparation import all_of
 from dofkit.classification.generalized_coordinates import generalized_coordinates
+from dofkit.classification.report import claims, freedom
 from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
 from dofkit.exact.points.balls import precise_for
 from dofkit.exact.zero import BOTH, Engines
 from dofkit.mobility.kutzbach import without_drives
+from dofkit.relations.answer import DEFECTS
 from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.report import ConstraintEntry, FieldVerdict, Mobility, Report
 from dofkit.system import System
+
+#: Fields that are an empty list where they have no value.
+LISTS = ("redundancies",)
+#: Fields of the entries that are withheld together with the redundancy of the report.
+OF_ENTRIES = ("independent", "circuit", "redundant_equations")
+UNDECIDED = FieldVerdict.of(OPEN)
+CONTRADICTION = "These fields are withheld because they contradict each other ({law}): {fields}."
+
+Values = Mapping[str, Any]
+
+
+def _freedoms_agree(values: Values) -> bool:
+    """Return whether 0 <= velocity freedom <= freedom <= coordinates, with equality in a holonomic system."""
+    dof, velocities, at_reference = (values[k] for k in ("dof", "velocity_dof", "instantaneous_dof"))
+    if dof is None or velocities is None:
+        return True
+    if not 0 <= velocities <= dof <= values["count"].coordinates or (values["holonomic"] and velocities < dof):
+        return False
+    return at_reference is None or bool(velocities <= at_reference)
+
+
+def _dependences_agree(values: Values) -> bool:
+    """Return whether as many equations are redundant by rank, by implication and in the groups.
+
+    An equation that states several things removes more freedom than one: then more equations are implied. At a singular
+    configuration the groups may hold fewer.
+    """
+    redundant, surplus = values["redundant"], values["redundant_equations"]
+    if redundant is None or surplus is None or values["consistent"] is not True:
+        return True
+    entries: list[ConstraintEntry] = values["constraints"]
+    nullity = sum(group.nullity for group in values["redundancies"])
+    members = {name for group in values["redundancies"] for name in group.members}
+    removed = sum(e.equations for e in entries if e.name in redundant)
+    if not members.issuperset(redundant) or removed > nullity:
+        return False
+    bilateral = [e for e in entries if e.bilateral]
+    if any(e.independent is None for e in bilateral):
+        return True
+    implied = sum(e.equations - (e.independent or 0) for e in bilateral)
+    return implied >= surplus and nullity >= surplus and (bool(values["singular"]) or nullity >= implied)
+
+
+def _circuits_agree(values: Values) -> bool:
+    """Return whether circuits belong to redundant constraints and hold only constraints written before them."""
+    before = set[str]()
+    for e in values["constraints"]:
+        if e.circuit is not None and (e.name not in (values["redundant"] or ()) or not before.issuperset(e.circuit)):
+            return values["redundant"] is None
+        before.add(e.name)
+    return True
+
+
+def _growth_agrees(values: Values) -> bool:
+    """Return whether the growth vector begins with the velocity freedom and ends with the freedom, time apart."""
+    growth, dof, velocities = (values[k] for k in ("growth_vector", "dof", "velocity_dof"))
+    if None in (growth, dof, velocities):
+        return True
+    time = growth[0] - velocities
+    return growth == sorted(growth) and time == growth[-1] - dof and time in (0, 1)
+
+
+def _choice_agrees(values: Values) -> bool:
+    chosen, dof = values["generalized_coordinates"], values["dof"]
+    return chosen is None or dof is None or len(chosen) == dof
+
+
+class Agreement(NamedTuple):
+    """A law in words, the fields that are withheld where it is broken, and the function that checks it."""
+
+    law: str
+    fields: tuple[str, ...]
+    holds: Callable[[Values], bool]
+
+
+_REDUNDANCY = ("redundant", "redundancies", "redundant_equations")
+AGREEMENTS: tuple[Agreement, ...] = (
+    Agreement(
+        "the velocity freedom exceeds neither the degrees of freedom nor the instantaneous freedom",
+        ("dof", "velocity_dof", "instantaneous_dof", "singular"),
+        _freedoms_agree,
+    ),
+    Agreement(
+        "as many equations are redundant by rank, by implication and in the groups", _REDUNDANCY, _dependences_agree
+    ),
+    Agreement("a circuit belongs to a redundant constraint and was written before it", _REDUNDANCY, _circuits_agree),
+    Agreement(
+        "the growth vector begins with the velocity freedom and ends with the degrees of freedom",
+        ("growth_vector",),
+        _growth_agrees,
+    ),
+    Agreement("there are as many generalized coordinates as freedoms", ("generalized_coordinates",), _choice_agrees),
+)
+
+
+def agreed(values: Values) -> dict[str, Any]:
+    """Return the fields of a report without those that contradict each other."""
+    kept = dict(values)
+    for row in AGREEMENTS:
+        if not row.holds(values):
+            DEFECTS.error("defect in the report of %r: %s is not so", values["scene"], row.law)
+            kept = _without(kept, row)
+    return kept
+
+
+def _without(values: dict[str, Any], row: Agreement) -> dict[str, Any]:
+    withheld: dict[str, Any] = {name: [] if name in LISTS else None for name in row.fields}
+    verdicts = values["verdicts"] | {name: UNDECIDED for name in row.fields if name in values["verdicts"]}
+    warnings = [*values["warnings"], CONTRADICTION.format(law=row.law, fields=", ".join(row.fields))]
+    entries = values["constraints"]
+    if row.fields == _REDUNDANCY:
+        entries = [_undecided_entry(e) for e in entries]
+    changed = {"constraints": entries, "warnings": warnings, "verdict": "undecided", "verdicts": verdicts}
+    return {**values, **withheld, **changed}
+
+
+def _undecided_entry(e: ConstraintEntry) -> ConstraintEntry:
+    verdicts = e.verdicts | {name: UNDECIDED for name in OF_ENTRIES if name in e.verdicts}
+    return e.model_copy(update={**dict.fromkeys(OF_ENTRIES), "verdict": "undecided", "verdicts": verdicts})
+
 
 #: Of the time, for the blocks of a scene.
 SOLVING = 0.75
 NO_SPECIAL_CASES = "There was no time to look for special cases."
 
-Values = Mapping[str, Any]
 #: What fills fields: from the study of a system, and the values of the passes before.
 Fill = Callable[[Study, Values], Values]
 
@@ -75,6 +194,11 @@ def _verdicts(of_fields: Mapping[str, Claim], entries: Sequence[ConstraintEntry]
     return {"verdicts": {name: FieldVerdict.of(c) for name, c in of_fields.items()}, "verdict": weak}
 
 
+def _feasibility(study: Study, values: Values) -> Values:
+    """Return whether the inequalities can be satisfied together with the constraints; nothing where there are none."""
+    return inequalities_together(study, values) if any(r.inequalities for r in study.reduced) else {}
+
+
 def _counts(study: Study, values: Values) -> Values:
     """Return the counts that stand beside the report's own, and a warning of a near-dependence."""
     counts, near = counts_beside(study, values["instantaneous_dof"])
@@ -105,7 +229,7 @@ def _velocity_freedom(reductions: Reductions, released: System) -> Values:
 
 
 #: All passes, in their order: each fills fields of the report, or adds to those that the passes before it filled.
-PASSES: tuple[Fill, ...] = (_generic_fields, inequalities_together, _counts, _special)
+PASSES: tuple[Fill, ...] = (_generic_fields, _feasibility, _counts, _special)
 #: The generic answer, and all that needs no special cases.
 GENERIC, PLAIN = PASSES[:1], PASSES[:-1]
 

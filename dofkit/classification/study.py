@@ -14,9 +14,8 @@ from dofkit.classification.dependence.implied_constraints import Conflict, confl
 from dofkit.classification.dependence.redundancy import all_needed, redundancies
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import prepared
-from dofkit.classification.labels.companions import Companionship
+from dofkit.classification.labels.companions import AnsweredParts, Companionship
 from dofkit.classification.labels.entries import entries_of
-from dofkit.classification.labels.single_constraint_labels import AnsweredParts
 from dofkit.exact.zero import BOTH, Engines
 from dofkit.relations.normal.pieces import Reduced
 from dofkit.relations.setting import ALL, Reductions, Setting

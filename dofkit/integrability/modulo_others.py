@@ -17,7 +17,7 @@ from flint import arb
 from dofkit.base.deadline import OutOfTimeError
 from dofkit.base.verdicts import VERDICTS, weakest
 from dofkit.configuration.search import find
-from dofkit.configuration.states import moves, vanishes
+from dofkit.configuration.states import States, moves, value_at, vanishes
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
@@ -37,9 +37,13 @@ from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import RewrittenRow
 
-#: Velocities of the Lie algebra that are tried at a point.
-VECTORS = 3
+#: Velocities of the Lie algebra that are tried at a point, and states at which a reduction is checked.
+VECTORS, CHECKED = 3, 2
 
+NOT_EQUIVALENT = (
+    "a velocity was eliminated by dividing by a term that vanishes on the geometric equations: "
+    "the remaining nonlinear constraint was not decided"
+)
 NO_VELOCITY = "no velocities were found at which it could be compared"
 
 
@@ -55,6 +59,38 @@ def _joint_block(slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[
     rows = [r for k in numbers for r in blocks[k].rows]
     finite = [r for r in rows if isinstance(r.piece, Finite)]
     return Block(tuple(names), (*finite, *(r for r in rows if not isinstance(r.piece, Finite))))
+
+
+def with_reductions_checked(
+    slots: Sequence[RewrittenRow], blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
+) -> list[Answer]:
+    """The answers, but undecided where a relation as written does not hold at the states that its reduction leaves."""
+    found = list(answers)
+    for slot in slots:
+        numbers = blocks_of(slot, blocks)
+        if any(not found[k].consistent for k in numbers) or _holds(slot, blocks, numbers, found, setting):
+            continue
+        for k in numbers:
+            found[k] = Answer(None, verdict="undecided", reasons=[*found[k].reasons, NOT_EQUIVALENT])
+    return found
+
+
+def _holds(
+    slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[int], answers: Sequence[Answer], setting: Setting
+) -> bool:
+    joint, f = _joint_block(slot, blocks, numbers), slot.written.piece
+    if not isinstance(f, Nonlinear):
+        return True
+    hidden = [g for k in numbers for g in answers[k].hidden]
+    try:
+        states = States(joint.coordinates, joint.rows, hidden, setting, [f.expr])
+        node = states.extra[f.expr]
+        seen = [value_at(states.ring, p, node) for k in range(CHECKED) if (p := states.draw(k + 1)) is not None]
+        if not seen or not all(v is not None and vanishes(v) for v in seen):
+            seen = [value_at(states.ring, p, node) for p in states.certain(CHECKED)]
+    except (OutOfTimeError, ArithmeticError):
+        return False
+    return bool(seen) and all(v is not None and vanishes(v) for v in seen)
 
 
 def label_modulo_others(

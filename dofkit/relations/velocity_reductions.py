@@ -6,13 +6,18 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from itertools import product as cartesian
+from typing import NamedTuple
 
 from dofkit.exact.errors import NoValueError
+from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Row, coordinates_of
+from dofkit.relations.normal.domain import DomainCondition, conditions_of
 from dofkit.relations.normal.normal_form import normalise, velocities_of
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes
@@ -47,9 +52,13 @@ class RewrittenRow:
 
 @dataclass(frozen=True)
 class Way:
-    """All rows on one choice of branches, in the order in which they were written."""
+    """All rows on one choice of branches, in the order in which they were written.
+
+    ``divided``: to rewrite one, what may vanish somewhere was divided by.
+    """
 
     slots: tuple[RewrittenRow, ...]
+    divided: bool = False
 
     @property
     def rows(self) -> list[Row]:
@@ -57,9 +66,10 @@ class Way:
 
     @property
     def reduced(self) -> tuple[RewrittenRow, ...]:
-        """Return the rows that were written nonlinear in the velocities and are not so any more."""
-        changed = (s for s in self.slots if not s.unchanged)
-        return tuple(s for s in changed if not any(isinstance(r.piece, Nonlinear) for r in s.rows))
+        """What was written nonlinear in the velocities and is so no more."""
+        return tuple(
+            s for s in self.slots if not s.unchanged and not any(isinstance(r.piece, Nonlinear) for r in s.rows)
+        )
 
 
 def ways_of(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Way]:
@@ -84,37 +94,95 @@ def ways_of(rows: Sequence[Row], positive: frozenset[Expr]) -> list[Way]:
 
 
 def _step(way: Way, positive: frozenset[Expr]) -> list[Way] | None:
-    """Return the ways that one more reduction leaves; None where nothing is left to do."""
+    """The ways that one more reduction leaves; None where nothing is left to do."""
     rows = way.rows
-    branches = {id(r): _branches(r, rows, positive) for r in rows if isinstance(r.piece, Nonlinear)}
-    if all(len(some) == 1 and len(some[0]) == 1 and id(some[0][0]) in branches for some in branches.values()):
+    if not any(isinstance(r.piece, Nonlinear) for r in rows):
+        return None
+    told = {id(r): _ways(r, rows, positive) for r in rows if isinstance(r.piece, Nonlinear)}
+    by_linear, divided = {i: one.ways for i, one in told.items()}, any(one.divided for one in told.values())
+    if all(len(found) == 1 and len(found[0]) == 1 and id(found[0][0]) in by_linear for found in by_linear.values()):
         return None
     options: list[list[RewrittenRow]] = []
     for slot in way.slots:
-        choices = cartesian(*(branches.get(id(r), [(r,)]) for r in slot.rows))
+        choices = cartesian(*(by_linear.get(id(r), [(r,)]) for r in slot.rows))
         options.append([RewrittenRow(slot.written, tuple(r for part in choice for r in part)) for choice in choices])
-    return [Way(choice) for choice in islice(cartesian(*options), MAX_WAYS)]
+    return [Way(choice, way.divided or divided) for choice in islice(cartesian(*options), MAX_WAYS)]
 
 
-def _branches(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> list[tuple[Row, ...]]:
-    """Return the branches of a nonlinear row after elimination of coordinates and velocities that other rows determine.
+class _Rewriting(NamedTuple):
+    """The branches of a row; was there a division by what may vanish?"""
 
-    Only what vanishes nowhere is divided by, so that the row says the same beside the others. A branch that says
-    nothing holds all others.
+    ways: list[tuple[Row, ...]]
+    divided: bool = False
+
+
+def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewriting:
+    """A nonlinear row with coordinates put in that the finite rows give, and then velocities that linear ones do.
+
+    What was divided by may vanish where the rows hold: what is left says all only where it is linear, which is checked.
     """
     if not isinstance(row.piece, Nonlinear):
-        return [(row,)]
+        return _Rewriting([(row,)])
     near = _rows_near(row, rows)
     try:
-        explicit = given_by([r.piece.expr for r in near if isinstance(r.piece, Finite)])
-        linear = [substitute(e, explicit) for e in _rates_of(near)]
-        reduced = eliminated(substitute(row.piece.expr, explicit), linear, positive)
+        given = given_by([r.piece.expr for r in near if isinstance(r.piece, Finite)])
+        there = substitute(row.piece.expr, given)
+        changed, divisors = eliminated(there, [substitute(e, given) for e in _rates_of(near)])
     except NoValueError:
-        return [(row,)]
-    if reduced == row.piece.expr:
-        return [(row,)]
-    branches = [tuple(Row(row.constraint, p) for p in b) for b in normalise(reduced, positive, True).branches]
-    return [()] if () in branches else branches or [(Row(row.constraint, Finite(ex.ONE)),)]
+        return _Rewriting([(row,)])
+    if changed != there:
+        found = _branches(row, *_without_divisors(row.piece.expr, changed, divisors, positive), positive)
+        sound = [
+            b for b in found if not any(isinstance(r.piece, Finite) and _divides(r.piece.expr, divisors) for r in b)
+        ]
+        ways, divided = _one_that_holds(sound or found), not all(never_vanishes(d, positive) for d in divisors)
+        if not (divided and any(isinstance(r.piece, Nonlinear) for w in ways for r in w)):
+            return _Rewriting(ways, divided)
+    return _Rewriting([(row,)] if there == row.piece.expr else _branches(row, there, (), positive))
+
+
+def _one_that_holds(ways: list[tuple[Row, ...]]) -> list[tuple[Row, ...]]:
+    """The branches, or the one that says nothing, which holds the others."""
+    return [()] if () in ways else ways
+
+
+def _without_divisors(
+    written: Expr, changed: Expr, divisors: Sequence[Expr], positive: frozenset[Expr]
+) -> tuple[Expr, tuple[DomainCondition, ...]]:
+    """What a row reads as without what an elimination divided by, and where the row as it was written has a value."""
+    if not divisors:
+        return changed, ()
+    ring = Ring([changed], positive)
+    node = ring.node(changed)
+    try:
+        canon = Canon(ring)
+        top = canon.to_expr(canon.quotient(node)[0])
+    except NoValueError:
+        return changed, ()
+    return top, tuple(c for c in conditions_of(written, positive) if not velocities_of(c.expr))
+
+
+def _branches(
+    row: Row, changed: Expr, within: Sequence[DomainCondition], positive: frozenset[Expr]
+) -> list[tuple[Row, ...]]:
+    """What a row says that now reads ``changed`` = 0."""
+    normal = normalise(changed, positive, True)
+    ways = [tuple(Row(row.constraint, p) for p in (*b, *within)) for b in normal.branches]
+    return ways or [(Row(row.constraint, Finite(ex.ONE)),)]
+
+
+def _divides(g: Expr, divisors: Sequence[Expr]) -> bool:
+    """Is a factor that an elimination multiplied with, and no relation of the row's, what is left of it?"""
+    if not divisors or g == ex.ONE:
+        return False
+    ring = Ring([g, *divisors])
+    try:
+        nodes = [ring.node(e) for e in (g, *divisors)]
+        canon = Canon(ring)
+        own = canon.quotient(nodes[0])[0]
+        return any(not own.gcd(canon.quotient(n)[0]).is_constant() for n in nodes[1:])
+    except NoValueError:
+        return False
 
 
 def _rows_near(row: Row, rows: Sequence[Row]) -> list[Row]:
@@ -143,18 +211,20 @@ def _rates_of(rows: Sequence[Row]) -> list[Expr]:
     return rates
 
 
-def eliminated(e: Expr, linear: Sequence[Expr], positive: frozenset[Expr]) -> Expr:
-    """Return ``e`` with the velocities substituted that linear relations determine by coefficients without zeros."""
-    remaining = list(linear)
-    while remaining:
-        relation = remaining.pop(0)
-        pivot = _pivot(relation, positive)
-        if pivot is not None:
-            v, coefficient = pivot
-            value = {v: -(substitute(relation, {v: ex.ZERO}) / coefficient)}
-            remaining = [substitute(other, value) for other in remaining]
-            e = substitute(e, value)
-    return e
+def eliminated(e: Expr, linear: Sequence[Expr]) -> tuple[Expr, list[Expr]]:
+    """``e`` with the velocities that the linear relations give put in, and what was divided by."""
+    left, divisors = list(linear), list[Expr]()
+    while left:
+        relation = left.pop(0)
+        choice = _pivot(relation)
+        if choice is None:
+            continue
+        v, coefficient = choice
+        divisors += [coefficient] if coefficient.op != "num" else []
+        value = -(substitute(relation, {v: ex.ZERO}) / coefficient)
+        left = [substitute(other, {v: value}) for other in left]
+        e = substitute(e, {v: value})
+    return e, divisors
 
 
 def given_by(relations: Iterable[Expr]) -> Mapping[Expr, Expr]:
@@ -178,8 +248,10 @@ def _coordinate_pivots(g: Expr) -> Iterator[tuple[Expr, Expr]]:
             yield s, rest
 
 
-def _pivot(relation: Expr, positive: frozenset[Expr]) -> tuple[Expr, Expr] | None:
-    """Return a velocity of a linear relation with a coefficient that vanishes nowhere; numbers first."""
-    slopes = [(v, c) for v in velocities_of(relation) if not (c := diff(relation, v)).is_zero]
-    number = next(((v, c) for v, c in slopes if c.op == "num"), None)
-    return number or next(((v, c) for v, c in slopes if never_vanishes(c, positive)), None)
+def _pivot(relation: Expr) -> tuple[Expr, Expr] | None:
+    """A velocity of a linear relation with a coefficient that is not identically 0; numbers first."""
+    found = [(v, diff(relation, v)) for v in velocities_of(relation)]
+    for v, c in found:
+        if c.op == "num" and not c.is_zero:
+            return v, c
+    return next(((v, c) for v, c in found if not is_zero(c, frozenset())), None)

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.classification.agreements import AGREEMENTS, agreed
+from dofkit.classification.passes import AGREEMENTS, agreed
 from dofkit.report import Report
 
 #: One holonomic form, and an equation too many: freedom 2 of 4, c3 follows from c1.

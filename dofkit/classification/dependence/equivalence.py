@@ -18,8 +18,7 @@ from dofkit.classification.dependence.inequalities import bounds, loses_nothing,
 from dofkit.classification.dependence.multiples import power_of, same_up_to_numbers
 from dofkit.classification.dependence.regularity import Regularity
 from dofkit.classification.freedom.branches import Outcome, solve
-from dofkit.classification.freedom.preparation import prepared
-from dofkit.classification.freedom.reference_branches import all_of
+from dofkit.classification.freedom.preparation import all_of, prepared
 from dofkit.exact.points.balls import precise_for
 from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex

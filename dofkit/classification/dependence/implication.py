@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.classification.freedom.branches import in_time
-from dofkit.classification.freedom.reference_branches import all_of, branches_at_reference, conditional
+from dofkit.classification.freedom.preparation import all_of, branches_at_reference, conditional
 from dofkit.configuration.states import States, value_at, vanishes
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint

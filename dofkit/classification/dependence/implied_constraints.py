@@ -14,7 +14,7 @@ from dofkit.base.verdicts import About
 from dofkit.classification.dependence.circuits import Redundancies, undecided_dependence
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.branches import Outcome, solve
-from dofkit.classification.freedom.reference_branches import all_of
+from dofkit.classification.freedom.preparation import all_of
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.linear import linear, presolve

@@ -15,7 +15,7 @@ from dofkit.classification.dependence import block_implication, removal
 from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse, undecided_dependence
 from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.reference_branches import algebraic, all_of, branches_at_reference
+from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
 from dofkit.exact.matrices.sparse import SparseRow
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, coordinates_of
@@ -238,9 +238,9 @@ def _of_block(
         yield _independent(dict(Counter(owners)))
     elif a.degenerate or a.hidden or len(matrix) != len(block.rows):
         undecided = undecided_dependence(owners)
-        drawn = "balls" in setting.engines and block_implication.is_drawn(block, a, setting)
+        is_finite = "balls" in setting.engines and len(block.finite) == len(block.rows)
         removed = partial(removal.by_removal, block, setting, a, nullity, equations)
-        yield unless_late(removed, undecided) if drawn else undecided
+        yield unless_late(removed, undecided) if is_finite else undecided
     else:
         finite = _finite_rows(block)
         implied = (

@@ -102,6 +102,6 @@ def _is_flat(r: Reduced, choice: Sequence[Sequence[Piece]], positive: frozenset[
         return False
     try:
         forms = [form_rate(p) for branch in choice for p in branch if isinstance(p, Pfaffian)]
-        return all(is_proved_zero(eliminated(e, forms, positive), positive) for e in slopes)
+        return all(is_proved_zero(eliminated(e, forms)[0], positive) for e in slopes)
     except NoValueError:
         return True

@@ -26,10 +26,11 @@ from typing import NamedTuple
 from dofkit.base.components import components
 from dofkit.base.deadline import OutOfTimeError, check, limited
 from dofkit.base.verdicts import Verdict, weakest
-from dofkit.classification.dependence.block_implication import NearDrawing, SufficientSets
+from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets, is_drawn
 from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
 from dofkit.classification.freedom.block import answer
+from dofkit.classification.freedom.preparation import all_of
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, Row, split
@@ -37,7 +38,7 @@ from dofkit.relations.setting import Setting
 
 
 def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered: Sequence[int]) -> Redundancies:
-    """Return what is redundant in a block of finite equations at a singular reference, the last written first.
+    """Return what is redundant in a block of finite equations whose rank does not tell, the last written first.
 
     ``nullity``: dependent rows by the freedom; ``numbered``: the equation each row belongs to.
     """
@@ -50,7 +51,7 @@ def by_removal(block: Block, setting: Setting, a: Answer, nullity: int, numbered
     nullity = max(nullity, sum(o in redundancies.redundant for o in owners))
     groups = [(nullity, sorted(order))] if redundancies.redundant else []
     answer = replace(redundancies, groups=groups, circuits=circuits, verdict=removal.verdict)
-    count = counted(block, setting, a, numbered)
+    count = counted(block, setting, a, numbered) if is_drawn(block, a, setting) else None
     if count is not None:
         verdict = weakest(answer.verdict, "numeric" if count.seen else "proved")
         counts = replace(answer, independent=count.independent, equations=count.equations, seen=count.seen)
@@ -143,6 +144,9 @@ class Removal:
     def _is_same_set(self, removed: frozenset[int], kept: frozenset[int]) -> bool | None:
         """Return whether what is removed is implied: always where only rigid motions of the system are left."""
         rows, others = ([i for i, r in enumerate(self.block.rows) if r.constraint in own] for own in (removed, kept))
+        if not is_drawn(self.block, self.whole, self.setting):
+            self.verdict = weakest(self.verdict, "probable")
+            return all_of(Everywhere(self.block, self.setting).follows(i, others) for i in rows)
         near = NearDrawing(self.block, self.setting)
         if near.is_orbit(others, self._dof(kept)):
             return True

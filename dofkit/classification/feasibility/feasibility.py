@@ -19,7 +19,7 @@ from dofkit.classification.feasibility.refutation import contradictory, refuted
 from dofkit.classification.feasibility.state_problem import Part, StateProblem, parts_of, problems_of
 from dofkit.classification.feasibility.witness import Values, value_of, witness
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.isomorphic_blocks import copies
+from dofkit.classification.freedom.preparation import copies
 from dofkit.classification.study import Study
 from dofkit.exact.zero import BOTH
 from dofkit.expressions import tree as ex
@@ -197,9 +197,7 @@ DIGITS = 15
 
 
 def inequalities_together(study: Study, told: Mapping[str, Any]) -> Mapping[str, Any]:
-    """The report's fields, beside what is ``told`` already; nothing where there are no inequalities."""
-    if not any(r.inequalities for r in study.reduced):
-        return {}
+    """The report's fields, beside what is ``told`` already."""
     found = feasibility(study.reduced, study.setting, study.outcome, study.dependence.conflicting.members)
     at = _texts(study.system, found.at) if found.feasible else None
     claims = {} if found.feasible is None else _claims(found)

@@ -59,7 +59,7 @@ APART = "real configurations were found only on components other than those of t
 
 def answer(block: Block, setting: Setting) -> Answer:
     """All that is asked of one block, and how large the model was."""
-    bridged = bridged_answer(block, setting, answer)
+    bridged = bridged_answer(block, setting, answer) if setting.bridges else None
     if bridged is not None:
         return bridged
     found = _engines(block, setting)

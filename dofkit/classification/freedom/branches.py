@@ -10,16 +10,17 @@ from itertools import product as cartesian
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
 from dofkit.classification.freedom.block import answer
-from dofkit.classification.freedom.common_point import at_one_point
-from dofkit.classification.freedom.domain import restricted_to_domain
-from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses, copies
-from dofkit.classification.freedom.reference_branches import (
+from dofkit.classification.freedom.common_point import at_one_point, restricted_to_domain
+from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses
+from dofkit.classification.freedom.preparation import (
     branches_at_reference,
+    copies,
     has_kink_at_reference,
     reductions_at_reference,
 )
 from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions.tree import Expr
+from dofkit.integrability.modulo_others import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.relations.answer import Answer, AnsweredPart
 from dofkit.relations.blocks import Block, Row, blocks_of, names_in, with_boundaries, with_rows
 from dofkit.relations.normal.domain import DomainCondition
@@ -44,7 +45,8 @@ class Outcome:
 
     ``reduced``: what was written nonlinear in the velocities and is not so beside the other rows; ``impossible``:
     constraints that hold nowhere, ``unsettled``: inequalities of which that is not known. ``crossing``: a relation has
-    several branches at the reference, or none there. ``witness``: of coordinates that only domains mention.
+    several branches at the reference, or none there. ``divided``: to reduce a relation, what may vanish was divided by.
+    ``witness``: of coordinates that only domains mention.
     """
 
     rows: list[Row]
@@ -56,6 +58,7 @@ class Outcome:
     copies: dict[int, int] = field(default_factory=dict)
     reduced: tuple[RewrittenRow, ...] = ()
     unsettled: list[int] = field(default_factory=list)
+    divided: bool = False
     witness: Mapping[Expr, str] = field(default_factory=dict)
 
     @property
@@ -155,7 +158,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
         for way in reductions_at_reference(ways, setting):
             names = [*(c.name for c in system.coordinates), *names_in(way.rows, constants)]
             outcome = _answered(names, way.rows, impossible, domain, setting, known)
-            outcome.reduced = way.reduced
+            outcome.reduced, outcome.divided = way.reduced, way.divided
             outcomes.append(outcome)
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], [c.name for c in system.coordinates])
     if len(outcomes) == 1:
@@ -191,6 +194,9 @@ def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> 
         best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
     elif best.consistent is not False:
         best.answers = _of_its_part(best, [o for o in left if o is not best])
+        best.answers = with_reductions_checked(best.reduced, best.blocks, best.answers, setting)
+    elif not best.impossible and any(o.divided for o in outcomes):
+        best.answers = [Answer(None, verdict="undecided", reasons=[NOT_EQUIVALENT]) for _ in best.answers]
     return best
 
 
@@ -243,14 +249,14 @@ class AnsweredBlocks:
         """The blocks' answers; those that may be twins are looked through for one that was answered."""
         shapes = Counter(map(_shape, blocks)) if len(blocks) > 1 and "twins" in setting.reductions else Counter()
         self._shapes |= {shape for shape, times in shapes.items() if times > 1}
-        likenesses = Likenesses(setting, self._roles)
+        likenesses = Likenesses(setting, self._roles) if self._shapes else None
         return [self._answer(block, setting, likenesses) for block in blocks]
 
-    def _answer(self, block: Block, setting: Setting, likenesses: Likenesses) -> Answer:
+    def _answer(self, block: Block, setting: Setting, likenesses: Likenesses | None) -> Answer:
         same = tuple([id(row.piece) for row in block.rows] + [id(c) for c in block.conditions])
         if same not in self._answers:
             twins = _shape(block) in self._shapes and not any(isinstance(r.piece, JointEquation) for r in block.rows)
-            found = self._twin(block, setting, likenesses) if twins else in_time(block, setting)
+            found = self._twin(block, setting, likenesses) if twins and likenesses else in_time(block, setting)
             self._answers[same] = block, found
         return self._answers[same][1]
 

@@ -1,24 +1,48 @@
-"""A system made ready for the engines: every relation as what it says, and what may be assumed of its symbols."""
+"""A system made ready for the engines: every relation as what it says, and what may be assumed of its symbols.
+
+Also: which branches of a relation pass through the reference configuration, and which constraints are copies of others.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator
+import random
+from collections import Counter
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from itertools import chain, count
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import Fault, SceneError, TextError
+from dofkit.configuration.drawing.at_reference import ball_matrix, ball_point
+from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.analyticity import is_analytic
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import Unwritten, kinds_in, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.integrability import accelerations
 from dofkit.mobility.bridges import Bridges, bridges
 from dofkit.mobility.rows_at_drawing import RowsAtDrawing
+from dofkit.relations.blocks import Block, Row, coordinates_of
+from dofkit.relations.chart import make_chart
+from dofkit.relations.normal.domain import DomainCondition, arguments_of, holds_at
 from dofkit.relations.normal.normal_form import normalise
-from dofkit.relations.normal.pieces import INSTANT_NOTE, Finite, Inequality, Normal, Piece, Reduced, unwritten
+from dofkit.relations.normal.pieces import (
+    INSTANT_NOTE,
+    Finite,
+    Inequality,
+    JointEquation,
+    Normal,
+    Pfaffian,
+    Piece,
+    Reduced,
+    unwritten,
+)
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
 from dofkit.relations.piece_shapes import NormalTemplate
 from dofkit.relations.setting import ALL, Reductions, Setting
+from dofkit.relations.velocity_reductions import Way
 from dofkit.system import System
 
 #: The kinds of symbols that no finite relation holds.
@@ -138,3 +162,134 @@ def _fixes_time(piece: Piece, positive: frozenset[Expr]) -> bool:
         return False
     alone = all(s.args[0] in ("time", "parameter") for s in piece.expr.symbols)
     return alone and is_analytic(piece.expr, piece.expr.symbols, positive)
+
+
+def branches_at_reference(normal: Normal, setting: Setting) -> Normal:
+    """Return the branches through the reference configuration; all of them if there is none, or none passes there."""
+    if setting.reference is None or len(normal.branches) < 2:
+        return normal
+    through = tuple(b for b in normal.branches if _passes(b, setting))
+    return normal._replace(branches=through) if through else normal
+
+
+def reductions_at_reference(ways: Sequence[Way], setting: Setting) -> Sequence[Way]:
+    """Return the reductions of rows that are valid at the reference; all if there is none, or none is valid."""
+    if setting.reference is None or len(ways) < 2:
+        return ways
+    valid = [way for way in ways if all(s.unchanged or _passes([r.piece for r in s.rows], setting) for s in way.slots)]
+    return valid or ways
+
+
+def has_kink_at_reference(normal: Normal, setting: Setting) -> bool:
+    """Return whether the argument of an absolute value vanishes at the reference configuration.
+
+    There is no gradient there. The equations of joints hold no absolute values.
+    """
+    if setting.reference is None:
+        return False
+    configuration = {**setting.reference, ex.TIME: ex.ZERO}
+    pieces = (p for p in normal.pieces if isinstance(p, Finite) and not isinstance(p, JointEquation))
+    try:
+        arguments = [substitute(u, configuration) for p in pieces for u in arguments_of(p.expr)]
+        return any(is_zero(u, setting.positive) for u in arguments)
+    except NoValueError:
+        return False
+
+
+def _passes(branch: Sequence[Piece], setting: Setting) -> bool:
+    finite = [p for p in branch if isinstance(p, Finite)]
+    configuration = {**(setting.reference or {}), ex.TIME: ex.ZERO}
+    chart = make_chart(_block(finite), setting)
+    if "field" not in setting.engines:
+        ball = ball_point(chart, configuration, random.Random("dofkit branch"))
+        return ball is not None and ball_matrix(chart, ball, True) is not None
+    point = pose_point(chart, configuration, 5)
+    if point is None or not on_variety(chart, point):
+        return False
+    conditions = (p for p in branch if isinstance(p, DomainCondition))
+    return not any(holds_at(c, configuration, setting.positive) is False for c in conditions)
+
+
+def _block(pieces: Sequence[Finite]) -> Block:
+    names = sorted({n for p in pieces for n in coordinates_of(p)})
+    return Block(tuple(names), tuple(Row(i, p) for i, p in enumerate(pieces)))
+
+
+def all_of(answers: Iterable[bool | None]) -> bool | None:
+    """Return False if one is False, otherwise None if one is None, otherwise True."""
+    every: bool | None = True
+    for answer in answers:
+        if answer is False:
+            return False
+        every = every if answer else None
+    return every
+
+
+def algebraic(e: Expr, *more: str) -> bool:
+    """Return whether no functions beyond sines and cosines (and ``more``) occur.
+
+    Then what is not 0 over GF(p) is not 0.
+    """
+    return all(n.op != "fn" or n.args[0] in ("sin", "cos", "tan", *more) for n in ex.nodes(e))
+
+
+def conditional(normal: Normal) -> bool:
+    """Return whether a branch only states where it is satisfied."""
+    return any(all(isinstance(p, DomainCondition) for p in branch) for branch in normal.branches if branch)
+
+
+def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
+    """Constraints all of whose relations an earlier one wrote already, up to a number: copy -> original.
+
+    Only those are compared that mention the same symbols.
+    """
+    alike: dict[Hashable, list[int]] = {}
+    for i, r in enumerate(reduced):
+        check()
+        if r.normals and not r.inequalities and not any(_says_nothing(normal) for normal in r.normals):
+            alike.setdefault(_mentioned(r.normals), []).append(i)
+    seen: dict[Hashable, int] = {}
+    found = {}
+    for i in sorted(i for numbers in alike.values() if len(numbers) > 1 for i in numbers):
+        keys = [_up_to_a_number(normal) for normal in reduced[i].normals]
+        key: Hashable = keys[0] if len(keys) == 1 else frozenset(Counter(keys).items())
+        if key in seen:
+            found[i] = seen[key]
+        else:
+            seen[key] = i
+    return found
+
+
+def _mentioned(normals: Sequence[Normal]) -> Hashable:
+    """The same for relations that are each other's up to a number: what their first pieces mention, in any order."""
+    first = [_symbols_of(normal.branches[0]) for normal in normals]
+    return first[0] if len(first) == 1 else frozenset(first)
+
+
+def _symbols_of(branch: Sequence[Piece]) -> Hashable:
+    piece = branch[0] if branch else None
+    if isinstance(piece, Pfaffian):
+        return frozenset(piece.coefficients)
+    return piece if piece is None else piece.expr.symbols
+
+
+def _says_nothing(normal: Normal) -> bool:
+    """Is there nothing to compare: it holds always or never, or is not written out, as no other joint is the same?"""
+    branches = normal.branches
+    return branches in ((), ((),)) or any(isinstance(p, JointEquation) for p in branches[0])
+
+
+def _up_to_a_number(normal: Normal) -> Hashable:
+    return tuple(tuple(_scaled(p) for p in branch) for branch in normal.branches)
+
+
+def _scaled(piece: object) -> Hashable:
+    """A piece with the first coefficient made 1."""
+    if isinstance(piece, Finite):
+        first = piece.expr.args[0] if piece.expr.op == "add" else piece.expr
+        number = first.args[0] if first.op == "mul" and first.args[0].op == "num" else first
+        numeric = number.op == "num" and not number.is_zero
+        return ex.mul(piece.expr, ex.power(number, ex.MINUS_ONE)) if numeric else piece.expr
+    if isinstance(piece, Pfaffian):
+        return type(piece), tuple(piece.coefficients.items()), piece.dt
+    return piece

@@ -7,17 +7,20 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from dofkit.base.verdicts import OPEN, VERDICTS, Claim, Verdict, weakest
-from dofkit.classification.freedom.reference_branches import all_of
-from dofkit.classification.labels.reasons import Labels, Others, joined, reason_of
-from dofkit.classification.labels.time_labels import (
+from dofkit.classification.freedom.preparation import all_of
+from dofkit.classification.labels.reasons import (
     EntryLabels,
     EntryTraits,
     FoundLabels,
     Ground,
+    Labels,
+    Others,
     branches_of_time,
     claim_of_dependence,
     claims_of_labels,
     declared_functions,
+    joined,
+    reason_of,
     reason_of_time,
     timed_in_system,
     traits_together,

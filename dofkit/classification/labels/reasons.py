@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
+from dofkit.base.verdicts import OPEN, ArgumentKey, Claim, Verdict, least, together, weakest
+from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.single_form import Integrability
+from dofkit.integrability.traits import TraitAnswer, Traits, all_of, vanishes_on
+from dofkit.relations.answer import BITS, GAP, Answer, HolonomyLabel
+from dofkit.relations.blocks import Block
+from dofkit.relations.normal.domain import DomainCondition
+from dofkit.relations.normal.pieces import INSTANT_NOTE, Clause, Finite, Normal, Pfaffian, Piece
+from dofkit.relations.setting import Setting
 from dofkit.report import Form
 from dofkit.system import Relation
 
@@ -166,3 +175,175 @@ def in_words(relation: Relation, otherwise: str) -> str:
 def _given(vector: tuple[Expr, ...]) -> bool:
     """Is nothing in general position?"""
     return not any(str(s.args[1]).startswith("_") for part in vector for s in part.symbols)
+
+
+class EntryLabels(NamedTuple):
+    """Holonomic in the system and alone, and how sure each is."""
+
+    in_system: bool | None
+    alone: bool | None
+    verdicts: tuple[Verdict, Verdict]
+
+
+class EntryTraits(NamedTuple):
+    """What all pieces of a constraint carry, and how sure each label is.
+
+    ``by``: the field on which ``scleronomic`` rests where t does not occur in the constraint as it is written, and a
+    term without velocities does: whether it integrates.
+    """
+
+    scleronomic: bool | None
+    catastatic: bool | None
+    exact: bool | None
+    verdicts: Mapping[str, Verdict]
+    by: str | None = None
+
+
+def timed_in_system(
+    piece: Clause, block: Block | None, answer: Answer, others: Others, setting: Setting
+) -> TraitAnswer:
+    """Return whether t occurs in what a form integrates to with the others: not where its dt term is 0 on their set."""
+    sure: Verdict = "proved" if others.identically else "probable"
+    if others.timed is False or not isinstance(piece, Pfaffian) or block is None:
+        return others.timed, sure
+    finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)]
+    for g in (*finite, *answer.hidden):
+        still, found = vanishes_on(g, piece.dt, setting.positive)
+        if still:
+            return False, found
+    return others.timed, sure
+
+
+def declared_functions(normals: Sequence[Normal]) -> list[Piece]:
+    """Return the branches of products that are a declared function being 0, which is generic: a factor to take out."""
+    return [
+        b[0]
+        for n in normals
+        for b in n.branches
+        if len(n.branches) > 1 and len(b) == 1 and isinstance(b[0], Finite) and b[0].expr.op == "call"
+    ]
+
+
+def traits_together(
+    traits: Sequence[Traits], form: Form, labels: EntryLabels, timed: TraitAnswer | None
+) -> EntryTraits:
+    """Return the traits of a constraint from those of its equations, with the time of what it integrates to."""
+    timeless = all_of([t.timeless for t in traits])
+    still = all_of([t.catastatic for t in traits if t.catastatic is not None])
+    closed = all_of([t.exact for t in traits if t.exact is not None])
+    scleronomic, by = _scleronomic(timeless, still, form, labels, timed)
+    return EntryTraits(
+        scleronomic[0],
+        still[0] if form in ("pfaffian", "nonlinear") else None,
+        closed[0] if form == "pfaffian" else None,
+        {"scleronomic": scleronomic[1], "catastatic": still[1], "exact": closed[1]},
+        by,
+    )
+
+
+def branches_of_time(normals: Sequence[Normal], consistent: bool) -> Iterator[Traits]:
+    """Yield that it is undecided whether t occurs where branches hold at different times, or one does at an instant.
+
+    The latter was left out, which changes nothing where motions satisfy the others.
+    """
+    for n in normals:
+        conditions = ([p.expr for p in b if isinstance(p, DomainCondition)] for b in n.branches)
+        intervals = {frozenset(e for e in of_branch if ex.TIME in e.symbols) for of_branch in conditions}
+        if len(intervals) > 1 or (INSTANT_NOTE in n.notes and not consistent):
+            yield Traits((None, "undecided"))
+
+
+def _scleronomic(
+    timeless: TraitAnswer, still: TraitAnswer, form: Form, labels: EntryLabels, timed: TraitAnswer | None
+) -> tuple[TraitAnswer, str | None]:
+    """Return whether t occurs neither in a constraint nor in what it integrates to, and the field on which that rests.
+
+    A constraint without t that is homogeneous in the velocities integrates to a relation without t. One that is not,
+    and integrates alone, has t in its integral, whose derivative by t is not 0.
+    """
+    if timeless[0] is False or still[0]:
+        return timeless, None
+    in_system, alone = labels.verdicts
+    if still[0] is False and form in ("pfaffian", "nonlinear"):
+        if labels.alone:
+            return (False, weakest(still[1], alone)), "holonomic_alone"
+        if labels.in_system is False:
+            return (timeless[0], weakest(timeless[1], in_system)), "holonomic"
+        if labels.in_system and timed is not None and timed[0] is not None:
+            sure = weakest(timeless[1], still[1], in_system, timed[1])
+            return (False if timed[0] else timeless[0], sure), "holonomic"
+    return (None, "undecided"), None
+
+
+def reason_of_time(traits: EntryTraits) -> str:
+    """Return a sentence about a constraint that is not homogeneous in the velocities, if it is one."""
+    if traits.by is None or traits.scleronomic is None:
+        return ""
+    if traits.scleronomic:
+        return " It is not homogeneous in the velocities: acatastatic."
+    return " Time occurs in the relation that it integrates to: rheonomic."
+
+
+#: The argument for a label that was found by itself, by the form of a constraint.
+BY_FORM: Mapping[Form, ArgumentKey] = {
+    "finite": "finite relation",
+    "inequality": "inequality",
+    "nonlinear": "curved velocities",
+}
+
+
+class FoundLabels(NamedTuple):
+    """Labels by their fields, and how sure each is; of forms, whether all were proved to integrate by themselves."""
+
+    values: Mapping[str, Any]
+    verdicts: Mapping[str, Verdict]
+    by_themselves: bool
+
+
+class Ground(NamedTuple):
+    """What the claims of one constraint rest on: the answers of its blocks, and the labels of its rows there."""
+
+    form: Form
+    answers: Sequence[Answer]
+    labels: Sequence[HolonomyLabel]
+
+    def claim(self, verdict: Verdict, argument: ArgumentKey, local: bool = True) -> Claim:
+        """A claim with the bound that the blocks have; ``local``: of the points that they were answered at."""
+        bits = min((a.bits for a in self.answers), default=BITS)
+        gap = min((a.gap for a in self.answers), default=GAP)
+        about = least(*(a.about for a in self.answers)) if local else "everywhere"
+        return OPEN if verdict == "undecided" else Claim(verdict, argument, bits, gap, about)
+
+
+def claims_of_labels(ground: Ground, found: FoundLabels) -> dict[str, Claim]:
+    """The claims of the labels that were decided, and of those that are open."""
+    claims = {}
+    for name, value in found.values.items():
+        verdict: Verdict = "undecided" if value is None else found.verdicts[name]
+        claims[name] = ground.claim(verdict, _argument(ground, found, name, value), name in ("holonomic", "integral"))
+    return claims
+
+
+def _argument(ground: Ground, found: FoundLabels, name: str, value: Any) -> ArgumentKey:
+    if name in ("scleronomic", "catastatic", "exact"):
+        return "identity" if value else "zero with another derivative"
+    if found.by_themselves and value:
+        return "form by itself"
+    if ground.form in BY_FORM:
+        return BY_FORM[ground.form]
+    if value is False:
+        return "outside the integrable part"
+    line = all(label.reason == "line" for label in ground.labels)
+    return "line field" if ground.labels and line else "in the integrable part"
+
+
+def claim_of_dependence(ground: Ground, all_needed: bool, copied: bool) -> Claim:
+    """How sure it is how many equations are independent of those before, and of what the others follow."""
+    own = together(*(a.claim for a in ground.answers))
+    if not ground.answers or copied:
+        return Claim("proved", "identity")
+    if own.verdict == "undecided" or all_needed:
+        return own
+    if own.argument in ("links in general position", "exact elimination"):
+        return own
+    return ground.claim(weakest(own.verdict, "probable"), "rows at a point")

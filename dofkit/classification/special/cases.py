@@ -2,52 +2,94 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from dofkit.base.deadline import OutOfTimeError, expired, limited
-from dofkit.base.errors import DofkitError
 from dofkit.base.verdicts import Verdict, weakest
+from dofkit.base.wording import many, verb
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.freedom.isomorphic_blocks import Likenesses
-from dofkit.classification.special.branch_dimensions import branch_dimensions, meetings
-from dofkit.classification.special.candidates import Candidates, candidates
-from dofkit.classification.special.common_zeros import Leaf, drop, flag, order_of, where
-from dofkit.classification.special.loci import Locus, place
+from dofkit.classification.special.common_zeros import Leaf, drop, flag, in_order, order_of, where
+from dofkit.classification.special.loci import Candidates, Locus, candidates, place
 from dofkit.classification.special.minors import MinorTable, table_of
-from dofkit.classification.special.parameters import (
-    ParameterCondition,
-    Values,
-    assignments,
-    at_values,
-    changed,
-    differences,
-)
 from dofkit.exact.ring.canonical import Canon
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
+from dofkit.expressions.terms import number_and_rest
+from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
 from dofkit.relations.blocks import Block, expressions
-from dofkit.relations.normal.pieces import Inequality, Reduced
+from dofkit.relations.normal.pieces import Finite, Inequality, Reduced
 from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.setting import Setting
 from dofkit.report import Report, SpecialCase
-from dofkit.system import System
+from dofkit.system import Constraint, Coordinate, Relation, System, TypeFacts
+
+#: Expressions for which the rest of the configuration space is looked at.
+MAX_EXPRESSIONS = 4
+_RECIPROCAL = "_reciprocal"
+
+Again = Callable[[System], Report]
+
+
+def branch_dimensions(
+    system: System, reduced: Sequence[Reduced], outcome: Outcome, report: Report, again: Again
+) -> Iterator[SpecialCase]:
+    """Yield the branch to which the degrees of freedom belong, where the rest of the configuration space has fewer."""
+    claim = report.verdicts.get("dof")
+    if system.reference is not None or not report.dof or claim is None or claim.about == "component":
+        return
+    for h in list(dict.fromkeys(_separating(reduced, outcome)))[:MAX_EXPRESSIONS]:
+        rest = None if expired() else again(where_nonzero(system, h))
+        elsewhere = None if rest is None else rest.verdicts.get("dof")
+        if rest is None or rest.dof is None or elsewhere is None or elsewhere.about == "component":
+            continue
+        sure = weakest(claim.verdict, elsewhere.verdict)
+        if rest.consistent and rest.dof < report.dof and sure != "undecided":
+            shown = to_text(in_order(h, order_of(system)))
+            concerned = (c for c in system.constraints if any(h.symbols & r.expr.symbols for r in c.relations))
+            yield SpecialCase(
+                where=f"{shown} = 0",
+                kind="branch",
+                what=f"only this branch has {many(report.dof, 'degree')} of freedom; "
+                f"where {shown} is not 0 there {verb(rest.dof)} {rest.dof}",
+                constraints=[c.name for c in concerned],
+                verdict=sure,
+            )
+            return
+
+
+def where_nonzero(system: System, h: Expr) -> System:
+    """Return the system on the set where an expression does not vanish: u h = 1 for one u [Rabinowitsch1929]."""
+    reciprocal = Relation(ex.coordinate(_RECIPROCAL) * h - ex.ONE)
+    facts = TypeFacts(written=True)
+    condition = Constraint(_RECIPROCAL, _RECIPROCAL, facts, f"{to_text(h)} != 0", (reciprocal,))
+    return replace(
+        system,
+        coordinates=(*system.coordinates, Coordinate(_RECIPROCAL)),
+        constraints=(*system.constraints, condition),
+    )
+
+
+def _separating(reduced: Sequence[Reduced], outcome: Outcome) -> Iterator[Expr]:
+    """Yield expressions that vanish on the branch that was answered, and may not do so on others."""
+    products = [n for r in reduced for n in r.normals if len(n.branches) > 1]
+    factors = {p.expr for n in products for branch in n.branches for p in branch if isinstance(p, Finite)}
+    found = [r.piece.expr for r in outcome.rows if isinstance(r.piece, Finite) and r.piece.expr in factors]
+    for h in [*found, *(h for a in outcome.answers for h in a.separating)]:
+        yield number_and_rest(h)[1]
+
 
 #: Blocks with more rows, coordinates or terms are not searched, nor scenes with more blocks.
 MAX_ROWS, MAX_COLUMNS, MAX_TERMS, MAX_BLOCKS = 6, 10, 20, 12
-#: Times that a scene is answered again with special values, and loci that are confirmed a block.
-MAX_VALUES, MAX_PLACES = 8, 6
-#: Scenes with more coordinates are not answered again; and all of it takes no longer than this.
-MAX_SCENE, MAX_SECONDS = 40, 10.0
+#: Loci that are confirmed for each block, and seconds for all of them.
+MAX_PLACES, MAX_SECONDS = 6, 10.0
 SEARCHED = "special cases by the zeros of minors and of curvature"
 
 _UNFINISHED = (ArithmeticError, ValueError, OutOfTimeError)
-
-Again = Callable[[System], Report]
 
 
 @dataclass(frozen=True)
@@ -104,7 +146,7 @@ class SearchedBlock:
 def special_cases(
     system: System, reduced: Sequence[Reduced], setting: Setting, outcome: Outcome, report: Report, again: Again
 ) -> dict[str, Any]:
-    """What a report has of them: ``special_cases``, parameter values first, and in ``method`` that they were sought.
+    """What a report has of them: ``special_cases``, and in ``method`` that they were sought.
 
     ``again`` answers another system.
     """
@@ -115,34 +157,14 @@ def special_cases(
     with limited(MAX_SECONDS):
         with suppress(*_UNFINISHED):
             cases.extend(branch_dimensions(system, reduced, outcome, report, again))
-        found = _searched(outcome, told)
+        blocks = zip(outcome.blocks, outcome.answers, strict=True)
+        found = [s for b, a in blocks if _is_searched(b, a, told) and (s := _search(b, a, told)) is not None]
         if not found:
             return {"special_cases": cases} if cases else {}
-        conditions = [ParameterCondition(leaf, f.table.reals) for f in found for leaf in f.candidates.values]
-        for part in (
-            _values(conditions, told, again),
-            meetings(system, reduced, setting, outcome),
-            *(_places(f, told) for f in found),
-        ):
+        for block in found:
             with suppress(*_UNFINISHED):
-                cases.extend(part)
+                cases.extend(_places(block, told))
     return {"special_cases": _merged(cases), "method": f"{report.method}; {SEARCHED}"}
-
-
-def _searched(outcome: Outcome, told: GenericAnswer) -> list[SearchedBlock]:
-    """The blocks that are small, with their candidates; where one has none, those that are like it are left out."""
-    likenesses = Likenesses(told.setting, {c.name: (c.owner, c.role) for c in told.system.coordinates})
-    fruitless: set[Hashable] = set()
-    found = []
-    looked = [(b, a) for b, a in zip(outcome.blocks, outcome.answers, strict=True) if _is_searched(b, a, told)]
-    for block, a in looked:
-        key = likenesses.of(block).key if len(looked) > 1 else None
-        one = None if key in fruitless else _search(block, a, told)
-        if one is not None:
-            found.append(one)
-        if key is not None and (one is None or one.candidates.empty):
-            fruitless.add(key)
-    return found
 
 
 def _merged(cases: Sequence[SpecialCase]) -> list[SpecialCase]:
@@ -269,52 +291,3 @@ def _bending(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, seen: Locus)
     what, grown = flag(told.report.growth_vector, own, there, vanishes)
     sure: Verdict = "proved" if vanishes and seen.regular and not grown else "probable"
     yield from _locus(found, told, leaf, what, forms, sure)
-
-
-# -- parameters -----------------------------------------------------------------------------------
-
-
-def _values(conditions: Sequence[ParameterCondition], told: GenericAnswer, again: Again) -> Iterator[SpecialCase]:
-    """The scene answered again for every set of special values."""
-    if len(told.system.coordinates) > MAX_SCENE:
-        return
-    different: dict[str, ParameterCondition] = {}
-    for condition in conditions:
-        at = where(condition.reals.canon, condition.leaf, told.order)
-        different.setdefault(at, condition)
-    left = MAX_VALUES
-    found: dict[frozenset[str], str] = {}
-    for at, condition in sorted(different.items(), key=lambda pair: pair[0].count(" and ")):
-        ways = [] if expired() else assignments(condition, told.system.parameters)
-        left -= len(ways)
-        case = _at_values(condition, ways, at, told, again) if ways and left >= 0 else None
-        parts = frozenset(at.split(" and "))
-        if case is not None and not any(other < parts and what == case.what for other, what in found.items()):
-            found[parts] = case.what
-            yield case
-
-
-def _at_values(
-    condition: ParameterCondition, ways: Sequence[Values], at: str, told: GenericAnswer, again: Again
-) -> SpecialCase | None:
-    """What the answer becomes, where all values that satisfy the conditions give the same one."""
-    system = told.system
-    reports: list[Report] = []
-    said: list[str] = []
-    for way in ways:
-        try:
-            reports.append(again(at_values(system, way)))
-        except (DofkitError, *_UNFINISHED):
-            return None
-        becomes = differences(told.report, reports[-1])
-        said = said or becomes
-        if not becomes or becomes != said:
-            return None
-    names = changed(told.report, reports[0])
-    if not names:
-        symbols = frozenset().union(*(way.keys() for way in ways))
-        names = [c.name for c in system.constraints if any(not symbols.isdisjoint(r.expr.symbols) for r in c.relations)]
-    sure = weakest(told.report.verdict, *(r.verdict for r in reports))
-    if sure == "undecided":
-        return None
-    return SpecialCase(where=at, kind="parameters", what="; ".join(said), constraints=names, verdict=sure)

@@ -61,11 +61,6 @@ class Reals:
             *(s for v, s in zip(ring.vars, shown, strict=True) if v.kind != "symbol"), frozenset[Expr]()
         )
 
-    @property
-    def parameters(self) -> bool:
-        """Is there a generator that does not move, so that a coefficient may vanish for some values?"""
-        return len(self.moving) < len(self.canon.ring.vars)
-
     def never_zero(self, poly: Poly) -> bool:
         """True where the polynomial is proved to vanish nowhere."""
         if poly.is_constant():
@@ -78,26 +73,9 @@ class Reals:
         even = sum_of_even(poly, self.signs) if len(poly) <= MAX_EVEN else None
         return even is not None and any(not zeros for zeros in even)
 
-    def never_zero_factor(self, term: Poly) -> bool:
-        """Do the parameters in a single term never vanish?"""
-        return (self.never | self.moving).issuperset(self.canon.generators_in(term))
-
     def of_parameters(self, poly: Poly) -> bool:
         """Do neither coordinates nor time occur?"""
         return self.moving.isdisjoint(self.canon.generators_in(poly))
-
-    def coefficients(self, poly: Poly) -> list[Poly]:
-        """The coefficients, polynomials in the parameters, of the monomials in all that moves."""
-        n = len(self.canon.gens)
-        groups: dict[tuple[int, ...], Poly] = {}
-        for exponents, coefficient in poly.to_dict().items():
-            moving = tuple(k if n - 1 - p in self.moving else 0 for p, k in enumerate(exponents))
-            term = self.canon.one * coefficient
-            for p, k in enumerate(exponents):
-                if k and not moving[p]:
-                    term = term * self.canon.gens[n - 1 - p] ** int(k)
-            groups[moving] = groups[moving] + term if moving in groups else term
-        return list(groups.values())
 
     def factors(self, poly: Poly) -> list[Poly]:
         """Irreducible factors that may vanish; (cos u - 1) (cos u + 1) is told as sin u.
@@ -212,11 +190,6 @@ class Reals:
                 if self.implied(i, value) is not None:
                     return i, value
         return None
-
-    def leaf(self, condition: Poly) -> Leaf:
-        """One condition, solved where it can be."""
-        found = self.solved(condition)
-        return Leaf((), (condition,)) if found is None else Leaf((found,))
 
     def _place(self, index: int) -> int:
         """The place of a generator in the polynomial ring, which has them in reverse."""

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from itertools import combinations
+from math import comb
+from typing import Any, NamedTuple
 
 from flint import arb, ctx, nmod, nmod_mat
 
-from dofkit.base.verdicts import Verdict
+from dofkit.classification.special.common_zeros import MAX_READ, Leaf, common_zeros
+from dofkit.classification.special.minors import MAX_MINORS, EliminatedTable, MinorTable, curvatures
 from dofkit.configuration.generic_points import on_variety
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.sparse import rank_of
@@ -16,6 +19,7 @@ from dofkit.exact.points.balls import PRECISION, BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, Pivots, certified_rank, field_frame, rank_over
 from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.ring.canonical import Poly, determinant
 from dofkit.exact.ring.program import values
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
@@ -27,6 +31,95 @@ from dofkit.relations.blocks import Block, Row, uses_time
 from dofkit.relations.chart import Chart, make_chart
 from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.relations.setting import Setting
+
+
+class Candidates(NamedTuple):
+    """Conditions on coordinates under which all largest minors vanish, and all curvature or a minor of it."""
+
+    ranks: list[Leaf]
+    bends: list[Leaf]
+
+
+def candidates(table: MinorTable, rank: int, curvature: int, curved: bool) -> Candidates:
+    """Return the candidates; ``rank``: of the rows in the columns of the coordinates.
+
+    ``curvature``: the number of independent directions that [D, D] adds to D at a generic point, 0 where not known.
+    Where nothing is ``curved`` curvature has nothing to tell. What is too large has no candidates.
+    """
+    reduction = EliminatedTable(table)
+    size = rank - len(reduction.solved)
+    ranks = _attempt(lambda: _loci(table, reduction.minors(size) if size > 0 else ()))
+    bends = _attempt(lambda: _bends(table, reduction, size, curvature)) if curved and size >= 0 else []
+    return Candidates(ranks, bends)
+
+
+def _attempt(search: Callable[[], Iterable[Leaf]]) -> list[Leaf]:
+    try:
+        return raising_no_value(lambda: list(search()))()
+    except NoValueError:
+        return []
+
+
+def _bends(table: MinorTable, reduction: EliminatedTable, size: int, independent: int) -> Iterator[Leaf]:
+    """Yield the loci on which all curvature vanishes, and those on which less of it is independent."""
+    if not any(table.curls):
+        return
+    matrix = curvatures(table, reduction.kernel(size))
+    yield from _loci(table, [c for row in matrix for c in row])
+    bent = [row for row in matrix if any(c != 0 for c in row)]
+    if independent > 1 and comb(len(bent), independent) * comb(len(bent[0]), independent) <= MAX_MINORS:
+        columns = range(len(bent[0]))
+        picked = [(r, c) for r in combinations(bent, independent) for c in combinations(columns, independent)]
+        yield from _loci(table, [determinant(table.canon, [[row[i] for i in c] for row in r]) for r, c in picked])
+
+
+def _loci(table: MinorTable, polynomials: Iterable[Poly]) -> Iterator[Leaf]:
+    """Yield conditions on coordinates under which polynomials vanish and the finite relations can hold for a while."""
+    present = [p for p in polynomials if p != 0]
+    for leaf in common_zeros(table.reals, present, short=True) if present else ():
+        conditions = leaf.conditions(table.canon)
+        short = all(len(p) <= MAX_READ for p in (*leaf.others, *(v for _, v in leaf.solved)))
+        alone = any(_is_instant(table, c) or table.reals.of_parameters(c) for c in conditions)
+        if not short or alone or not _is_of_coordinates(table, conditions) or not _is_defined(table, leaf):
+            continue
+        if _can_hold(table, leaf):
+            yield leaf
+
+
+def _can_hold(table: MinorTable, leaf: Leaf) -> bool:
+    """Return whether the finite relations may hold on a leaf for an interval of time and all parameters."""
+    relations = [table.reals.on(leaf, g) for g in table.relations]
+    if any(table.reals.never_zero(g) for g in relations):
+        return False
+    try:
+        ways = [way.conditions(table.canon) for way in common_zeros(table.reals, relations)]
+    except NoValueError:
+        return True
+    return any(not any(_is_instant(table, c) or table.reals.of_parameters(c) for c in way) for way in ways)
+
+
+def _is_instant(table: MinorTable, condition: Poly) -> bool:
+    """Return whether a condition is one on time alone."""
+    symbols = _symbols(table, [condition])
+    return ex.TIME in symbols and all(s.args[0] in ("time", "parameter") for s in symbols)
+
+
+def _symbols(table: MinorTable, conditions: Iterable[Poly]) -> frozenset[Expr]:
+    present = {i for poly in conditions for i in table.canon.generators_in(poly)}
+    return frozenset[Expr]().union(*(table.canon.ring.var_expr[i].symbols for i in present))
+
+
+def _is_defined(table: MinorTable, leaf: Leaf) -> bool:
+    """Return whether the denominators of the rows do not vanish on a leaf."""
+    below = [table.reals.on(leaf, p) for p in table.below]
+    return all(p != 0 and not any(divmod(p, c)[1] == 0 for c in leaf.others) for p in below)
+
+
+def _is_of_coordinates(table: MinorTable, conditions: Sequence[Poly]) -> bool:
+    """Return whether coordinates occur, and no unknown functions."""
+    kinds = {table.canon.ring.vars[i].kind for poly in conditions for i in table.canon.generators_in(poly)}
+    return "call" not in kinds and any(s.args[0] == "coordinate" for s in _symbols(table, conditions))
+
 
 #: Starts and steps of the search for a real point of a locus; where it is regular a few are enough.
 STARTS, STEPS = 2, 14
@@ -182,11 +275,3 @@ def _dimensions(flows: Sequence[AdmissibleCurve]) -> tuple[int, ...]:
         vectors += [v for flow in flows for v in columns_of(flow.pulled[k])]
         found.append(rank_over(vectors, flows[0].sample))
     return tuple(found)
-
-
-def meeting(coordinates: Sequence[str], setting: Setting, relations: Sequence[Expr]) -> Verdict | None:
-    """How sure it is that real configurations satisfy relations; None where none was found."""
-    found = points_of(_chart(Block(tuple(coordinates), ()), setting, relations, ()))
-    if found is None:
-        return None
-    return "proved" if found.regular else "probable"

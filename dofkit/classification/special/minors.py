@@ -107,8 +107,8 @@ MAX_TERMS, MAX_SHORT = 12, 60
 class MinorTable:
     """``relations`` are the finite relations; ``rows`` over ``symbols`` (coordinates, then time where it enters).
 
-    The first rows are the relations' differentials. Of every form ``bent`` has d(omega), ``clocks`` what holds its time
-    (the dt coefficient and time derivatives); ``below`` has every row's denominator, as written.
+    The first rows are the relations' differentials. Of every form ``bent`` has d(omega);
+    ``below`` has every row's denominator, as written.
     """
 
     canon: Canon
@@ -117,7 +117,6 @@ class MinorTable:
     relations: list[Poly]
     rows: list[list[Poly]]
     bent: Callable[[], list[dict[tuple[int, int], Quotient]]]
-    clocks: list[list[Poly]]
     below: list[Poly]
 
     @cached_property
@@ -156,7 +155,6 @@ def table_of(block: Block, hidden: Sequence[Expr], setting: Setting, nonzero: fr
         [values[g][0] for g in finite],
         [tops for tops, _ in clear],
         lambda: [_curl(slopes, form, values, symbols) for form in forms],
-        [_clock(slopes, row) for row in written] if timed else [],
         [whole for _, whole in clear],
     )
 
@@ -176,11 +174,6 @@ def _curl(
         total = old + top if below == under else old * below + top * under
         found[key] = slopes.lowest(slopes.canon.reduce(total), below if below == under else below * under)
     return {key: found[key] for key in sorted(found) if found[key][0] != 0}
-
-
-def _clock(slopes: Derivation, row: Sequence[Quotient]) -> list[Poly]:
-    """What holds the time in a row: its last coefficient, and the others' derivatives."""
-    return [row[-1][0], *(slopes.of(entry, ex.TIME)[0] for entry in row[:-1])]
 
 
 class EliminatedTable:

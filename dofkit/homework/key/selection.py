@@ -7,8 +7,7 @@ from dataclasses import replace
 
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.branches import solve
-from dofkit.classification.freedom.preparation import prepared
-from dofkit.classification.freedom.reference_branches import all_of
+from dofkit.classification.freedom.preparation import all_of, prepared
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import ZERO
