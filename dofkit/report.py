@@ -320,7 +320,7 @@ class Report(Displayed, ReportModel):
 
     def beside(self, scene: object) -> Self:
         """Return this report, and remember the scene that it is about, whose title and picture are then shown."""
-        self._companion.scene = scene
+        self._companion.about = scene
         return self
 
 

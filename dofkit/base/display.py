@@ -96,11 +96,11 @@ class DisplayedFormulas(Displayed):
 class Companion:
     """What accompanies a value and is no part of it: equal to every other, and empty in another process.
 
-    ``scene``: what a report is about, for its title and picture.
+    ``about``: of a report its scene, for the title and the picture; of a scene what was worked out of it.
     """
 
-    def __init__(self, scene: object = None) -> None:
-        self.scene = scene
+    def __init__(self, about: Any = None) -> None:
+        self.about = about
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Companion)

@@ -13,5 +13,5 @@ From trials to charts
     5. `statistics` has scores, Pareto fronts and growth; `sentences` states in words what they show, `failures` why a
        method fails; `figures` draws it with matplotlib.
 
-`command` is ``dofkit chart``. `ablation` measures what each reduction of the model saves.
+`command` is ``dofkit chart``.
 """

@@ -19,17 +19,15 @@ from rich.table import Table
 
 from dofkit.base import __version__
 from dofkit.base.runs import cores
-from dofkit.base.workers import Job, function_named
+from dofkit.base.workers import function_named
 from dofkit.benchmark import record, runner, tasks
-from dofkit.benchmark.record import ALL, AUTO, ChartError, ChartRun, Data, Ran, ReductionCost, Score
+from dofkit.benchmark.record import ALL, AUTO, ChartError, ChartRun, Data, Ran, Score
 from dofkit.benchmark.sentences import TWICE, summary
 from dofkit.benchmark.tasks import Selection
 from dofkit.benchmark.trials import FAMILIES
 
 #: Seconds of processor time for a trial, and in a quick run.
 LIMIT, LIMIT_QUICK = 2.0, 0.5
-#: Seconds that measuring one reduction on one scene may take.
-REDUCTION_SECONDS = 120.0
 #: What draws the figures, and so needs matplotlib.
 FIGURES = "dofkit.benchmark.figures.table:write"
 NO_MATPLOTLIB = "nothing is drawn without matplotlib: pip install 'dofkit[chart]'"
@@ -132,24 +130,13 @@ def writable(out: Path) -> None:
 def _gather(
     options: ChartOptions, work: Sequence[tasks.TrialTask], swept: Sequence[tasks.TrialTask], data: Data
 ) -> None:
-    """Fill the data. Reductions are measured beside the trials: each of their runs needs the one before."""
+    """Fill the data."""
     with _bench(options) as bench, _bar() as bar:
-        job = Job(runner.ablation_rows, options.selection.quick, REDUCTION_SECONDS)
-        reduced = bench.crew.submit(bench.ask, job) if _reduces(options.selection) else None
         for name, members, lines in (("trials", work, data.lines), ("sweeps", swept, data.sweeps)):
             progress = bar.add_task(name, total=len(members))
             for line in runner.run(members, bench):
                 lines.append(line)
                 bar.update(progress, advance=1)
-        if reduced is not None:
-            progress = bar.add_task("reductions", total=None)
-            data.reductions.extend(ReductionCost.model_validate(row) for row in reduced.result().value or ())
-            bar.update(progress, total=1, completed=1)
-
-
-def _reduces(selection: Selection) -> bool:
-    """Return whether reductions are measured: where everything is, as they are about `auto` on scenes of their own."""
-    return not (selection.questions or selection.families or selection.methods)
 
 
 def _bench(options: ChartOptions) -> AbstractContextManager[runner.Bench]:
@@ -186,7 +173,7 @@ def show(chart: ChartRun, data: Data, out: Path, drawn: Sequence[Path]) -> None:
         console.print(table(chart))
         for sentence in auto_sentences(chart):
             console.print(sentence, soft_wrap=True)
-    console.print(f"data: {out}/ (trials.csv, sweeps.csv, reductions.csv, chart.json)", soft_wrap=True)
+    console.print(f"data: {out}/ (trials.csv, sweeps.csv, chart.json)", soft_wrap=True)
     if drawn:
         names = ", ".join(path.stem for path in drawn)
         console.print(f"figures, as .png and .svg: {names}", soft_wrap=True)

@@ -161,31 +161,6 @@ class Against(_Row):
     sound_ratio: float | None = Field(None, description="the same ratio for that one")
 
 
-#: ``family``: the reduction that the scene was made for, or ``catalog``; ``size``: what grows with it; ``seconds``:
-#: processor time of reading, lowering and answering. Of the model that was computed with: ``coordinates`` (of those
-#: ``written``), finite ``relations``, ``forms`` put to an integrability test, and coordinates of the ``largest``
-#: block; ``followed``: coordinates of relations that were followed from the drawing to tell a motion from a shake.
-#: ``unchanged``: no answer differs from that with all reductions, though it may be open; ``differs``: the fields that
-#: do.
-class ReductionCost(_Row):
-    """A scene answered with one reduction switched off (``off`` empty: none): what it costs."""
-
-    scene: str
-    family: str
-    size: int
-    off: str
-    seconds: float
-    coordinates: int
-    relations: int
-    forms: int
-    largest: int
-    written: int
-    unchanged: bool
-    undecided: bool
-    differs: list[str] = Field(default_factory=list)
-    followed: int = 0
-
-
 class ChartRun(_Row):
     """``chart.json``: the summary of a run."""
 
@@ -196,7 +171,6 @@ class ChartRun(_Row):
     fits: list[Fit]
     steps: list[Step]
     against: list[Against]
-    reductions: list[ReductionCost]
     captions: dict[str, str] = Field(description="of every figure, by its name")
     sentences: dict[str, str] = Field(default_factory=dict, description="what the figures say, by what it is about")
 
@@ -208,12 +182,11 @@ class Data:
     ran: Ran
     lines: list[TrialLine] = field(default_factory=list)
     sweeps: list[TrialLine] = field(default_factory=list)
-    reductions: list[ReductionCost] = field(default_factory=list)
 
 
 # Files
 
-TRIALS, SWEEPS, REDUCTIONS, SUMMARY = "trials.csv", "sweeps.csv", "reductions.csv", "chart.json"
+TRIALS, SWEEPS, SUMMARY = "trials.csv", "sweeps.csv", "chart.json"
 #: Columns that hold JSON, and those that hold numbers; the others are plain text.
 _JSON = ("traits", "swept", "truth", "told")
 _NUMBERS: dict[str, Callable[[str], Any]] = {"size": int, "seconds": float, "value": float}
@@ -228,9 +201,6 @@ def write(data: Data, chart: ChartRun, out: Path) -> None:
     """Write all data of a run into an existing folder. Raises OSError."""
     _write_table(out / TRIALS, _COLUMNS, map(_cells, data.lines))
     _write_table(out / SWEEPS, _COLUMNS, map(_cells, data.sweeps))
-    rows = (row.model_dump().values() for row in data.reductions)
-    lists = ([json.dumps(v, ensure_ascii=False) if isinstance(v, list) else v for v in row] for row in rows)
-    _write_table(out / REDUCTIONS, list(ReductionCost.model_fields), lists)
     (out / SUMMARY).write_text(chart.model_dump_json(indent=1) + "\n", encoding="utf-8")
 
 
@@ -244,7 +214,7 @@ def read(folder: Path) -> Data:
     except (ValidationError, ValueError, KeyError, TypeError) as error:
         first = str(error).splitlines()[0]
         raise ChartError(f"the files in {folder} are not those of a run of this version: {first}") from None
-    return Data(chart.ran, lines, swept, chart.reductions)
+    return Data(chart.ran, lines, swept)
 
 
 def _write_table(path: Path, columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:

@@ -99,14 +99,6 @@ def _timed(function: Callable[..., MethodReply], asked: TrialQuestion) -> tuple[
         return reply, time.thread_time() - start
 
 
-def ablation_rows(quick: bool) -> Iterator[Json]:
-    """Yield what each reduction of the model saves: all rows so far, each time there is one more."""
-    rows: list[Json] = []
-    for row in function_named("dofkit.benchmark.ablation:ablation")(quick):
-        rows.append(row.model_dump())
-        yield rows
-
-
 # Judging
 
 

@@ -14,9 +14,8 @@ from typing import NamedTuple
 import yaml
 
 from dofkit.benchmark import statistics
-from dofkit.benchmark.record import ALL, AUTO, ChartRun, Data, Ran, ReductionCost, Score
+from dofkit.benchmark.record import ALL, AUTO, ChartRun, Data, Ran, Score
 from dofkit.benchmark.statistics import grouped
-from dofkit.relations.setting import REDUCTIONS
 
 #: `auto` should take no more than so many times the fastest method that is right.
 TWICE = 2
@@ -37,7 +36,6 @@ def summary(data: Data) -> ChartRun:
         fits=statistics.fits(points),
         steps=statistics.steps(data.sweeps),
         against=statistics.against(data.lines),
-        reductions=data.reductions,
         captions={name: f"{text} {provenance(data.ran)}" for name, text in captions.items()},
     )
     return chart.model_copy(update={"sentences": sentences(chart)})
@@ -55,7 +53,7 @@ def provenance(ran: Ran) -> str:
 def sentences(chart: ChartRun) -> dict[str, str]:
     """Return the sentences by what they are about; those that the run has no data of are left out."""
     texts = {"trials": _trials(chart), "time": _time(chart), "tolerance": _tolerance(chart), "bits": _bits(chart)}
-    texts |= {"primes": _primes(chart), "cost": _cost(chart), "reductions": _reductions(chart)}
+    texts |= {"primes": _primes(chart), "cost": _cost(chart)}
     texts |= {method: _method(chart, method) for method in dict.fromkeys(score.method for score in chart.scores)}
     return {key: text for key, text in texts.items() if text}
 
@@ -184,26 +182,6 @@ def _cost(chart: ChartRun) -> str:
     return (
         f"A framework of {first.size} joints takes `auto` {_milliseconds(first.seconds)}, one of {last.size} joints "
         f"{_milliseconds(last.seconds)}."
-    )
-
-
-def compared(chart: ChartRun) -> list[tuple[ReductionCost, ReductionCost]]:
-    """Return each scene without a reduction beside the same with all of them."""
-    full = {row.scene: row for row in chart.reductions if not row.off}
-    return [(row, full[row.scene]) for row in chart.reductions if row.off and row.scene in full]
-
-
-def _reductions(chart: ChartRun) -> str:
-    pairs = compared(chart)
-    if not pairs:
-        return ""
-    titles = {str(key): reduction.title for key, reduction in REDUCTIONS.items()}
-    changed = sum(not row.unchanged for row, _ in pairs)
-    off, on = max(((o, w) for o, w in pairs if o.family == o.off), key=lambda pair: pair[0].seconds / pair[1].seconds)
-    return (
-        f"Left out one by one in {_spaced(len(pairs))} cases, the reductions change {changed or 'no'} "
-        f"answer{'s' * (changed > 1)}; on scenes made for it, one reduction saves at most a factor of "
-        f"{off.seconds / on.seconds:.2g} of the time ({titles.get(off.off, off.off)})."
     )
 
 

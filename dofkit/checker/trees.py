@@ -170,13 +170,19 @@ MAKERS: Mapping[str, Callable[..., Tree]] = {"sum": add, "product": times, "powe
 Choices = Mapping[str, tuple[tuple[str, ...], Tree]]
 
 
-def folded(tree: Tree, made: Callable[[Tree, tuple[Made, ...]], Made]) -> Made:
-    """What is made of a tree, of each node once, from what was made of the nodes right below it."""
+def folded(
+    tree: Tree, made: Callable[[Tree, tuple[Made, ...]], Made], plain: Callable[[Tree], Made | None] | None = None
+) -> Made:
+    """Return what is made of a tree, of each node once, from what was made of the nodes right below it.
+
+    Below a node of which ``plain`` knows what is made of it nothing is looked at.
+    """
     done: dict[int, Made] = {}
 
     def read(node: Tree) -> Made:
         if id(node) not in done:
-            done[id(node)] = made(node, tuple(map(read, node.below)))
+            known = plain(node) if plain else None
+            done[id(node)] = made(node, tuple(map(read, node.below))) if known is None else known
         return done[id(node)]
 
     return read(tree)
@@ -196,7 +202,10 @@ def substituted(tree: Tree, values: Mapping[str, Tree], functions: Choices | Non
             return values.get(str(node.value), node) if node.head == "symbol" else node
         return MAKERS[node.head](*below) if node.head in MAKERS else Tree(node.head, below, node.value, node.orders)
 
-    return folded(tree, replaced)
+    def unchanged(node: Tree) -> Tree | None:
+        return None if (functions and node.applied) or any(name in values for name in node.symbols) else node
+
+    return folded(tree, replaced, unchanged)
 
 
 def derivative(tree: Tree, name: str) -> Tree:
@@ -204,10 +213,10 @@ def derivative(tree: Tree, name: str) -> Tree:
 
     def by(node: Tree, inner: tuple[Tree, ...]) -> Tree:
         if not inner:
-            return ONE if node.head == "symbol" and node.value == name else ZERO
+            return ONE
         return add(*(times(_partial(node, i), part) for i, part in enumerate(inner) if part != ZERO))
 
-    return folded(tree, by)
+    return folded(tree, by, lambda node: None if name in node.symbols else ZERO)
 
 
 def _partial(node: Tree, place: int) -> Tree:

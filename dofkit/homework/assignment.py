@@ -30,8 +30,8 @@ from dofkit.homework.questions import QuestionBase
 from dofkit.homework.review.queue import Decisions
 from dofkit.homework.sentences.translations import Language
 from dofkit.homework.statement import faults_of_places
+from dofkit.scene.catalog import find
 from dofkit.scene.fields import WrittenModel, exact, fault_error, faults_of
-from dofkit.scene.found_files import find
 from dofkit.scene.hints import with_hint, without_echoes
 from dofkit.scene.reading import load
 from dofkit.scene.scene import Scene

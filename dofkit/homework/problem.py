@@ -16,8 +16,7 @@ from dofkit.expressions.text import valid_name
 from dofkit.homework.key.key import Key
 from dofkit.homework.questions import KINDS, AnyQuestion, Identifier, QuestionBase
 from dofkit.homework.questions.base import Points
-from dofkit.scene.fields import Listed, Text, WrittenModel, as_written, fault_error, suggestion
-from dofkit.scene.tagged_union import TaggedUnion
+from dofkit.scene.fields import Listed, TaggedUnion, Text, WrittenModel, as_written, fault_error, suggestion
 
 #: Which value of each varying name a variant has, by its index.
 Pick = dict[str, int]

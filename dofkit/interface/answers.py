@@ -28,11 +28,10 @@ from dofkit.interface.show.sheet import SheetSection
 from dofkit.interface.show.terminal import Screen, as_text
 from dofkit.methods.stages import classified, lowered, stages
 from dofkit.report import Report
-from dofkit.scene.dropped import without
+from dofkit.scene.catalog import FoundFile, find
 from dofkit.scene.expectation import unmet
-from dofkit.scene.found_files import FoundFile, find
 from dofkit.scene.reading import SceneFile
-from dofkit.scene.scene import Scene
+from dofkit.scene.scene import Scene, without
 
 #: The public functions that draw, by the kind of the picture.
 _PICTURES = {"mechanism": "draw", "graph": "graph", "directions": "phase", "motion": "animate"}
@@ -75,7 +74,7 @@ def answer_lines(request: Request, answer: Callable[[Scene, Request], Iterator[J
         try:
             yield from answer(scene, request)
         except SceneError as error:
-            raise read.with_places(error) from None
+            raise read.error(error.faults) from None
     except MemoryError:
         raise
     except Exception as error:

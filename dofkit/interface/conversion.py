@@ -10,7 +10,7 @@ from dofkit.base.documents import yaml_text
 from dofkit.base.errors import DofkitError, SceneError
 from dofkit.models.formats import is_model, read_model
 from dofkit.models.model_document import ModelFile
-from dofkit.scene.found_files import find
+from dofkit.scene.catalog import find
 from dofkit.scene.reading import SceneFile
 from dofkit.scene.schema import scene_schema
 

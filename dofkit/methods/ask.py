@@ -32,9 +32,8 @@ from dofkit.mobility.rank_at_drawing import drawn_rank
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite, Reduced
 from dofkit.scene.added_equations import read_equations, with_equations
-from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.lowering import lower
-from dofkit.scene.names import vocabulary_of
+from dofkit.scene.names import names_by_position, vocabulary_of
 from dofkit.scene.reading import SceneLike, scene_or_system
 from dofkit.scene.scene import Scene
 from dofkit.system import System

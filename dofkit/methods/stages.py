@@ -18,8 +18,8 @@ from dofkit.classification.undecided import open_entry, open_report, sketch, und
 from dofkit.methods.single_reports import report_of_engine, report_of_method
 from dofkit.methods.table import METHODS, MethodName
 from dofkit.report import Count, ForceEntry, Report
-from dofkit.scene.elaboration import names_by_position
 from dofkit.scene.lowering import lower
+from dofkit.scene.names import names_by_position
 from dofkit.scene.scene import Scene
 from dofkit.system import BODY_ROLES, Constraint, System
 

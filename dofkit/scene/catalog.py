@@ -1,14 +1,20 @@
-"""The catalog: one scene a file, found by its stem, from an installed package as from a checkout."""
+"""The files of scenes: the bytes at a path or of a catalog name, and what is near where there is none.
+
+The catalog has one scene in each file, named by its stem, in an installed package as in a checkout.
+"""
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Sequence
 from functools import cache
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
+from typing import NamedTuple
 
+from dofkit.base.documents import MOST_BYTES
 from dofkit.base.errors import Fault, SceneError
 from dofkit.base.wording import nearest_title
 
@@ -58,12 +64,12 @@ def catalog_text(name: str) -> str:
 
 
 def catalog_titles() -> dict[str, str]:
-    """The title of every scene, by name."""
+    """Return the title of every scene, by name."""
     return {name: _title(file.read_text(encoding="utf-8")) for name, file in _files().items()}
 
 
 def catalog_search(words: Sequence[str]) -> dict[str, str]:
-    """The titles of the scenes in which all words occur, by name: those with them in name or title first.
+    """Return the titles of the scenes in which all words occur, by name: those with them in name or title first.
 
     Raises SceneError where there is none.
 
@@ -73,33 +79,33 @@ def catalog_search(words: Sequence[str]) -> dict[str, str]:
     titles, wanted = catalog_titles(), [word.casefold() for word in words]
     in_title = [n for n, title in titles.items() if all(w in f"{n} {title}".casefold() for w in wanted)]
     in_text = [n for n, f in _files().items() if all(w in f.read_text(encoding="utf-8").casefold() for w in wanted)]
-    found = {name: titles[name] for name in (*in_title, *in_text)}
-    if not found:
-        said = " ".join(words)
-        raise SceneError((Fault(f"no scene of the catalog contains '{said}'", hint=nearest_hint(said)),), said)
-    return found
+    matching = {name: titles[name] for name in (*in_title, *in_text)}
+    if not matching:
+        text = " ".join(words)
+        raise SceneError((Fault(f"no scene of the catalog contains '{text}'", hint=nearest_hint(text)),), text)
+    return matching
 
 
 def nearest_hint(name: str) -> str:
-    """The catalog's name that looks most like ``name``, as a hint."""
+    """Return a hint with the catalog's name that looks most like ``name``."""
     near = nearest_title(name, catalog_names())
     return f"did you mean '{near}'?" if near else "'dofkit catalog' lists the names"
 
 
 @cache
 def _files() -> dict[str, Traversable]:
-    found: dict[str, Traversable] = {}
+    files: dict[str, Traversable] = {}
     root = catalog_folder()
     folders = sorted((entry for entry in root.iterdir() if entry.is_dir()), key=lambda entry: entry.name)
     for folder in folders:
         for file in sorted(folder.iterdir(), key=lambda entry: entry.name.split(".")):
             if file.name.endswith(".yaml"):
-                found.setdefault(file.name.removesuffix(".yaml"), file)
-    return found
+                files.setdefault(file.name.removesuffix(".yaml"), file)
+    return files
 
 
 def catalog_folder() -> Traversable:
-    """Where the catalog's scenes are. Raises SceneError where they are not installed."""
+    """Return the folder of the catalog's scenes. Raises SceneError where they are not installed."""
     package = resources.files("dofkit")
     packaged = package / "_catalog"
     if packaged.is_dir():
@@ -113,3 +119,66 @@ def catalog_folder() -> Traversable:
 def _title(text: str) -> str:
     match = _TITLE.search(text)
     return (match["double"] or match["single"] or match["plain"] or "").strip() if match else ""
+
+
+class FoundFile(NamedTuple):
+    """The bytes at a path or of a catalog name; ``path`` is None for a scene of the catalog."""
+
+    name: str
+    data: bytes | str
+    path: Path | None = None
+
+
+def find(source: str | os.PathLike[str]) -> FoundFile:
+    """Return the bytes of the file at a path, or of the catalog scene of that name. Raises SceneError for neither."""
+    shown = os.fsdecode(source)
+    path = Path(shown)
+    try:
+        if path.exists() and not path.is_dir():
+            with path.open("rb") as file:
+                return FoundFile(_printable(path.stem), file.read(MOST_BYTES + 1), path)
+        if shown in catalog_names():
+            return FoundFile(shown, catalog_text(shown))
+        folder = path.is_dir()
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        message = f"'{_brief(shown)}' cannot be read: {reason[:1].lower()}{reason[1:]}"
+        raise SceneError((Fault(message, hint="check the path and the permissions"),), shown) from None
+    if folder:
+        fault = Fault(f"'{shown}' is a folder, not a scene", hint=f"write '{path / '*.yaml'}' for the files in it")
+        raise SceneError((fault,), shown)
+    raise SceneError((_missing(shown, path),), shown)
+
+
+def _missing(shown: str, path: Path) -> Fault:
+    if "\n" in shown:
+        message = "this is the text of a scene, not a path or a name"
+        return Fault(message, hint="read a text with dofkit.loads(text)")
+    in_folder = path.parent != Path(".") or path.suffix in (".yaml", ".yml", ".json")
+    beside = _beside(path)
+    near = nearest_title(path.name, beside)
+    message = f"there is no file '{_brief(shown)}'"
+    if not in_folder:
+        message += ", and no scene of that name in the catalog"
+    if near:
+        return Fault(message, hint=f"did you mean '{path.parent / near}'?")
+    if in_folder and not path.parent.is_dir():
+        return Fault(message, hint=f"there is no folder '{path.parent}' either")
+    return Fault(message, hint=nearest_hint(path.stem if in_folder else shown))
+
+
+def _beside(path: Path) -> list[str]:
+    try:
+        with os.scandir(path.parent) as entries:
+            return [entry.name for entry, _ in zip(entries, range(2000), strict=False) if entry.is_file()]
+    except OSError:
+        return []
+
+
+def _printable(name: str) -> str:
+    """Return a file's name without the half characters that stand for bytes of another encoding."""
+    return name.encode("utf-8", "replace").decode("utf-8")
+
+
+def _brief(text: str) -> str:
+    return text if len(text) <= 80 else text[:60] + "..."

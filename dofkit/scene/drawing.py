@@ -1,28 +1,34 @@
-"""The drawing of a scene: the frames of its bodies, and where its particles stand, before any constraint is read."""
+"""The drawing of a scene: frames and positions before any constraint is read, its size, its reference configuration."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import combinations, product
+from math import dist
+from operator import mul
 
 from dofkit.base.errors import Fault
-from dofkit.expressions.enclosures import differs_from_zero
-from dofkit.expressions.tree import ONE, ZERO, Expr, coordinate
+from dofkit.expressions.enclosures import approximate, differs_from_zero
+from dofkit.expressions.tree import ONE, ZERO, Expr, coordinate, num
 from dofkit.expressions.vectors import Vec
 from dofkit.scene.frames import Chart, Frame, Placed
 from dofkit.scene.ledger import Texts
-from dofkit.scene.names import Declared, Vocabulary
-from dofkit.scene.parts import Particle
+from dofkit.scene.names import Vocabulary
+from dofkit.scene.parts import Declarations, Particle
 from dofkit.system import GROUND
+
+#: Up to this many points the distance of every pair is measured.
+EVERY_PAIR = 1000
 
 
 @dataclass(frozen=True)
 class Drawing:
-    """What particles and bodies of a scene are in its coordinates, and where they are drawn.
+    """The particles and bodies of a scene in its coordinates, and their positions in the reference configuration.
 
-    ``configuration``: the values given of coordinates. ``points``: places given as numbers or texts; ``drawn``: the
-    bodies that the configuration places. ``faults``: those of the configuration and of the particles' places.
+    ``configuration``: the values given of coordinates; ``points``: positions given as numbers or texts; ``drawn``: the
+    bodies that the configuration places.
     """
 
     vocabulary: Vocabulary
@@ -34,22 +40,30 @@ class Drawing:
     frames: Mapping[str, Frame]
     points: tuple[Vec, ...]
     drawn: frozenset[str]
-    faults: tuple[Fault, ...]
 
 
-def drawing_of(scene: Declared, vocabulary: Vocabulary, mentioned: frozenset[str]) -> Drawing:
-    """The drawing of a scene; a spatial body of whose angles one is ``mentioned`` keeps its Euler angles."""
-    configuration, faults = _configuration(scene, vocabulary)
+def drawing_of(scene: Declarations, vocabulary: Vocabulary, mentioned: frozenset[str], faults: list[Fault]) -> Drawing:
+    """Return the drawing of a scene; a spatial body of whose angles one is ``mentioned`` keeps its Euler angles.
+
+    The faults of the configuration and of the particles' positions are added to ``faults``.
+    """
+    texts = Texts(vocabulary.texts, ("configuration",), faults)
+    known = {q.name: q for q in vocabulary.table.coordinates}
+    configuration: dict[str, Expr] = {}
+    for name, value in scene.configuration.items():
+        if name in known:
+            configuration[name] = texts.fixed(value, name)
+        else:
+            texts.unknown("coordinate", name, known, name)
     points: list[Vec] = []
     particles: dict[str, Placed] = {}
     for index, particle in enumerate(scene.particles):
-        names, stands = vocabulary.table.particles[particle.name], None
+        names, place = vocabulary.table.particles[particle.name], None
         if particle.at is not None or configuration:
-            texts = Texts(vocabulary.texts, ("particles", index), len(vocabulary.faults) + len(faults))
-            stands = _place(texts, particle, names, configuration)
-            faults += texts.faults
-            points += [] if stands is None else [stands]
-        particles[particle.name] = Placed(tuple([coordinate(n) for n in names]), ONE, stands, None, particle.name)
+            texts.here = ("particles", index)
+            place = _place(texts, particle, names, configuration)
+            points += [] if place is None else [place]
+        particles[particle.name] = Placed(tuple([coordinate(n) for n in names]), ONE, place, None, particle.name)
     origin = (ZERO,) * scene.dimension
     return Drawing(
         vocabulary=vocabulary,
@@ -61,35 +75,21 @@ def drawing_of(scene: Declared, vocabulary: Vocabulary, mentioned: frozenset[str
         frames=_frames(scene.dimension, vocabulary, configuration, mentioned),
         points=tuple(points),
         drawn=frozenset(b for b, names in vocabulary.table.bodies.items() if any(n in configuration for n in names)),
-        faults=tuple(faults),
     )
 
 
-def _configuration(scene: Declared, vocabulary: Vocabulary) -> tuple[dict[str, Expr], list[Fault]]:
-    texts = Texts(vocabulary.texts, ("configuration",), len(vocabulary.faults))
-    known = [q.name for q in vocabulary.table.coordinates]
-    names = frozenset(known)
-    values: dict[str, Expr] = {}
-    for name, value in scene.configuration.items():
-        if name in names:
-            values[name] = texts.fixed(value, name)
-        else:
-            texts.unknown("coordinate", name, known, name)
-    return values, texts.faults
-
-
 def _place(texts: Texts, particle: Particle, names: tuple[str, ...], configuration: Mapping[str, Expr]) -> Vec | None:
-    """Where a particle stands in the reference configuration."""
-    stands = None if particle.at is None else texts.vector(particle.at, len(names), "at")
+    """Return the reference position of a particle."""
+    place = None if particle.at is None else texts.vector(particle.at, len(names), "at")
     given = [name for name in names if name in configuration]
-    if stands is not None and given:
-        for name, part in zip(names, stands, strict=True):
+    if place is not None and given:
+        for name, part in zip(names, place, strict=True):
             if name in configuration and differs_from_zero(configuration[name] - part):
                 message = f"'{particle.name}' is given two positions: `at`, and {name} in `configuration`"
                 texts.fault(message, "at", hint="leave one of them out")
-    if stands is None and len(given) == len(names):
-        stands = tuple(configuration[name] for name in names)
-    return stands
+    if place is None and len(given) == len(names):
+        place = tuple(configuration[name] for name in names)
+    return place
 
 
 def _frames(
@@ -104,3 +104,92 @@ def _frames(
         position = tuple(coordinate(name) for name in names[:d])
         frames[body] = Frame(body, position, tuple(values[:d]), chart, names[d:], tuple(values[d:]))
     return frames
+
+
+def size_of(points: Sequence[Vec]) -> float:
+    """Return the largest distance between points whose positions are numbers; 1 if there are none."""
+    return _diameter(sorted({numbers for numbers in map(_numbers, points) if numbers is not None})) or 1.0
+
+
+def centre_of(points: Sequence[Vec]) -> Vec | None:
+    """Return the middle of the points whose positions are numbers, rounded to binary; None if there are none."""
+    numbers = [place for place in map(_numbers, points) if place is not None]
+    return tuple(num(Fraction((min(xs) + max(xs)) / 2)) for xs in zip(*numbers, strict=True)) or None
+
+
+def _numbers(point: Vec) -> tuple[float, ...] | None:
+    parts = [approximate(part) for part in point]
+    return tuple(part for part in parts if part is not None) if None not in parts else None
+
+
+def _diameter(points: list[tuple[float, ...]]) -> float:
+    """Return the largest distance of two points; of many points, of those that reach furthest in some directions."""
+    few = points if len(points) <= EVERY_PAIR else _extremes(points)
+    return max((dist(p, q) for p, q in combinations(few, 2)), default=0.0)
+
+
+def _extremes(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
+    """Return the points that reach furthest in one of a few dozen directions."""
+    extremes = set()
+    for direction in product((-1, 0, 1), repeat=len(points[0])):
+        if direction > (0,) * len(direction):
+            reach = [sum(map(mul, point, direction)) for point in points]
+            extremes |= {points[reach.index(max(reach))], points[reach.index(min(reach))]}
+    return list(extremes)
+
+
+def drawn_bodies(placed: Iterable[str], welds: Iterable[Sequence[str]]) -> frozenset[str]:
+    """Return the bodies that are ``placed``, and those welded to the ground or to one that is placed."""
+    drawn = set(placed) - {GROUND}
+    welded: dict[str, list[str]] = {}
+    for first, second in welds:
+        if GROUND in (first, second):
+            drawn |= {first, second} - {GROUND}
+        else:
+            welded.setdefault(first, []).append(second)
+            welded.setdefault(second, []).append(first)
+    stack = list(drawn)
+    while stack:
+        for other in welded.get(stack.pop(), ()):
+            if other not in drawn:
+                drawn.add(other)
+                stack.append(other)
+    return frozenset(drawn)
+
+
+def pose_of(drawing: Drawing) -> dict[Expr, Expr]:
+    """Return values at which the joints close: bodies at their reference, particles and coordinates where given."""
+    pose: dict[Expr, Expr] = {}
+    for particle in drawing.particles.values():
+        if particle.reference is not None:
+            pose.update(zip(particle.over, particle.reference, strict=True))
+    for frame in drawing.frames.values():
+        pose.update(zip(frame.position, frame.start, strict=True))
+        turned = frame.initial if frame.chart != "gibbs" else (ZERO,) * len(frame.angles)
+        pose.update(zip(map(coordinate, frame.angles), turned, strict=True))
+    for name, value in drawing.configuration.items():
+        pose.setdefault(coordinate(name), value)
+    return pose
+
+
+def reference_of(
+    drawing: Drawing, drawn: Set[str], pose: Mapping[Expr, Expr], touched: Callable[[], Set[str]]
+) -> dict[Expr, Expr] | None:
+    """Return the pose if it has a value for every coordinate that a constraint has ``touched`` (for all if none has).
+
+    Its bodies are ``drawn``. What nothing constrains may be anywhere; what is touched is asked for only where something
+    is not drawn.
+    """
+    names = [q.name for q in drawing.vocabulary.table.coordinates]
+    every = frozenset(names)
+    if undrawn(drawing, drawn, pose, every) and undrawn(drawing, drawn, pose, touched() or every):
+        return None
+    return {s: pose.get(s, ZERO) for s in map(coordinate, names)}
+
+
+def undrawn(drawing: Drawing, drawn: Set[str], pose: Mapping[Expr, Expr], touched: Set[str]) -> tuple[str, ...]:
+    """Return the bodies, particles and coordinates that a constraint has ``touched`` and that are not drawn."""
+    table, known = drawing.vocabulary.table, frozenset(str(s.args[1]) for s in pose)
+    bodies = [b for b, names in table.bodies.items() if b not in drawn and not touched.isdisjoint(names)]
+    others = (q for q in table.coordinates if q.name in touched and q.name not in known)
+    return tuple(dict.fromkeys([*bodies, *(q.owner or q.name for q in others)]))

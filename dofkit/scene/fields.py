@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache
@@ -31,7 +32,7 @@ from pydantic import (
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from dofkit.base.errors import Fault
-from dofkit.base.wording import nearest
+from dofkit.base.wording import many, nearest, verb
 
 #: A number is refused beyond this power of ten, up or down.
 LARGEST_EXPONENT = 1000
@@ -54,7 +55,8 @@ _KEYS_MEANT: dict[str, tuple[str, ...]] = {
     "members": ("between", "points", "particles", "point", "particle", "nodes"),
     "along": ("over", "through", "via", "points", "members", "particles"),
     "point": ("member", "members", "particle", "particles", "points"),
-    "body": ("bodies",),
+    "body": ("bodies", "wheel", "disc", "sphere"),
+    "carrier": ("arm", "carried_by"),
     "surface": ("text",),
     "text": ("expression", "formula"),
     "at": ("position", "place", "pos", "location", "point"),
@@ -278,9 +280,10 @@ def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tup
             detail["input"], known, "choices"
         )
     if kind in ("too_short", "too_long"):
-        bound = context.get("min_length", context.get("max_length"))
+        bound = int(context.get("min_length", context.get("max_length", 0)))
         word = "at least" if kind == "too_short" else "at most"
-        return f"{word} {bound} entries are needed, not {context['actual_length']}", None
+        needed = f"{word} {many(bound, 'entry')} {verb(bound)} needed"
+        return f"{needed}, not {context['actual_length']}", None
     return str(detail["msg"]).removeprefix("Value error, "), None
 
 
@@ -337,3 +340,44 @@ class WrittenModel(BaseModel):
         """What a message calls it: ``a particle``."""
         name = cls.__name__.lower()
         return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
+
+
+@dataclass(frozen=True)
+class TaggedUnion:
+    """Members of class ``base``, of which one is ``called`` so, by their ``key``.
+
+    ``known``: what the key may say, and ``names`` what that is called; ``listing`` stands before a list of it,
+    ``unknown`` says that {} is none of it; ``otherwise``: what is said, and hinted, of what is no mapping.
+    """
+
+    base: type
+    called: str
+    key: str
+    known: Collection[str]
+    names: str
+    listing: str
+    unknown: str
+    otherwise: tuple[str, str | None]
+    #: The hint for a word that is none of ``known`` (None: it is missing), by the word and the mapping that holds it.
+    advise: Callable[[object, Mapping[str, Any]], str | None] = lambda word, entry: None
+
+    def validated(self, value: object, handler: ValidatorFunctionWrapHandler) -> Any:
+        """A member, its faults at paths free of the key. Raises as Pydantic's validators do."""
+        if isinstance(value, (dict, Mapping)):
+            given = value.get(self.key)
+            if given is not None and not isinstance(given, str):
+                raise fault_at(
+                    (self.key,), f"the `{self.key}` is a text, not {in_words(given)}", self.advise(None, value)
+                )
+            if given is None:
+                hint = self.advise(None, value) or self.listing + ", ".join(self.known)
+                raise fault_error(f"{self.called} needs its `{self.key}`", hint)
+            if given not in self.known:
+                hint = self.advise(given, value) or suggestion(given, list(self.known), self.names)
+                raise fault_at((self.key,), self.unknown.format(given), hint)
+        elif not isinstance(value, self.base):
+            raise fault_error(*self.otherwise)
+        try:
+            return handler(value)
+        except ValidationError as error:
+            raise retold(error, self.called, (), lambda loc: loc[1:]) from None

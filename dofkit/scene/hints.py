@@ -1,4 +1,4 @@
-"""What to do about a fault of a scene, where the fault itself does not say it: a hint shows a line that would work."""
+"""What to do about a fault of a scene: the type and the keys that were meant, and a line that would work."""
 
 from __future__ import annotations
 
@@ -7,12 +7,15 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
+from pydantic import ValidationError
+
 from dofkit.base.documents import on_one_line
 from dofkit.base.errors import Fault
 from dofkit.base.wording import nearest
+from dofkit.expressions.text.characters import LETTERS_OF_NAMES
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.constraints.equations import Equation
-from dofkit.scene.corrections import likely_types, with_right_keys
+from dofkit.scene.fields import meant_key
 from dofkit.scene.synonyms import Path, dimension_of, other_keys
 
 UNKNOWN_KEY = "unknown key"
@@ -23,13 +26,15 @@ _HINTS = (
     (r"^a text is needed", "put it in double quotes"),
     (r"is 1, 2 or 3", "write 1, 2 or 3"),
     (r"number", "write a number such as 2, 0.5 or 1e-3"),
-    (r"^at (?:least|most) \d+ entries", "add or delete entries"),
+    (r"^at (?:least|most) \d+ entr", "add or delete entries"),
 )
 #: Hints that show what to write already, or need no line.
 _ENOUGH = re.compile(
     r"`|'[^']*[:=]|column|"
     r"^(?:the (?:particles|bodies|joints) are|give each|declared|rename|leave|choose|check|delete|keep|move)"
 )
+#: The differential or a velocity of a name.
+_RATE = re.compile(rf"d((?:[a-zA-Z]|{'|'.join(LETTERS_OF_NAMES)})(?:_\w+)?)|(\w+?)d{{0,2}}dot")
 _SUGGESTED = re.compile(r"did you mean '(\w+)'\?")
 _MEANT_NAME = re.compile(r"did you mean `(.+)`\?")
 #: A longer line is not shown as what to write.
@@ -132,9 +137,14 @@ def type_advice(word: object, entry: Mapping[str, Any]) -> str | None:
     if isinstance(word, str) and word in _FORCES:
         return f"write it under `forces`: `forces: [{{type: {word}, between: [A, B]}}]`; a force is not a constraint"
     kinds = likely_types(word, entry)
+    fields = tuple(TYPES[kinds[0]].model_fields) if kinds else ()
+    is_untyped = word is None and all(str(key).lower() != "type" for key in entry)
+    misspelt = [key for key in entry if key not in fields and str(key).lower() != "type"]
+    meant = ", ".join(str(meant_key(key, fields)) for key in misspelt)
     if len(kinds) == 1:
-        return f"did you mean '{kinds[0]}'?"
-    return f"the types with these keys are {', '.join(kinds)}" if kinds else None
+        return f"did you mean '{meant if meant and is_untyped else kinds[0]}'?"
+    listed = f"the types with these keys are {', '.join(kinds)}" if kinds else None
+    return f"did you mean '{meant}'? {listed}" if misspelt and kinds else listed
 
 
 def _mended(value: Mapping[str, Any], where: Path) -> str | None:
@@ -155,6 +165,55 @@ def _mended(value: Mapping[str, Any], where: Path) -> str | None:
     return line if len(line) <= LONGEST_LINE else None
 
 
+def likely_types(word: object, entry: Mapping[str, Any]) -> list[str]:
+    """Return the type that a word means, or else the types with the keys of an entry, misspelt ones only if need be."""
+    if word is None:
+        word = next((part for key, part in entry.items() if str(key).lower() == "type"), None)
+    meant = meant_type(word, entry)
+    if meant or not entry.keys() - {"type", "name"}:
+        return [meant] if meant else []
+    able = [kind for kind in TYPES if with_right_keys(kind, entry)]
+    return [kind for kind in able if entry.keys() - {"type"} <= TYPES[kind].model_fields.keys()] or able
+
+
+def meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
+    """Return the constraint type that a word most likely means, by the keys that stand beside it; None for no idea."""
+    words = {kind: (kind, *cls.synonyms, *cls.understood) for kind, cls in TYPES.items()}
+    known = {name for names in words.values() for name in names}
+    text = word.lower() if isinstance(word, str) else ""
+    near = next((part for part in re.split(r"\W+", text) if part in known), None) or nearest(text, known)
+    fields = {kind: TYPES[kind].model_fields for kind, names in words.items() if near in names}
+    return max(fields, key=lambda kind: sum(key in fields[kind] for key in entry), default=None)
+
+
+def with_right_keys(kind: str, entry: Mapping[str, Any]) -> dict[str, Any] | None:
+    """Return an entry as a constraint of a type, its keys and their form put right; None where that cannot be done."""
+    fields, given = TYPES[kind].model_fields, TYPES[kind].restated(entry)
+    right: dict[str, Any] = {"type": kind}
+    for key, part in given.items():
+        if str(key).lower() == "type":
+            continue
+        meant = key if key in fields else meant_key(key, tuple(field for field in fields if field not in given))
+        if meant is None or meant in right:
+            return None
+        right[meant] = part
+    renamed = {key: part if key in entry else _in_form(key, part) for key, part in right.items()}
+    for attempt in (renamed, {key: _in_form(key, part) for key, part in right.items()}):
+        try:
+            TYPES[kind].model_validate(attempt)
+        except ValidationError:
+            continue
+        return attempt
+    return None
+
+
+def _in_form(key: str, part: Any) -> Any:
+    """Return what is given for a key as a list or as one name, as that key takes it."""
+    if key in ("between", "members", "along") and isinstance(part, str):
+        return [part]
+    return part[0] if key in ("point", "body") and isinstance(part, (list, tuple)) and len(part) == 1 else part
+
+
 def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
     """A fault that says which field it is about, and what to do; ``value``: the document that it is about."""
     message, keys = (
@@ -173,6 +232,11 @@ def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:
     suggested = _SUGGESTED.match(fault.hint or "")
     if where[:1] == ("constraints",) and len(where) > 1:
         kind = _type_at(value, where[1]) or (suggested[1] if suggested else None)
+        entry = _entry_at(value, where[1])
+        if kind is None or kind not in TYPES:
+            kinds = likely_types(None, entry) if isinstance(entry, Mapping) else []
+            kind = kinds[0] if len(kinds) == 1 else None
+        kind = Equation.kind() if isinstance(entry, str) else kind
         return kind if kind in TYPES else None
     section = meant_section(fault) or next(iter(where), None)
     return section if section in SECTIONS else None
@@ -185,9 +249,10 @@ def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
     name = undeclared[1] if undeclared else ""
     if undeclared and undeclared[2]:
         return f"for a unit, {hint}; for a quantity, declare `parameters: [{name}]`"
-    rate = re.fullmatch(r"d([a-zA-Z](?:_\w+)?)|(\w+?)d{0,2}dot", name)
+    rate = _RATE.fullmatch(name)
     if rate and hint:
-        return f"declare the coordinate: `coordinates: [{rate[1] or rate[2]}]`; {hint}"
+        other = f"; {hint}" if re.search(r"`(?:d\w+|\w+dot)`", hint) else ""
+        return f"declare the coordinate: `coordinates: [{rate[1] or rate[2]}]`{other}"
     if undeclared and hint and re.match("the declared|no names", hint):
         return f"declare it: `coordinates: [{name}]`, or `parameters: [{name}]` for a constant; {hint}"
     if hint is not None and _ENOUGH.search(hint):
@@ -214,7 +279,8 @@ def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
     """What a direction is, where something else is given for one."""
     if fault.where[-1:] != ("axis",) or "a list is needed" not in fault.message:
         return None
-    return f"a direction is {' or '.join('xyz'[: dimension_of(value)])}, or its components"
+    letters = ("x", "x or y", "x, y or z")[dimension_of(value) - 1]
+    return f"a direction is {letters}, or its components"
 
 
 def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:
@@ -224,6 +290,8 @@ def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:
     unknown = len(where) == 1 and fault.message.startswith(UNKNOWN_KEY) and not suggested
     if not where or unknown or (suggested and suggested[1] not in TYPES and suggested[1] not in LINES):
         return None
+    if "a point of a body" in fault.message:
+        return ("{on: crank, at: [0]}", "{on: crank, at: [0, 0]}", "{on: crank, at: [0, 0, 0]}")[d - 1]
     missing = re.search(r"needs [`'](\w+)[`']", fault.message)
     if where[:1] == ("constraints",) and len(where) > 1:
         kind = suggested[1] if suggested and suggested[1] in TYPES else _type_at(value, where[1])
@@ -235,8 +303,9 @@ def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:
     keys = [key for key in where if isinstance(key, str) and key in LINES]
     key = suggested[1] if suggested and suggested[1] in LINES else (keys[-1] if keys else "constraints")
     line = LINES[key]
-    if key == "between" and where[:1] == ("constraints",):
-        line = _between(value, where)
+    if key == "between" and (kind := _type_at(value, where[1])):
+        ends = re.search(r"between: \[[^]]*\]", TYPES[kind].example(d))
+        line = ends[0] if ends else line
     return line if isinstance(line, str) else line[d - 1]
 
 
@@ -259,25 +328,3 @@ def _type_at(value: Mapping[str, Any], index: object) -> str | None:
     entry = _entry_at(value, index)
     kind = entry.get("type") if isinstance(entry, Mapping) else None
     return kind if isinstance(kind, str) and kind in TYPES else None
-
-
-def _declared(value: Mapping[str, Any]) -> list[str]:
-    """The names of particles and bodies of a document, as far as they can be read."""
-    lists = [entries for key in ("bodies", "particles") if isinstance(entries := value.get(key), (list, tuple))]
-    named = [one.get("name") if isinstance(one, Mapping) else one for entries in lists for one in entries]
-    return [name for name in named if isinstance(name, str)]
-
-
-def _between(value: Mapping[str, Any], where: tuple[str | int, ...]) -> str:
-    """Two ends, the first as it was meant."""
-    entry = _entry_at(value, where[1])
-    given = entry.get("between") if isinstance(entry, Mapping) else None
-    first = given[0] if isinstance(given, (list, tuple)) and given and isinstance(given[0], str) else None
-    declared = _declared(value)
-    first = first if first is None or first == "ground" else nearest(first, declared) if declared else first
-    kind = _type_at(value, where[1])
-    ends = re.search(r"between: \[(\w+), (\w+)\]", "" if kind is None else TYPES[kind].example(2))
-    one, other = ends.groups() if ends else ("A", "B")
-    if first is not None:
-        one, other = (first, other if other != first else one) if one != "ground" or first == "ground" else (one, first)
-    return f"between: [{one}, {other}]"

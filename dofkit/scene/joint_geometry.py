@@ -1,9 +1,9 @@
-"""What a joint is drawn with, and which coordinates its equations mention, without these being written out."""
+"""The geometry of a joint, and which coordinates its equations mention, without these being written out."""
 
 from __future__ import annotations
 
 from itertools import chain
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from dofkit.expressions.terms import longest_number
 from dofkit.expressions.tree import Expr
@@ -11,12 +11,14 @@ from dofkit.expressions.vectors import Vec
 from dofkit.scene.frames import Frame
 from dofkit.scene.world import Direction
 
+#: What no part of a joint's equations leaves out; see `Joint`.
+Mentions = Literal["place", "turn", "moving", "apart"]
 #: Numbers of so many bits make no long ones.
 FEW_BITS = 16
 
 
 class JointGeometry(NamedTuple):
-    """What a joint is drawn with: its ``place`` (None where its equations need none), its axes, a screw's pitch."""
+    """The geometry of a joint: its ``place`` (None where its equations need none), its axes, a screw's pitch."""
 
     place: Vec | None = None
     axes: tuple[Direction, ...] = ()
@@ -29,12 +31,12 @@ class JointGeometry(NamedTuple):
 
     @property
     def at(self) -> Vec:
-        """The place, which is there."""
+        """The place of a joint that has one."""
         return self.place or ()
 
 
 def longest_of(first: Frame, second: Frame, drawn: JointGeometry) -> int | None:
-    """The bits of the longest number in equations of two frames drawn in fractions; None for others."""
+    """Return the bits of the longest number in equations of two frames drawn in fractions; None for others."""
     moving = [frame for frame in (first, second) if not frame.fixed]
     if not moving or any(frame.chart not in ("plane", "gibbs") for frame in moving) or drawn.number is not None:
         return None
@@ -49,29 +51,20 @@ def longest_of(first: Frame, second: Frame, drawn: JointGeometry) -> int | None:
     return bits if bits < FEW_BITS else 2 * bits + 4
 
 
-def coordinates_of(frame: Frame) -> frozenset[str]:
-    """A body's own; none of the ground."""
-    return frozenset(str(part.args[1]) for part in frame.position if part.op == "sym") | {*frame.angles}
+def coordinates_mentioned(
+    mentions: Mentions | None, first: Frame, second: Frame, drawn: JointGeometry
+) -> frozenset[str] | None:
+    """Return the coordinates that equations of two frames mention, where no part of these stands alone; else None.
 
-
-def arms(first: Frame, second: Frame, place: Vec) -> list[Frame]:
-    """Those of two bodies whose origins stand elsewhere than a place."""
-    return [frame for frame in (first, second) if not frame.fixed and frame.start != place]
-
-
-def mentioned_together(first: Frame, second: Frame, place: Vec, turns: bool) -> frozenset[str] | None:
-    """What X1 = X2 mentions, and with ``turns`` something of how one body turns against the other; see `Joint`.
-
-    A body's turns stand in all equations of a place that is not its origin.
+    The angles of a body occur in all equations of a place that is not its origin, unless the plane needs no axis. What
+    is stated in the directions of the first of two moving bodies mentions all their coordinates.
     """
-    armed = arms(first, second, place)
-    if not armed:
+    positions = [str(x.args[1]) for frame in (first, second) for x in frame.position if x.op == "sym"]
+    one_origin = mentions == "apart" and first.start == second.start
+    if mentions in ("moving", "apart") and not (first.fixed or second.fixed or one_origin):
+        return frozenset(positions).union(first.angles, second.angles)
+    if mentions not in ("place", "turn"):
         return None
-    turned = (first, second) if turns else armed
-    places = frozenset(str(part.args[1]) for frame in (first, second) for part in frame.position if part.op == "sym")
-    return places.union(*(frame.angles for frame in turned))
-
-
-def mentioned_by_moving(first: Frame, second: Frame) -> frozenset[str] | None:
-    """All coordinates of two bodies that both move: what is said in the first one's directions mentions all of them."""
-    return None if first.fixed or second.fixed else coordinates_of(first) | coordinates_of(second)
+    armed = [frame for frame in (first, second) if not frame.fixed and frame.start != drawn.at]
+    turning = (first, second) if mentions == "turn" and drawn.axes else armed
+    return frozenset(positions).union(*(frame.angles for frame in turning)) if armed else None

@@ -1,39 +1,273 @@
-"""From what a person wrote to the mathematics: `lower` makes a `System` of a `Scene`."""
+"""From what a person wrote to the mathematics: names, frames and constraints with their faults, then a `System`.
+
+Faults are collected on the way, in the order of the scene's keys; those that need the size of the whole drawing last.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
-from functools import cache, partial
+import weakref
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any, TypeAlias
 
-from dofkit.base.errors import SceneError
+from dofkit.base.deadline import check as out_of_time
+from dofkit.base.deadline import gc_rarely
+from dofkit.base.display import Companion
+from dofkit.base.errors import Fault, SceneError
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.tree import MINUS_ONE, ZERO, mul, parameter, power
+from dofkit.expressions.renaming import Unwritten
+from dofkit.expressions.text import Names
+from dofkit.expressions.tree import MINUS_ONE, ZERO, Expr, mul, parameter, power
 from dofkit.expressions.vectors import Vec
-from dofkit.scene.drawing import Drawing
-from dofkit.scene.elaboration import names_by_position
-from dofkit.scene.reference import pose_of, reference_of, undrawn
-from dofkit.scene.scene import Scene, survey_of
-from dofkit.scene.survey import Survey
-from dofkit.system import Constraint, ListedForce, Rotation, System
+from dofkit.report import Report
+from dofkit.scene.constraints import ConstraintBase
+from dofkit.scene.constraints.equations import LETTERS
+from dofkit.scene.drawing import (
+    Drawing,
+    centre_of,
+    drawing_of,
+    drawn_bodies,
+    pose_of,
+    reference_of,
+    size_of,
+    undrawn,
+)
+from dofkit.scene.fields import suggestion
+from dofkit.scene.ledger import MOVING, Texts, symbols_of
+from dofkit.scene.names import Owners, Vocabulary, name_faults, names_by_position, vocabulary_of, within_member
+from dofkit.scene.parts import Body, Force, texts_of
+from dofkit.scene.scene import Scene
+from dofkit.scene.world import World, within
+from dofkit.system import GROUND, Connection, Constraint, Distance, ListedForce, Rotation, System
 
-#: Said where the drawing is not used.
+#: Values of coordinates.
+Pose: TypeAlias = dict[Expr, Expr]
+#: Types to use instead of one that is not defined in a dimension.
+_INSTEAD = {
+    1: "on a line use coincident, fixed, link or an equation",
+    2: "in the plane use revolute, prismatic, weld or slot",
+    3: "in space use cylindrical, screw or an equation",
+}
+
+#: The warning where the given geometry is not used.
 SPECIAL = (
     "The given geometry has numbers where lengths are parameters: it is compatible with special values of them only, "
     "so it is not used as a reference configuration."
 )
-#: Below this size a sine is taken for 0: such a drawing is not looked at.
+#: A smaller sine is taken for 0.
 SINGULAR = 1e-9
-#: Said where the drawing shows no velocities.
+#: The warning where the reference configuration shows no velocities.
 LEVEL = (
     "The given geometry is not used as a reference configuration: texts contain Euler angles, which are singular for "
     "{} there (theta = 0: the other two angles turn alike). Give another theta in `configuration`."
 )
 
 
+@dataclass(frozen=True)
+class Survey:
+    """All that is known of a scene: its drawing, its constraints with relations, what they connect, and its faults.
+
+    ``generic``, ``links``, ``distances``, ``special`` and ``warnings`` are those of the `World`; ``drawn``: the bodies
+    that the drawing places; ``size``: that of the drawing; ``centre``: its middle, where the geometry is measured.
+    """
+
+    drawing: Drawing
+    constraints: tuple[Constraint, ...]
+    connections: tuple[Connection, ...]
+    generic: tuple[str, ...]
+    drawn: frozenset[str]
+    links: tuple[tuple[int, str, str], ...]
+    distances: Mapping[int, tuple[Distance, ...]]
+    special: bool
+    size: float
+    centre: Vec | None
+    warnings: tuple[str, ...]
+    faults: tuple[Fault, ...]
+
+    @property
+    def names(self) -> Names:
+        """What texts may mention."""
+        return self.drawing.vocabulary.names
+
+
+def check(scene: Scene) -> tuple[Fault, ...]:
+    """Return every fault of a scene across its fields and in its texts, each with its path; none if it is sound."""
+    return survey_of(scene).faults
+
+
+def survey_of(scene: Scene) -> Survey:
+    """Return the survey of a scene, which is kept while the scene's mappings hold what they held."""
+    mappings = [dict(part) for part in (scene.parameters, scene.functions, scene.configuration, scene.expect)]
+    known: Survey
+    if scene._kept.about is not None:
+        owner, written, known = scene._kept.about
+        if owner() is scene and written == mappings:
+            return known
+    found = survey(scene)
+    scene._kept = Companion((weakref.ref(scene), mappings, found))
+    return found
+
+
+@gc_rarely()
+def survey(scene: Scene, euler: bool = False) -> Survey:
+    """Return all that is known of a scene; nothing is raised for its faults.
+
+    ``euler``: every spatial body is turned by its Euler angles, also where no text mentions them.
+    """
+    vocabulary = vocabulary_of(scene)
+    every = frozenset(q.name for q in vocabulary.table.coordinates)
+    faults = [*vocabulary.faults]
+    drawing = drawing_of(scene, vocabulary, every if euler else _mentioned_names(scene, vocabulary), faults)
+    faults += name_faults(scene, vocabulary.table)
+    faults += _repeat_faults("constraints", "c", [c.name for c in scene.constraints])
+    names = names_by_position("c", [c.name for c in scene.constraints])
+    world = World(drawing, (), faults, dict(zip(names, scene.constraints, strict=True)))
+    constraints, connections = [], []
+    for index, (constraint, name) in enumerate(zip(scene.constraints, names, strict=True)):
+        out_of_time()
+        world.enter("constraints", index)
+        constraints.append(_constraint_of(world, constraint, name))
+        connections.append(_connection(world, constraints[-1]))
+    faults += _repeat_faults("forces", "f", [f.name for f in scene.forces])
+    for index, force in enumerate(scene.forces):
+        world.enter("forces", index)
+        _check_force(force, world)
+    texts = Texts(vocabulary.texts, (), faults)
+    _check_masses(scene, texts)
+    _check_energies(scene, texts, [q.name for q in vocabulary.table.coordinates])
+    faults += _expect_faults(scene)
+    size, drawn = size_of(world.points), drawn_bodies(world.drawn, world.welds)
+    misfits = (m for m in world.misfits if m.body is None or m.body in drawn)
+    faults += [m.fault for m in misfits if not within(m.distance, drawing.tolerance, size)]
+    return Survey(
+        drawing=drawing,
+        constraints=tuple(constraints),
+        connections=tuple(connections),
+        generic=tuple(world.generic),
+        drawn=drawn,
+        links=tuple(world.links),
+        distances={index: tuple(distances) for index, distances in world.distances.items()},
+        special=world.special or not drawn.isdisjoint(world.special_of),
+        size=size,
+        centre=centre_of(world.points) if drawing.tolerance else None,
+        warnings=(*world.warnings, *_joint_warnings(constraints, connections)),
+        faults=tuple(faults),
+    )
+
+
+def _repeat_faults(key: str, letter: str, given: Sequence[str | None]) -> Iterator[Fault]:
+    """Yield a fault for each entry of ``key`` whose name, given or by position, is that of an entry before it."""
+    names = names_by_position(letter, given)
+    repeated = {name for name, times in Counter(names).items() if times > 1}
+    first: dict[str, int] = {}
+    for i, name in enumerate(names):
+        if name in repeated and first.setdefault(name, i) != i:
+            message = f"the name '{name}' is given twice"
+            if given[i] is None or given[first[name]] is None:
+                message += f": it is the default name of entry {(i if given[i] is None else first[name]) + 1}"
+            where = (key, i) if given[i] is None else (key, i, "name")
+            yield Fault(message, where, hint=f"rename one of them: `name: {name}_2`")
+
+
+def _constraint_of(world: World, constraint: ConstraintBase, name: str) -> Constraint:
+    kind = constraint.kind()
+    if world.dimension not in constraint.dimensions:
+        allowed = " or ".join(str(d) for d in constraint.dimensions)
+        message = f"'{kind}' is defined in dimension {allowed}; this scene has dimension {world.dimension}"
+        world.fault(message, "type", hint=_INSTEAD[world.dimension])
+        return Constraint(name, kind, constraint.facts, constraint.in_words, ())
+    relations = constraint.relations(world)
+    written = relations if isinstance(relations, Unwritten) else tuple(relations)
+    return Constraint(name, kind, constraint.facts, constraint.in_words, written, tuple(constraint.notes(world)))
+
+
+def _connection(world: World, constraint: Constraint) -> Connection:
+    """Return what the constraint that was read last connects."""
+    mentioned, relations = world.mentioned, constraint.relations
+    return Connection(
+        world.index,
+        constraint.facts,
+        tuple(dict.fromkeys(mentioned.members)),
+        tuple(mentioned.points),
+        tuple(mentioned.places),
+        tuple(mentioned.directions),
+        mentioned.number,
+        not isinstance(relations, Unwritten) and any(relation.part == "drive" for relation in relations),
+        tuple(mentioned.rates),
+    )
+
+
+def _mentioned_names(scene: Scene, vocabulary: Vocabulary) -> frozenset[str]:
+    """Return the coordinates that some text names, where the chart of a spatial body depends on it."""
+    if scene.dimension != 3 or not scene.bodies:
+        return frozenset()
+    member = within_member(vocabulary.names, LETTERS)
+    texts = [
+        (text, member if constraint.facts.lettered else vocabulary.names)
+        for constraint in scene.constraints
+        for text in constraint.texts()
+    ]
+    for part in (*scene.forces, *([scene.energies] if scene.energies else [])):
+        written = part.model_dump(exclude={"name", "type", "between", "point", "body"})
+        texts += [(text, vocabulary.names) for text in texts_of(written)]
+    symbols: frozenset[Expr] = frozenset().union(*(symbols_of(text, names) for text, names in texts))
+    named = {str(s.args[1]) for s in symbols if s.args[0] not in ("parameter", "time", "dt")}
+    return frozenset(named.union(scene.energies.forces if scene.energies else ()))
+
+
+def _check_force(force: Force, world: World) -> None:
+    for j, end in enumerate(force.between or ()):
+        if not (isinstance(end, str) and (end in world.frames or end == GROUND)):
+            world.point(end, "between", j)
+    if force.point is not None:
+        world.point(force.point, "point")
+    if force.body is not None:
+        world.frame(force.body, "body")
+    for key in ("stiffness", "rest_length", "damping", "value", "direction", "acceleration"):
+        _check_value(world, getattr(force, key), key)
+
+
+def _check_value(texts: Texts, value: Any, *where: str | int) -> None:
+    if isinstance(value, str):
+        texts.expression(value, *where, allow=MOVING)
+    elif isinstance(value, tuple):
+        for i, part in enumerate(value):
+            _check_value(texts, part, *where, i)
+
+
+def _check_masses(scene: Scene, texts: Texts) -> None:
+    both: tuple[tuple[str, Owners], ...] = (("particles", scene.particles), ("bodies", scene.bodies))
+    for key, owners in both:
+        for i, owner in enumerate(owners):
+            texts.here = (key, i)
+            _check_value(texts, owner.mass, "mass")
+            if isinstance(owner, Body):
+                _check_value(texts, owner.inertia, "inertia")
+
+
+def _check_energies(scene: Scene, texts: Texts, coordinates: Sequence[str]) -> None:
+    texts.here = ("energies",)
+    if scene.energies is not None:
+        for key in ("kinetic", "potential", "dissipation"):
+            _check_value(texts, getattr(scene.energies, key), key)
+        for name, text in scene.energies.forces.items():
+            if name not in coordinates:
+                texts.unknown("coordinate", name, coordinates, "forces", name)
+            texts.expression(text, "forces", name, allow=MOVING)
+
+
+def _expect_faults(scene: Scene) -> Iterator[Fault]:
+    fields = list(Report.model_fields)
+    for key in scene.expect:
+        if key not in fields:
+            yield Fault(f"'{key}' is not a field of a report", ("expect", key), hint=suggestion(key, fields, "keys"))
+
+
 def lower(scene: Scene) -> System:
-    """The coordinates and exact relations of a scene. Raises SceneError with all its faults if it has any."""
+    """Return the coordinates and exact relations of a scene. Raises SceneError with all its faults if it has any."""
     found = survey_of(scene)
     if found.faults:
         raise SceneError(found.faults)
@@ -41,21 +275,11 @@ def lower(scene: Scene) -> System:
 
 
 def system_of(scene: Scene, found: Survey) -> System:
-    """The mathematics of a scene that was surveyed without faults."""
+    """Return the mathematics of a scene that was surveyed without faults."""
     drawing, vocabulary = found.drawing, found.drawing.vocabulary
     pose = pose_of(drawing)
-    reference, singular, warnings = None, None, list(found.warnings)
-    if found.special:
-        warnings.append(SPECIAL)
-    elif not found.generic:
-        touched = cache(partial(_touched, found.constraints))
-        reference = reference_of(drawing, found.drawn, pose, touched)
-        level = [] if reference is None else _level(drawing, touched)
-        if level:
-            reference, singular = None, reference
-            warnings.append(LEVEL.format(", ".join(level)))
-        elif reference is None:
-            warnings += _partly(found, undrawn(drawing, found.drawn, pose, touched()) if found.drawn else ())
+    reference, singular, warning = _reference(found, pose)
+    names = names_by_position("f", [force.name for force in scene.forces])
     return System(
         name=scene.name,
         dimension=scene.dimension,
@@ -69,7 +293,7 @@ def system_of(scene: Scene, found: Survey) -> System:
         pose=pose if reference is None else reference,
         particles=tuple(vocabulary.table.particles),
         bodies=tuple(vocabulary.table.bodies),
-        forces=_forces(scene),
+        forces=tuple(ListedForce(name, force.reason) for name, force in zip(names, scene.forces, strict=True)),
         links=found.links,
         distances=found.distances if reference is None else {},
         connections=found.connections,
@@ -77,56 +301,99 @@ def system_of(scene: Scene, found: Survey) -> System:
         arms=_arms(drawing, found.centre),
         tolerance=scene.tolerance or None,
         size=found.size,
-        warnings=tuple(warnings),
+        warnings=(*found.warnings, *warning),
         left_out=scene.left_out,
         drawn=singular,
     )
 
 
-def _forces(scene: Scene) -> tuple[ListedForce, ...]:
-    names = names_by_position("f", [force.name for force in scene.forces])
-    return tuple(ListedForce(name, force.reason) for name, force in zip(names, scene.forces, strict=True))
-
-
-def _touched(constraints: Iterable[Constraint]) -> frozenset[str]:
-    """The coordinates that relations mention."""
-    return frozenset[str]().union(*(c.mentioned for c in constraints))
-
-
-def _partly(found: Survey, missing: Sequence[str]) -> Iterator[str]:
-    """A line where bodies are drawn and something else that is constrained is not."""
-    if missing and found.drawn:
-        shown = ", ".join(missing[:8]) + (", ..." if len(missing) > 8 else "")
-        yield f"There is no reference configuration: the position of {shown} is not given."
+def _reference(found: Survey, pose: Pose) -> tuple[Pose | None, Pose | None, list[str]]:
+    """Return the reference configuration, one that is singular for Euler angles in texts, and why there is none."""
+    if found.special or found.generic:
+        return None, None, [SPECIAL] if found.special else []
+    drawing = found.drawing
+    touched = cache(lambda: frozenset[str]().union(*(c.mentioned for c in found.constraints)))
+    reference = reference_of(drawing, found.drawn, pose, touched)
+    if reference is not None:
+        level = _level(drawing, touched)
+        return (None, reference, [LEVEL.format(", ".join(level))]) if level else (reference, None, [])
+    missing = undrawn(drawing, found.drawn, pose, touched()) if found.drawn else ()
+    listed = ", ".join(missing[:8]) + (", ..." if len(missing) > 8 else "")
+    message = f"There is no reference configuration: the position of {listed} is not given."
+    return None, None, [message] if missing else []
 
 
 def _level(drawing: Drawing, touched: Callable[[], frozenset[str]]) -> list[str]:
-    """The bodies with Euler angles in texts that are drawn where these are singular: sin(theta) = 0."""
-    found = []
+    """Return the bodies with Euler angles in texts that are drawn where these are singular: sin(theta) = 0."""
+    bodies = []
     for frame in drawing.frames.values():
         if frame.chart == "euler" and not touched().isdisjoint(frame.angles):
             tilt = approximate(frame.initial[1])
             if tilt is None or abs(math.sin(tilt)) < SINGULAR:
-                found.append(frame.name)
-    return found
+                bodies.append(frame.name)
+    return bodies
 
 
 def _arms(drawing: Drawing, centre: Vec | None) -> dict[str, Vec]:
     """Return, for every body that turns, the vector from its origin to its material point at the scene's centre."""
-    if centre is None:
-        return {}
-    found = {}
+    arms = {}
     for frame in drawing.frames.values():
-        if frame.angles:
+        if frame.angles and centre is not None:
             point = replace(frame, position=(ZERO,) * frame.dimension).point(centre)
-            found[frame.name] = tuple(mul(x, power(point.under, MINUS_ONE)) for x in point.over)
-    return found
+            arms[frame.name] = tuple(mul(x, power(point.under, MINUS_ONE)) for x in point.over)
+    return arms
 
 
 def _rotations(drawing: Drawing) -> tuple[Rotation, ...]:
-    found = []
+    rotations = []
     for frame in drawing.frames.values():
         if frame.chart == "gibbs" or frame.chart == "euler":
             (phi, theta, psi), (a, b, c) = frame.angles, frame.initial
-            found.append(Rotation(frame.name, (phi, theta, psi), frame.chart, (a, b, c)))
-    return tuple(found)
+            rotations.append(Rotation(frame.name, (phi, theta, psi), frame.chart, (a, b, c)))
+    return tuple(rotations)
+
+
+def _joint_warnings(constraints: Sequence[Constraint], connections: Sequence[Connection]) -> Iterator[str]:
+    """Yield warnings about joints that mean something else than they seem to.
+
+    Gears whose wheel turns on a moving arm: without ``carrier`` their ratio is one of angles against the ground. A
+    driven joint that repeats another joint of the same bodies at the same place: a motor that is written as a joint.
+    """
+    joints = [c for c in connections if (c.facts.joint or c.facts.geared) and len(c.members) == 2]
+    hinges = [c.members for c in joints if c.facts.axial and c.facts.planar_pair]
+    at_rest = _at_rest(connections) if any(c.facts.geared for c in joints) else set()
+    for joint in joints:
+        name = constraints[joint.constraint].name
+        for wheel in joint.members if joint.facts.geared else ():
+            arms = [second if first == wheel else first for first, second in hinges if wheel in (first, second)]
+            moving = [arm for arm in arms if arm not in joint.members and at_rest.isdisjoint(arms)]
+            for arm in moving[:1]:
+                yield (
+                    f"'{name}': the wheel '{wheel}' turns on '{arm}', which moves; without `carrier` the ratio is that "
+                    f"of the angles against the ground. If '{arm}' carries the gears, write `carrier: {arm}`."
+                )
+    for motor in joints:
+        for joint in joints if motor.driven else ():
+            if joint is not motor and _repeats(motor, joint):
+                name, other = constraints[motor.constraint].name, constraints[joint.constraint].name
+                yield (
+                    f"'{name}' and '{other}' join '{motor.members[0]}' and '{motor.members[1]}' at the same place, so "
+                    f"their equations occur twice. If '{name}' is the motor of '{other}', write its `drive` on "
+                    f"'{other}' and remove '{name}'."
+                )
+
+
+def _repeats(motor: Connection, joint: Connection) -> bool:
+    """Return whether two joints of one type connect the same bodies in the same geometry, which is given."""
+    given = None not in (*motor.places, *motor.directions) and bool(motor.places)
+    geometry = (motor.facts, {*motor.members}, motor.places, motor.directions)
+    return given and geometry == (joint.facts, {*joint.members}, joint.places, joint.directions)
+
+
+def _at_rest(connections: Sequence[Connection]) -> set[str]:
+    """Return the ground, and the bodies that are fixed or welded to it."""
+    still = {GROUND} | {c.members[0] for c in connections if c.facts.held and len(c.members) == 1 and not c.points}
+    return {
+        *drawn_bodies(still, [c.members[:2] for c in connections if c.facts.welded and len(c.members) == 2]),
+        GROUND,
+    }

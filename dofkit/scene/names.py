@@ -6,14 +6,14 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 from dofkit.base.errors import Fault
 from dofkit.base.wording import nearest
 from dofkit.expressions.text import Names, spelled, valid_name
 from dofkit.expressions.tree import Expr, num, parameter
 from dofkit.scene.ledger import Ledger, ParsedTexts, Texts
-from dofkit.scene.parts import Body, Particle
+from dofkit.scene.parts import Body, Declarations, Particle
 from dofkit.system import BODY_ROLES, GROUND, PARTICLE_ROLES, Coordinate, Sign
 
 SIGNS: tuple[Sign, ...] = ("real", "positive", "nonzero")
@@ -24,27 +24,6 @@ RESERVED = frozenset({"t", GROUND})
 Owners = Sequence[Particle | Body]
 
 
-class Declared(Protocol):
-    """What a scene declares."""
-
-    @property
-    def dimension(self) -> int: ...
-    @property
-    def parameters(self) -> Mapping[str, Fraction | str]: ...
-    @property
-    def functions(self) -> Mapping[str, tuple[str, ...]]: ...
-    @property
-    def particles(self) -> tuple[Particle, ...]: ...
-    @property
-    def bodies(self) -> tuple[Body, ...]: ...
-    @property
-    def coordinates(self) -> tuple[str, ...]: ...
-    @property
-    def configuration(self) -> Mapping[str, Fraction | str]: ...
-    @property
-    def tolerance(self) -> Fraction | None: ...
-
-
 class NameTable(NamedTuple):
     """The coordinates in order, and the names that each particle and each body owns."""
 
@@ -53,7 +32,7 @@ class NameTable(NamedTuple):
     bodies: dict[str, tuple[str, ...]]
 
 
-def coordinate_table(scene: Declared) -> NameTable:
+def coordinate_table(scene: Declarations) -> NameTable:
     """Particles, then bodies, then the further coordinates, in the order declared."""
     coordinates: list[Coordinate] = []
     particles: dict[str, tuple[str, ...]] = {}
@@ -71,6 +50,11 @@ def coordinate_table(scene: Declared) -> NameTable:
             coordinates += [Coordinate(q, name, role) for q, role in zip(names, told, strict=True)]
     coordinates += [Coordinate(name) for name in scene.coordinates]
     return NameTable(tuple(coordinates), particles, bodies)
+
+
+def names_by_position(letter: str, given: Sequence[str | None]) -> tuple[str, ...]:
+    """Return the names of constraints or forces: ``c1``, ``c2``, ... by position for those without a name."""
+    return tuple(f"{letter}{i + 1}" if name is None else name for i, name in enumerate(given))
 
 
 def subscript(name: str) -> str:
@@ -116,14 +100,14 @@ class Vocabulary:
         return self.texts.names
 
 
-def vocabulary_of(scene: Declared) -> Vocabulary:
+def vocabulary_of(scene: Declarations) -> Vocabulary:
     """The names of a scene, read from what it declares."""
     table = coordinate_table(scene)
     parameters, signs, faults = _parameters(scene)
     return Vocabulary(table, parameters, signs, ParsedTexts(_declared_names(scene, table, parameters)), faults)
 
 
-def _parameters(scene: Declared) -> tuple[dict[str, Expr], dict[str, Sign], tuple[Fault, ...]]:
+def _parameters(scene: Declarations) -> tuple[dict[str, Expr], dict[str, Sign], tuple[Fault, ...]]:
     """What every parameter stands for, the signs of those that stay symbols, and the faults of their values.
 
     A value may mention the parameters declared before it.
@@ -136,9 +120,8 @@ def _parameters(scene: Declared) -> tuple[dict[str, Expr], dict[str, Sign], tupl
         if isinstance(value, Fraction):
             stands[name] = num(value)
         elif sign is None:
-            texts = Texts(ParsedTexts(Names(parameters=dict(stands))), ("parameters",), len(faults))
+            texts = Texts(ParsedTexts(Names(parameters=dict(stands))), ("parameters",), faults)
             stands[name] = _parameter_value(texts, name, value)
-            faults += texts.faults
         else:
             stands[name], signs[name] = parameter(name), sign
     return stands, signs, tuple(faults)
@@ -153,7 +136,7 @@ def _parameter_value(texts: Texts, name: str, value: str) -> Expr:
     return texts.fixed(value, name)
 
 
-def _declared_names(scene: Declared, table: NameTable, parameters: Mapping[str, Expr]) -> Names:
+def _declared_names(scene: Declarations, table: NameTable, parameters: Mapping[str, Expr]) -> Names:
     return Names(
         coordinates=frozenset(q.name for q in table.coordinates),
         parameters=dict(parameters),
@@ -178,7 +161,7 @@ def within_member(names: Names, letters: tuple[str, ...]) -> Names:
 Entry = tuple[str, str, tuple[str | int, ...]]
 
 
-def name_faults(scene: Declared, table: NameTable) -> tuple[Fault, ...]:
+def name_faults(scene: Declarations, table: NameTable) -> tuple[Fault, ...]:
     """A fault for every name that is reserved, cannot be read in a text, is repeated or clashes."""
     ledger = Ledger()
     _check_owners(scene, ledger)
@@ -209,7 +192,7 @@ def name_faults(scene: Declared, table: NameTable) -> tuple[Fault, ...]:
     return tuple(ledger.faults)
 
 
-def _check_owners(scene: Declared, ledger: Ledger) -> None:
+def _check_owners(scene: Declarations, ledger: Ledger) -> None:
     d = scene.dimension
     seen: dict[str, str] = {}
     both: tuple[tuple[str, str, Owners, tuple[str, ...]], ...] = (
@@ -244,7 +227,7 @@ def _is_owner_name(name: str) -> bool:
     return valid_name(f"x_{subscript(name)}") is None
 
 
-def _owned(scene: Declared, table: NameTable) -> Iterator[Entry]:
+def _owned(scene: Declarations, table: NameTable) -> Iterator[Entry]:
     told: set[str] = set()
     both: tuple[tuple[str, str, Owners, Mapping[str, tuple[str, ...]]], ...] = (
         ("particles", "particle", scene.particles, table.particles),
@@ -263,7 +246,7 @@ def _owned(scene: Declared, table: NameTable) -> Iterator[Entry]:
                 yield name, what, (key, i, "coordinates", j) if renamed else (key, i, "name")
 
 
-def _further(scene: Declared) -> Iterator[Entry]:
+def _further(scene: Declarations) -> Iterator[Entry]:
     for i, name in enumerate(scene.coordinates):
         yield name, "a coordinate", ("coordinates", i)
     for name in scene.parameters:

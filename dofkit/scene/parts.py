@@ -8,7 +8,20 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, WrapValidator
 
-from dofkit.scene.fields import Text, Value, Vector, WrittenModel, as_written, named, untagged
+from dofkit.scene.fields import (
+    Listed,
+    Number,
+    Text,
+    Value,
+    Vector,
+    WrittenModel,
+    as_written,
+    exact,
+    fault_at,
+    fault_error,
+    named,
+    untagged,
+)
 
 
 class BodyPoint(WrittenModel):
@@ -96,6 +109,8 @@ AnyParticle = Annotated[Particle, BeforeValidator(named, json_schema_input_type=
 AnyBody = Annotated[Body, BeforeValidator(named, json_schema_input_type=str | Body)]
 
 Ends = tuple[Point, Point]
+#: An empty YAML value (``expect:`` and nothing after it) as an empty mapping.
+Mapped = BeforeValidator(lambda value: {} if value is None else value)
 
 
 class Force(WrittenModel):
@@ -141,7 +156,7 @@ class Energies(WrittenModel):
     kinetic: Text | None = Field(None, description="kinetic energy T in the coordinates and their velocities")
     potential: Text | None = Field(None, description="potential energy V")
     dissipation: Text | None = Field(None, description="Rayleigh's dissipation function")
-    forces: Annotated[dict[str, Text], BeforeValidator(lambda value: {} if value is None else value)] = Field(
+    forces: Annotated[dict[str, Text], Mapped] = Field(
         default_factory=dict, description="non-conservative generalized forces by coordinate"
     )
 
@@ -157,3 +172,88 @@ def texts_of(value: Any) -> list[str]:
     if isinstance(value, tuple):
         return [text for part in value for text in texts_of(part)]
     return []
+
+
+def _parameters(value: object) -> object:
+    """A list of names, or a mapping whose empty values mean `real`."""
+    if value is None:
+        return {}
+    if isinstance(value, str):
+        value = [value]
+    if isinstance(value, (list, tuple)):
+        seen: set[str] = set()
+        for i, name in enumerate(value):
+            if not isinstance(name, str):
+                hint = "write `parameters: {NAME: VALUE}` to give values"
+                raise fault_at((i,), "a list of parameters holds names only", hint)
+            if name in seen:
+                raise fault_at((i,), f"the parameter '{name}' is given twice", "leave one of them out")
+            seen.add(name)
+        return dict.fromkeys(value, "real")
+    if isinstance(value, Mapping):
+        return {name: "real" if given is None else given for name, given in value.items()}
+    return value
+
+
+def _functions(value: object) -> object:
+    """A mapping; a single argument needs no list."""
+    if value is None:
+        return {}
+    if isinstance(value, Mapping):
+        return {name: (given,) if isinstance(given, str) else given for name, given in value.items()}
+    return value
+
+
+def _dimension(value: object) -> object:
+    number = exact(value)
+    if number not in (1, 2, 3):
+        raise fault_error(f"the dimension is 1, 2 or 3, not {value}")
+    return int(number)
+
+
+def _tolerance(value: object) -> object:
+    number = exact(value)
+    if not 0 <= number < 1:
+        raise fault_error(f"the tolerance is a fraction of the scene's size, from 0 up to 1, not {value}")
+    return number
+
+
+class Declarations(WrittenModel):
+    """What a scene declares: its names, and the reference values of its coordinates."""
+
+    name: str = Field("scene", min_length=1, description="a short name, used in reports; by default the file's stem")
+    title: str | None = Field(None, description="one line about it")
+    source: str | None = Field(None, description="where it comes from")
+    notes: str | None = Field(None, description="what is remarkable about it")
+    left_out: Annotated[tuple[str, ...], Listed] = Field(
+        (), description="what was left out of the imported model, and why"
+    )
+    dimension: Annotated[Literal[1, 2, 3], BeforeValidator(_dimension)] = Field(
+        3, description="the dimension of the world: 1, 2 or 3"
+    )
+    parameters: Annotated[
+        dict[str, Value],
+        BeforeValidator(_parameters, json_schema_input_type=list[str] | dict[str, Value]),
+    ] = Field(
+        default_factory=dict,
+        description="constants: a list of names, or a mapping name -> real, positive, nonzero, or a value",
+    )
+    functions: Annotated[
+        dict[str, Annotated[tuple[str, ...], Field(min_length=1)]],
+        BeforeValidator(_functions, json_schema_input_type=dict[str, list[str] | str]),
+    ] = Field(default_factory=dict, description="unknown smooth functions: name -> list of arguments")
+    particles: Annotated[tuple[AnyParticle, ...], Listed] = Field((), description="names, or mappings")
+    bodies: Annotated[tuple[AnyBody, ...], Listed] = Field((), description="names, or mappings")
+    coordinates: Annotated[tuple[str, ...], Listed] = Field(
+        (), description="configuration coordinates that belong to no particle or body"
+    )
+    tolerance: Annotated[Number, BeforeValidator(_tolerance)] | None = Field(
+        None, description="measured geometry: right to within this fraction of the scene's size; absent: exact"
+    )
+    configuration: Annotated[dict[str, Value], Mapped] = Field(
+        default_factory=dict, description="a reference configuration: coordinate -> value"
+    )
+
+    @classmethod
+    def called(cls) -> str:
+        return "a scene"

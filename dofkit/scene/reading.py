@@ -1,14 +1,15 @@
-"""From a file, a catalog name, a text or a mapping to a `Scene`, with every fault in its place."""
+"""From a file, a catalog name, a text or a mapping to a `Scene`, with the location of every fault."""
 
 from __future__ import annotations
 
+import copy
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -18,10 +19,12 @@ from dofkit.base.documents import DEEPEST, Document, read_document
 from dofkit.base.errors import ArgumentError, Fault, SceneError
 from dofkit.models.formats import is_model, read_model
 from dofkit.models.model_document import ModelFile
+from dofkit.scene.catalog import find
 from dofkit.scene.constraints.equations import as_equation
-from dofkit.scene.found_files import find
+from dofkit.scene.fields import faults_of
 from dofkit.scene.hints import UNKNOWN_KEY, UNKNOWN_TYPE, meant_section, with_hint, without_echoes
-from dofkit.scene.scene import Scene, check, faults_of
+from dofkit.scene.lowering import check
+from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import StandardWords, standard_words
 from dofkit.system import System
 
@@ -30,8 +33,9 @@ __all__ = ["SceneFile", "SceneLike", "load", "loads", "scene_or_system"]
 #: More faults than this are counted, not listed.
 MOST_FAULTS = 200
 #: Parts of a scene without which its other parts can still be checked.
-_DROPPED_WHOLE = frozenset({"name", "title", "source", "notes", "left_out", "expect", "energies", "configuration"})
-_DROPPED_BY_ENTRY = ("constraints", "forces")
+_DROPPED_WHOLE = frozenset(
+    {"name", "title", "source", "notes", "left_out", "expect", "energies", "configuration", "tolerance"}
+)
 _TAKEN = "a Scene, a path, a catalog name or a mapping"
 
 
@@ -76,7 +80,11 @@ def load(source: SceneLike, *, name: str | None = None, limits: bool = False) ->
     if isinstance(source, Scene):
         return source
     if isinstance(source, Mapping):
-        return _from_mapping(source, name)
+        deep = _too_deep(source)
+        if deep is not None:
+            hint = "write the scene with fewer levels"
+            raise SceneError((Fault(f"nested deeper than {DEEPEST} levels", deep, hint=hint),), name)
+        return SceneFile(Document(name or "scene", "", source, ()), located=False).scene()
     if not isinstance(source, str | os.PathLike):
         raise ArgumentError(f"a scene is given as {_TAKEN}, not {description_of(source)}")
     found = find(source)
@@ -120,212 +128,154 @@ def loads(data: bytes | str, name: str = "scene") -> Scene:
 
 
 def scene_or_system(given: SceneLike | System) -> Scene | System:
-    """What a door is given: a System as it is, and the Scene that anything else stands for. Raises as `load` does."""
+    """Return a System unchanged, and the Scene that anything else stands for. Raises as `load` does."""
     return given if isinstance(given, System) else load(given)
 
 
 @dataclass(frozen=True)
 class SceneFile:
-    """A document that should be a scene; knows the line and column of what is wrong with it."""
+    """A document that should be a scene, with the line and column of its faults where it is ``located`` in a text."""
 
     document: Document
+    located: bool = True
 
     @classmethod
     def read(cls, data: bytes | str, name: str, path: Path | None = None, limits: bool = False) -> SceneFile:
-        """Take the text of a scene, or a model, apart; nothing is raised yet.
+        """Return the document of a scene or a model; nothing is raised yet.
 
-        ``path``: where it stands, for what a model includes; ``limits``: ranges of a model's joints are inequalities.
+        ``path``: the file, for what a model includes; ``limits``: ranges of a model's joints become inequalities.
         """
         if not is_model(data):
             return cls(read_document(data, name))
         return cls(_model_document(ModelFile(data, name, path, limits)))
 
     def scene(self, *, checked: bool = True) -> Scene:
-        """The scene. Raises SceneError with all faults; texts and geometry are looked at only if ``checked``."""
-        value = self.document.value
+        """Return the scene. Raises SceneError with all faults; texts and geometry are checked only if ``checked``."""
         faults = list(self.document.faults)
-        if not isinstance(value, dict):
+        if not isinstance(self.document.value, Mapping):
             if not faults:
                 hint = "begin with 'coordinates: [x, y]' or the like"
                 faults.append(Fault("a scene is a mapping of keys to values", hint=hint))
-            raise self._error(faults)
+            raise self.error(faults)
         value = self._words.value
         if value.get("name") is None:
             value = {**value, "name": self.document.name}
-        scene, found = _scene_and_faults(value, checked or bool(faults))
-        if faults or found or scene is None:
-            raise self._error([*faults, *found])
+        try:
+            scene = Scene.model_validate(value)
+        except ValidationError as error:
+            structural = faults_of(error)
+            raise self.error([*faults, *structural, *_faults_of_sound_part(value, structural)]) from None
+        if checked or faults:
+            faults += check(scene)
+        if faults:
+            raise self.error(faults)
         return scene
 
     @cached_property
     def _words(self) -> StandardWords:
         value = self.document.value
-        return standard_words(value if isinstance(value, dict) else {})
+        return standard_words(value if isinstance(value, Mapping) else {})
 
-    def with_places(self, error: SceneError) -> SceneError:
-        """The same faults with their lines and columns."""
-        return self._error(error.faults)
-
-    def _error(self, faults: Iterable[Fault]) -> SceneError:
+    def error(self, faults: Iterable[Fault]) -> SceneError:
+        """Return the error with these faults, located, with their hints, and without those that another explains."""
         taken = {(fault.line, fault.column) for fault in self.document.faults}
-        told = []
+        located = []
         for fault in without_echoes(faults, self._words.value):
-            found = self._with_place(fault)
-            if fault.line is not None or (found.line, found.column) not in taken:
-                told.append(found)
-        told.sort(key=lambda fault: (fault.line or 0, fault.column or 0))
-        return SceneError(_first_faults(told), self.document.name)
+            placed = self._with_place(fault)
+            if fault.line is not None or not self.located or (placed.line, placed.column) not in taken:
+                located.append(placed)
+        located.sort(key=lambda fault: (fault.line or 0, fault.column or 0))
+        if len(located) > MOST_FAULTS:
+            message = f"and {len(located) - MOST_FAULTS} further faults from here on"
+            located[MOST_FAULTS:] = [replace(located[MOST_FAULTS], message=message, hint="correct these first")]
+        return SceneError(tuple(located), self.document.name)
 
     def _with_place(self, fault: Fault) -> Fault:
         if fault.line is not None:
             return fault
+        hinted = replace(with_hint(fault, self._words.value), where=self._words.written(fault.where))
+        if not self.located:
+            return hinted
         key = fault.message.startswith(UNKNOWN_KEY)
         where = (*fault.where, "type") if fault.message.startswith(UNKNOWN_TYPE) else fault.where
         line, column = self.document.place(self._words.written(where), key=key, column=fault.column)
-        told = with_hint(fault, self._words.value)
-        return replace(told, where=self._words.written(fault.where), line=line, column=column)
+        return replace(hinted, line=line, column=column)
 
 
 def _model_document(file: ModelFile) -> Document:
-    """The document that a model stands for, its parts placed by the lines of the model."""
+    """Return the document that a model stands for, its parts located by the lines of the model."""
     starts = [0, *(match.end() for match in re.finditer("\n", file.text))]
     try:
         model = read_model(file)
     except SceneError as error:
         return Document(file.name, file.text, None, error.faults)
-    found = {path: (starts[line - 1], -1) for path, line in model.lines.items() if line <= len(starts)}
-    value = {"name": file.name, **model.value}
-    return Document(file.name, file.text, value, (), lambda: found)
-
-
-def _from_mapping(source: Mapping[str, Any], name: str | None) -> Scene:
-    deep = _too_deep(source)
-    if deep is not None:
-        raise SceneError(
-            (Fault(f"nested deeper than {DEEPEST} levels", deep, hint="write the scene with fewer levels"),), name
-        )
-    words = standard_words(source)
-    value = words.value
-    if name is not None and value.get("name") is None:
-        value["name"] = name
-    scene, faults = _scene_and_faults(value, True)
-    if scene is None or faults:
-        told = [with_hint(fault, value) for fault in without_echoes(faults, value)]
-        raise SceneError(_first_faults([replace(f, where=words.written(f.where)) for f in told]), name)
-    return scene
+    places = {path: (starts[line - 1], -1) for path, line in model.lines.items() if line <= len(starts)}
+    return Document(file.name, file.text, {"name": file.name, **model.value}, (), lambda: places)
 
 
 def _too_deep(source: object) -> tuple[str | int, ...] | None:
-    """The path of a value nested too deep (or within itself), or None."""
+    """Return the path of a value that is nested too deep (or within itself), or None."""
     level: list[tuple[tuple[str | int, ...], object]] = [((), source)]
     for _ in range(DEEPEST):
         below: list[tuple[tuple[str | int, ...], object]] = []
         for path, value in level:
             if isinstance(value, (dict, Mapping)):
-                below += [((*path, str(key)), part) for key, part in value.items() if _holds(part)]
+                below += [((*path, str(key)), part) for key, part in value.items() if _is_collection(part)]
             elif isinstance(value, (list, tuple)):
-                below += [((*path, i), part) for i, part in enumerate(value) if _holds(part)]
+                below += [((*path, i), part) for i, part in enumerate(value) if _is_collection(part)]
         if not below:
             return None
         level = below
     return level[0][0]
 
 
-def _holds(value: object) -> bool:
-    return not isinstance(value, str) and isinstance(value, (dict, list, tuple, Mapping))
+def _is_collection(value: object) -> bool:
+    return isinstance(value, (dict, list, tuple, Mapping))
 
 
-def _scene_and_faults(value: Mapping[str, Any], checked: bool) -> tuple[Scene | None, tuple[Fault, ...]]:
-    """The scene and its faults; where its structure is at fault, those of the rest of it as well."""
-    try:
-        scene = Scene.model_validate(value)
-    except ValidationError as error:
-        faults = faults_of(error)
-    else:
-        return scene, check(scene) if checked else ()
-    rest = SoundPart.without(value, faults)
-    if rest is None:
-        return None, faults
-    try:
-        found = check(Scene.model_validate(rest.value))
-    except ValidationError:
-        return None, faults
-    missed = {f"there is no joint '{name}'" for name in rest.names}
-    later = (replace(fault, where=rest.written(fault.where)) for fault in found if fault.message not in missed)
-    return None, (*faults, *later)
+def _faults_of_sound_part(value: Mapping[str, Any], faults: Sequence[Fault]) -> Iterator[Fault]:
+    """Yield the faults of a scene without its faulty parts, and with its misspelt sections under their names.
 
-
-class SoundPart(NamedTuple):
-    """A scene without its faulty parts, and with its misspelt sections under their names.
-
-    ``kept``: which entries of its lists are left; ``names``: those of the entries that are not; ``sections``: what was
-    written for a section.
+    Nothing is yielded where the remaining parts would not make sense without the faulty ones.
     """
-
-    value: dict[str, Any]
-    kept: dict[str, list[int]]
-    names: frozenset[str]
-    sections: dict[str, str]
-
-    @classmethod
-    def without(cls, value: Mapping[str, Any], faults: Sequence[Fault]) -> SoundPart | None:
-        """Take out what is at fault; None where the rest would not make sense without it."""
-        rest: Any = dict(value)
-        dropped: dict[str, set[int]] = {key: set() for key in _DROPPED_BY_ENTRY}
-        sections: dict[str, str] = {}
-        for fault in faults:
-            first, second = (*fault.where, None, None)[:2]
-            meant = meant_section(fault)
-            if first in dropped and isinstance(second, int):
-                dropped[str(first)].add(second)
-            elif first in _DROPPED_WHOLE:
-                rest.pop(first, None)
-            elif meant is not None and meant not in rest:
-                sections[meant] = str(first)
-                rest[meant] = rest.pop(first)
-            elif fault.message.startswith(UNKNOWN_KEY):
-                rest = _cut(rest, fault.where)
-            else:
-                return None
-        kept: dict[str, list[int]] = {}
-        names: set[str] = set()
-        for key, gone in dropped.items():
-            if gone:
-                kept[key] = [i for i in range(len(rest[key])) if i not in gone]
-                entries = [rest[key][i] for i in gone]
-                names |= {str(entry["name"]) for entry in entries if isinstance(entry, Mapping) and "name" in entry}
-                rest[key] = [_with_name(key, i, rest[key][i]) for i in kept[key]]
-        return cls(standard_words(rest).value if sections else rest, kept, frozenset(names), sections)
-
-    def written(self, where: tuple[str | int, ...]) -> tuple[str | int, ...]:
-        """A path of the rest as a path of the whole."""
-        if len(where) >= 2 and where[0] in self.kept and isinstance(where[1], int):
-            return (where[0], self.kept[str(where[0])][where[1]], *where[2:])
-        return (self.sections.get(str(where[0]), where[0]), *where[1:]) if where else where
+    sound: Any = copy.deepcopy(dict(value))
+    dropped: dict[str, set[int]] = {"constraints": set(), "forces": set()}
+    sections: dict[str, str] = {}
+    for fault in faults:
+        first, second = (*fault.where, None, None)[:2]
+        meant = meant_section(fault)
+        if first in dropped and isinstance(second, int):
+            dropped[str(first)].add(second)
+        elif first in _DROPPED_WHOLE:
+            sound.pop(first, None)
+        elif meant is not None and meant not in sound:
+            sections[meant] = str(first)
+            sound[meant] = sound.pop(first)
+        elif fault.message.startswith(UNKNOWN_KEY):
+            owner = sound
+            for key in fault.where[:-1]:
+                owner = owner[key]
+            owner.pop(fault.where[-1], None)
+        else:
+            return
+    kept = {key: [i for i in range(len(sound[key])) if i not in gone] for key, gone in dropped.items() if gone}
+    names = {str(entry["name"]) for key in kept for i in dropped[key] if "name" in (entry := _as_entry(sound, key, i))}
+    for key, indices in kept.items():
+        sound[key] = [_as_entry(sound, key, i) for i in indices]
+    try:
+        found = check(Scene.model_validate(standard_words(sound).value if sections else sound))
+    except ValidationError:
+        return
+    for fault in found:
+        if fault.message not in {f"there is no joint '{name}'" for name in names}:
+            first, *rest = fault.where or ("",)
+            if first in kept and rest and isinstance(rest[0], int):
+                rest[0] = kept[str(first)][rest[0]]
+            yield replace(fault, where=(sections.get(str(first), first), *rest) if fault.where else ())
 
 
-def _with_name(key: str, index: int, entry: Any) -> Any:
-    """An entry that goes by its position, named by the position that it had."""
-    entry = as_equation(entry)
-    return {**entry, "name": entry.get("name") or f"{key[0]}{index + 1}"} if isinstance(entry, dict) else entry
-
-
-def _cut(value: Any, path: tuple[str | int, ...]) -> Any:
-    """``value`` without what is at ``path``; nothing that is shared is changed."""
-    if not path or (isinstance(value, dict) and path[0] not in value):
-        return value
-    if len(path) == 1 and isinstance(value, dict):
-        return {key: part for key, part in value.items() if key != path[0]}
-    if isinstance(value, dict):
-        return {**value, str(path[0]): _cut(value[path[0]], path[1:])}
-    if isinstance(value, list) and isinstance(path[0], int):
-        return [_cut(part, path[1:]) if i == path[0] else part for i, part in enumerate(value)]
-    return value
-
-
-def _first_faults(faults: list[Fault]) -> tuple[Fault, ...]:
-    if len(faults) <= MOST_FAULTS:
-        return tuple(faults)
-    more = len(faults) - MOST_FAULTS
-    last = replace(faults[MOST_FAULTS], message=f"and {more} further faults from here on", hint="correct these first")
-    return (*faults[:MOST_FAULTS], last)
+def _as_entry(value: Any, key: str, index: int) -> Any:
+    """Return an entry of a list; one that is known by its position is named by it."""
+    entry = as_equation(value[key][index])
+    name = f"{key[0]}{index + 1}"
+    return {**entry, "name": entry.get("name") or name} if isinstance(entry, dict) else {"name": name}

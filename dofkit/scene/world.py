@@ -1,14 +1,14 @@
 """The world that constraints are written in: the frames, points and directions of a scene.
 
-A constraint type asks `World` for what it mentions (``world.frame("crank", "between", 0)``); what
-cannot be found is recorded as a fault at that path and replaced by a stand-in, so that all faults
-come to light at once. Geometry that is left out is asked for here too and becomes a generic parameter.
+A constraint type asks `World` for what it mentions (``world.frame("crank", "between", 0)``); what is not there is a
+fault at that path and is replaced by a stand-in, so that all faults come to light at once. Geometry that is left out
+becomes a generic parameter.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain
@@ -24,7 +24,7 @@ from dofkit.expressions.vectors import Vec, across
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.fields import Vector
 from dofkit.scene.frames import Frame, Placed
-from dofkit.scene.ledger import Texts
+from dofkit.scene.ledger import MOST_HINTS, Texts
 from dofkit.scene.parts import BodyPoint, show_point
 from dofkit.system import GROUND, Distance, DrawnPoint, JointRate, Place
 
@@ -42,45 +42,12 @@ class Direction(NamedTuple):
 class Misfit(NamedTuple):
     """A fault, unless ``distance`` (None: no number) is within the tolerance once the size of the drawing is known.
 
-    With a ``body``: a fault only where the drawing turns out to place that one.
+    With a ``body``: a fault only where the reference configuration turns out to place that one.
     """
 
     distance: float | None
     fault: Fault
     body: str | None = None
-
-
-class Before(NamedTuple):
-    """What the entries read earlier came to: how many faults and generic parameters, and which bodies they draw."""
-
-    faults: int = 0
-    generic: int = 0
-    drawn: Set[str] = frozenset()
-
-
-class Findings(NamedTuple):
-    """What comes of reading one entry, its relations apart.
-
-    ``generic``: new parameters; ``points``: places given; ``drawn``: the bodies that they draw; ``welds`` and ``links``
-    by their two ends; ``distances`` that are kept. ``special``: symbolic lengths meet a drawing with numbers;
-    ``special_of``: they do where the drawing turns out to place one of these bodies.
-    """
-
-    generic: tuple[str, ...] = ()
-    points: tuple[Vec, ...] = ()
-    drawn: frozenset[str] = frozenset()
-    welds: tuple[tuple[str, str], ...] = ()
-    links: tuple[tuple[str, str], ...] = ()
-    distances: tuple[Distance, ...] = ()
-    special: bool = False
-    special_of: frozenset[str] = frozenset()
-    misfits: tuple[Misfit, ...] = ()
-    warnings: tuple[str, ...] = ()
-    faults: tuple[Fault, ...] = ()
-
-
-#: Of an entry that leaves nothing behind, as most equations do.
-NO_FINDINGS = Findings()
 
 
 @dataclass(slots=True)
@@ -96,114 +63,98 @@ class Mentioned:
 
 
 class World(Texts):
-    """The world as one entry of the scene sees it: what names stand for, and what comes of reading that entry.
+    """The frames, points and directions of a scene, and what its entries bring while they are read one after another.
 
-    ``entries``: the constraints of the scene by their names.
+    ``mentioned``: what the current entry mentions, the constraint number ``index``; ``entries``: the constraints of the
+    scene by their names. Of all entries that were read so far: ``generic`` parameters; ``points`` that are given;
+    ``drawn``, the bodies that these place; ``welds`` by their two ends; ``links`` and ``distances`` by the number of
+    their constraint; ``misfits`` and ``warnings``. ``special``: symbolic lengths meet a drawing with numbers;
+    ``special_of``: they do where the drawing turns out to place one of these bodies.
     """
 
     def __init__(
         self,
         drawing: Drawing,
-        here: tuple[str | int, ...],
-        before: Before | None = None,
+        here: tuple[str | int, ...] = (),
+        faults: list[Fault] | None = None,
         entries: Mapping[str, object] | None = None,
     ) -> None:
-        self.before = before or Before()
+        super().__init__(drawing.vocabulary.texts, here, faults)
         self.entries: Mapping[str, object] = entries or {}
-        super().__init__(drawing.vocabulary.texts, here, self.before.faults)
         self.dimension, self.tolerance = drawing.dimension, drawing.tolerance
         self.table, self.particles = drawing.vocabulary.table, drawing.particles
         self.ground, self.frames = drawing.ground, drawing.frames
+        self.index = 0
         self.mentioned = Mentioned()
         self.generic: list[str] = []
-        self.points: list[Vec] = []
-        self.drawn: set[str] = set()
+        self.points: list[Vec] = [*drawing.points]
+        self.drawn: set[str] = {*drawing.drawn}
         self.welds: list[tuple[str, str]] = []
-        self.links: list[tuple[str, str]] = []
-        self.distances: list[Distance] = []
+        self.links: list[tuple[int, str, str]] = []
+        self.distances: dict[int, list[Distance]] = {}
         self.misfits: list[Misfit] = []
+        self.warnings: list[str] = []
         self.special = False
         self.special_of: set[str] = set()
 
-    def findings(self) -> Findings:
-        """What came of reading the entry."""
-        parts = (
-            tuple(self.generic),
-            tuple(self.points),
-            frozenset(self.drawn),
-            tuple(self.welds),
-            tuple(self.links),
-            tuple(self.distances),
-            self.special,
-            frozenset(self.special_of),
-            tuple(self.misfits),
-            tuple(self.warnings),
-            tuple(self.faults),
-        )
-        return Findings(*parts) if any(parts) else NO_FINDINGS
-
-    # what constraints ask for
+    def enter(self, section: str, index: int) -> None:
+        """Go on to the next entry of the scene."""
+        self.here, self.index, self.mentioned = (section, index), index, Mentioned()
 
     def place(self, values: Vector | None, *where: str | int) -> Vec:
-        """A given point of the drawing, or a generic one."""
-        found = self._place(values, *where)
-        self.mentioned.places.append(None if values is None else found)
-        return found
+        """Return a given point of the reference configuration, or a generic one."""
+        place = self._place(values, *where)
+        self.mentioned.places.append(None if values is None else place)
+        return place
 
     def _place(self, values: Vector | None, *where: str | int) -> Vec:
         if values is None:
             return tuple(self.fresh() for _ in range(self.dimension))
-        found = self.vector(values, self.dimension, *where)
-        if found is None:
+        place = self.vector(values, self.dimension, *where)
+        if place is None:
             return (ZERO,) * self.dimension
-        self.points.append(found)
-        return found
+        self.points.append(place)
+        return place
 
     def direction(self, values: Vector | None, *where: str | int) -> Direction:
-        """A given direction, or a generic one."""
-        found = self._direction(values, *where)
-        self.mentioned.directions.append(None if values is None else found.vector)
-        return found
+        """Return a given direction, or a generic one."""
+        direction = self._direction(values, *where)
+        self.mentioned.directions.append(None if values is None else direction.vector)
+        return direction
 
     def _direction(self, values: Vector | None, *where: str | int) -> Direction:
         if values is None:
-            n = (ONE, *(self.fresh() for _ in range(self.dimension - 1)))
-            return Direction(n, across(n, 0))
-        found = self.vector(values, self.dimension, *where)
-        if found is not None:
-            sizes = [_size(part) for part in found]
-            pivot = max(range(len(sizes)), key=sizes.__getitem__)
-            if sizes[pivot] > 0:
-                return Direction(found, across(found, pivot))
+            generic = (ONE, *(self.fresh() for _ in range(self.dimension - 1)))
+            return Direction(generic, across(generic, 0))
+        n = self.vector(values, self.dimension, *where)
+        direction = _direction_along(n)
+        if direction is None and n is not None:
             self.fault("a direction cannot be zero", *where, hint="give at least one component that is not 0")
-        n = (ONE, *(ZERO,) * (self.dimension - 1))
-        return Direction(n, across(n, 0))
+        first_axis = (ONE, *(ZERO,) * (self.dimension - 1))
+        return direction or Direction(first_axis, across(first_axis, 0))
 
     def drawn_vector(self, values: Vector | None) -> Vec | None:
-        """A place or direction that another entry gives, and that its faults are told of there."""
+        """Return a place or direction that another entry gives, which also reports its faults."""
         texts = Texts(self._reader, self.here)
-        found = None if values is None else texts.vector(values, self.dimension)
-        return None if texts.faults else found
+        vector = None if values is None else texts.vector(values, self.dimension)
+        return None if texts.faults else vector
 
     def drawn_direction(self, values: Vector | None) -> Direction | None:
-        """A direction that another entry gives; None where it is none."""
-        found = self.drawn_vector(values)
-        sizes = [_size(part) for part in found or ()]
-        pivot = max(range(len(sizes)), key=sizes.__getitem__, default=0)
-        return Direction(found, across(found, pivot)) if found is not None and sizes[pivot] > 0 else None
+        """Return a direction that another entry gives; None where it is none."""
+        return _direction_along(self.drawn_vector(values))
 
     def fresh(self, stem: str = "a") -> Expr:
-        """A new generic parameter."""
-        name = f"_{stem}{self.before.generic + len(self.generic) + 1}"
+        """Return a new generic parameter."""
+        name = f"_{stem}{len(self.generic) + 1}"
         self.generic.append(name)
         return parameter(name)
 
     def frame(self, name: str, *where: str | int) -> Frame:
-        """The frame of a body, or of the ground."""
-        found = self.ground if name == GROUND else self.frames.get(name)
-        if found is not None:
+        """Return the frame of a body, or of the ground."""
+        frame = self.ground if name == GROUND else self.frames.get(name)
+        if frame is not None:
             self.mentioned.members.append(name)
-            return found
+            return frame
         if name in self.particles:
             hint = f"constrain a particle by `link`, `slot`, `coincident` or `fixed`: `{{type: fixed, point: {name}}}`"
             self.fault(f"'{name}' is a particle where a body is needed", *where, hint=hint)
@@ -212,7 +163,7 @@ class World(Texts):
         return self.ground
 
     def advice(self, error: TextError, text: str) -> str | None:
-        """What to write for a name that is that of a particle or a body."""
+        """Return what to write for a name that is that of a particle or a body."""
         name = error.name if isinstance(error, UnknownNameError) else ""
         owned = self.table.particles.get(name) or self.table.bodies.get(name)
         if owned is None:
@@ -223,14 +174,14 @@ class World(Texts):
         return f"write its coordinates, {', '.join(f'`{q}`' for q in owned)}"
 
     def particle(self, name: str, *where: str | int) -> Placed:
-        """A particle's position."""
-        found = self.particles.get(name)
-        if found is not None:
+        """Return the position of a particle."""
+        placed = self.particles.get(name)
+        if placed is not None:
             self.mentioned.members.append(name)
-            self.mentioned.points.append(DrawnPoint(name, found.reference, particle=True))
-            return found
+            self.mentioned.points.append(DrawnPoint(name, placed.reference, particle=True))
+            return placed
         place = ", ".join(["0"] * self.dimension)
-        late = len(self.faults) >= self._hints
+        late = len(self.faults) >= MOST_HINTS
         body = None if late or nearest(name, self.particles) else nearest(name, self.frames)
         if name in self.frames or name == GROUND:
             hint = f"name one of its points: `{{on: {name}, at: [{place}]}}`"
@@ -244,7 +195,7 @@ class World(Texts):
         return Placed((ZERO,) * self.dimension, ONE, None, None, f"({name})")
 
     def point(self, point: str | Vector | BodyPoint, *where: str | int) -> Placed:
-        """A particle, a point fixed in the world, or a material point of a body."""
+        """Return the position of a particle, of a point fixed in the world, or of a material point of a body."""
         if isinstance(point, str):
             return self.particle(point, *where)
         if isinstance(point, BodyPoint):
@@ -259,19 +210,17 @@ class World(Texts):
         return self.ground.point(at, show_point(point))
 
     def apart(self, first: Placed, second: Placed, squared: Expr, at_most: bool = False) -> None:
-        """Two points keep a squared distance, or at most that; nothing is kept of one that moves or is generic."""
+        """Note that two points have a squared distance, or at most that; one that moves or is generic is not noted."""
         if any(s.args[0] != "parameter" or s.args[1].startswith("_") for s in squared.symbols):
             return
         a, b = (Place(p.frame, p.label, p.reference if p.frame else None) for p in (first, second))
-        self.distances.append(Distance(a, b, squared, at_most))
-
-    # the drawing
+        self.distances.setdefault(self.index, []).append(Distance(a, b, squared, at_most))
 
     def differs(self, gap: Expr, body: str | None = None) -> bool:
-        """Whether what should vanish in the drawing certainly does not.
+        """Return whether what should vanish in the reference configuration certainly does not.
 
-        A gap that holds parameters vanishes only at special values of them: it is no contradiction,
-        but the drawing is no reference then. With a ``body``: only where the drawing turns out to place that one.
+        A gap that holds parameters vanishes only at special values of them: it is no contradiction, but the drawing is
+        no reference configuration then. With a ``body``: only where the drawing turns out to place that one.
         """
         gap = substitute(gap, {TIME: ZERO})
         if gap.is_zero or any(symbol.args[0] != "parameter" for symbol in gap.symbols) or not differs_from_zero(gap):
@@ -283,12 +232,12 @@ class World(Texts):
         return not gap.symbols
 
     def any_differs(self, gaps: Sequence[Expr]) -> bool:
-        """Whether any of several gaps differs; every one is looked at."""
+        """Return whether any of several gaps differs; each of them is examined."""
         return sum(self.differs(gap) for gap in gaps) > 0
 
     def is_drawn(self, frame: Frame) -> bool:
-        """Whether the configuration, or an entry read so far, places a body."""
-        return frame.name in self.drawn or frame.name in self.before.drawn
+        """Return whether the configuration, or an entry that was read, places a body."""
+        return frame.name in self.drawn
 
     def misfit(
         self, distance: float | None, message: str, *where: str | int, hint: str, body: str | None = None
@@ -298,15 +247,22 @@ class World(Texts):
 
 
 def within(distance: float | None, tolerance: Fraction | None, size: float) -> bool:
-    """Whether a distance is inside a tolerance, which is a fraction of the size."""
+    """Return whether a distance is inside a tolerance, which is a fraction of the size."""
     return distance is not None and bool(tolerance) and abs(distance) <= float(tolerance or 0) * size
 
 
-def _size(part: Expr) -> float:
-    """How far a component is from 0: its size if it is a number, 1 for what holds parameters."""
-    if part.is_zero:
+def _direction_along(n: Vec | None) -> Direction | None:
+    """Return the direction of a vector; None where there is none, or where it is zero."""
+    sizes = [_size(part) for part in n or ()]
+    pivot = max(range(len(sizes)), key=sizes.__getitem__, default=0)
+    return Direction(n, across(n, pivot)) if n is not None and sizes[pivot] > 0 else None
+
+
+def _size(component: Expr) -> float:
+    """Return how far a component is from 0: its size if it is a number, 1 for what holds parameters."""
+    if component.is_zero:
         return 0.0
-    found = approximate(part)
-    if found is None:
+    size = approximate(component)
+    if size is None:
         return 1.0
-    return abs(found) if differs_from_zero(part) else 0.0
+    return abs(size) if differs_from_zero(component) else 0.0

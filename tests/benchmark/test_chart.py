@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 from dofkit.base.runs import Pool
 from dofkit.benchmark import command, record, runner, statistics, tasks
 from dofkit.benchmark.figures import table as figures_table
-from dofkit.benchmark.record import AUTO, Data, Outcome, Ran, ReductionCost, Score, TrialLine
+from dofkit.benchmark.record import AUTO, Data, Outcome, Ran, Score, TrialLine
 from dofkit.benchmark.runner import outcome_of
 from dofkit.benchmark.sentences import summary
 from dofkit.benchmark.tasks import Selection
@@ -234,25 +234,7 @@ SWEEPS = [
     for group in ("3", "9")
     for value, outcome in _STEPS
 ]
-REDUCTIONS = [
-    ReductionCost(
-        scene="s",
-        family="blocks",
-        size=3,
-        off=off,
-        seconds=seconds,
-        coordinates=9,
-        relations=3,
-        forms=0,
-        largest=largest,
-        written=9,
-        unchanged=True,
-        undecided=False,
-        differs=["a, b"] if off else [],
-    )
-    for off, seconds, largest in (("", 0.01, 3), ("blocks", 0.05, 9))
-]
-DATA = Data(RAN, LINES, SWEEPS, REDUCTIONS)
+DATA = Data(RAN, LINES, SWEEPS)
 
 
 def test_scores_points_and_auto_against_the_fastest() -> None:

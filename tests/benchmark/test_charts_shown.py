@@ -59,20 +59,9 @@ def test_every_sentence_about_a_chart_is_worked_out_from_its_data() -> None:
     chart = summary(data())
     stored = ChartRun.model_validate_json((CHARTS / record.SUMMARY).read_text(encoding="utf-8"))
     assert stored.sentences == chart.sentences
-    assert set(chart.sentences) >= {"trials", "time", "tolerance", "bits", "primes", "cost", "reductions", *METHODS}
+    assert set(chart.sentences) >= {"trials", "time", "tolerance", "bits", "primes", "cost", *METHODS}
     told = " ".join(PAGE.split())
     assert [key for key, sentence in chart.sentences.items() if sentence not in told] == []
-
-
-def test_no_reduction_is_drawn_against_a_cold_start() -> None:
-    """Nowhere does leaving one out look like a large gain: a cold baseline looked like an eightfold one."""
-    whole = {row.scene: row.seconds for row in data().reductions if not row.off}
-    assert min(row.seconds / whole[row.scene] for row in data().reductions if row.off) > 1 / 3
-
-
-def test_no_reduction_changed_an_answer() -> None:
-    assert data().reductions
-    assert all(row.unchanged for row in data().reductions)
 
 
 def test_the_figures_of_the_site_are_there_and_made_by_its_command() -> None:

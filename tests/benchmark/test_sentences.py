@@ -51,8 +51,6 @@ def test_sentences_by_hand() -> None:
         "`field` on its own was wrong 2 times in 4, with primes of 8 to 10 bits, and never from 12 bits on; with 3 "
         "bits it decided nothing."
     )
-    assert "in 1 cases, the reductions change no answer" in told["reductions"]
-    assert told["reductions"].endswith("saves at most a factor of 5 of the time (independent blocks).")
     assert "cost" not in told
 
 

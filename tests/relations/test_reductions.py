@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any, get_args
 
 import pytest
+from shared.reductions import SCENES, differences, model_sizes, study_of
 
 import dofkit
-from dofkit.benchmark.ablation import SCENES, AblatedScene, costs, differences, timed_study
 from dofkit.benchmark.trials import FAMILIES
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.exact.matrices.sparse import rank_of_rows
@@ -59,26 +59,19 @@ def test_every_reduction_says_what_it_leaves_out_and_has_scenes() -> None:
 @pytest.mark.sweep
 @pytest.mark.parametrize("name", REDUCTIONS)
 def test_what_a_reduction_leaves_out_changes_no_answer(name: ReductionName) -> None:
-    n = SCENES[name].quick
-    full, without = costs(AblatedScene(name, name, n, SCENES[name].scene(n)), (name,))
-    assert without.unchanged, without.differs
-    assert not full.undecided
-    study, _ = timed_study(SCENES[name].scene(n), ALL, 1)
-    assert study is not None
-    assert study.report.dof == FREEDOM[name](n)
+    n = SCENES[name].size
+    full, without = (study_of(SCENES[name].scene(n), reductions) for reductions in (ALL, ALL - {name}))
+    assert differences(full.report, without.report) == []
+    assert full.report.dof == FREEDOM[name](n)
     if name in LESS:
         field, less, more = LESS[name]
-        assert (getattr(full, field), getattr(without, field)) == (less(n), more(n))
+        assert (model_sizes(full)[field], model_sizes(without)[field]) == (less(n), more(n))
 
 
 @pytest.mark.parametrize("path", CATALOG, ids=lambda path: path.stem)
 def test_the_catalog_is_answered_alike_without_any_reduction(path: Path) -> None:
     scene = dofkit.load(path).model_dump(mode="json", exclude_unset=True)
-    full, _ = timed_study(scene, ALL, 1)
-    without, _ = timed_study(scene, frozenset(), 1)
-    assert full is not None
-    assert without is not None
-    assert differences(full.report, without.report) == []
+    assert differences(study_of(scene, ALL).report, study_of(scene, frozenset()).report) == []
 
 
 def scenes_of_families() -> Iterator[Any]:
@@ -94,11 +87,7 @@ def scenes_of_families() -> Iterator[Any]:
 
 @pytest.mark.parametrize("scene", list(islice(scenes_of_families(), 0, None, 5)))
 def test_the_families_are_answered_alike_without_any_reduction(scene: dict[str, Any]) -> None:
-    full, _ = timed_study(scene, ALL, 1)
-    without, _ = timed_study(scene, frozenset(), 1)
-    assert full is not None
-    assert without is not None
-    assert differences(full.report, without.report) == []
+    assert differences(study_of(scene, ALL).report, study_of(scene, frozenset()).report) == []
 
 
 @pytest.mark.parametrize("seed", range(20))

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import subprocess
-import sys
 from typing import Any
 
 import numpy as np
@@ -15,7 +13,6 @@ from dofkit.base.errors import SceneError
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import TIME, Expr, coordinate, parameter, velocity
-from dofkit.scene import constraints
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
@@ -111,32 +108,10 @@ def hinges(dimension: int) -> list[dict[str, Any]]:
     ]
 
 
-def test_a_type_is_found_where_it_is() -> None:
-    """Those of the contract first, in its order; of the others, which are found in the folder, by name."""
+def test_the_types_are_those_of_the_contract_in_its_order() -> None:
     assert list(TYPES)[:4] == ["equation", "on", "link", "rigid"]
     assert list(TYPES)[-2:] == ["cam", "coupling"]
     assert all(cls.kind() == kind for kind, cls in TYPES.items())
-    assert "gear" in TYPES
-    assert "gera" not in TYPES
-    with pytest.raises(KeyError):
-        TYPES["gera"]
-
-
-def test_a_type_that_no_table_names_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delitem(constraints._FILES, "cam")
-    monkeypatch.setattr(constraints, "_all_classes", constraints._all_classes.__wrapped__)
-    assert list(TYPES)[-2:] == ["coupling", "cam"]
-    assert TYPES["cam"].kind() == "cam"
-
-
-def test_only_the_types_that_a_scene_has_are_imported() -> None:
-    code = """
-import sys, dofkit
-dofkit.load({"particles": ["A", "B"], "constraints": [{"type": "link", "between": ["A", "B"]}, "x_A = 1"]})
-print(sorted(name.rpartition(".")[2] for name in sys.modules if name.startswith("dofkit.scene.constraints.")))
-"""
-    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
-    assert told.strip() == "['base', 'distances', 'equations']"
 
 
 def test_every_type_and_dimension_has_a_case() -> None:

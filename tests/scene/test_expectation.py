@@ -8,8 +8,8 @@ import pytest
 
 import dofkit
 from dofkit.base.errors import ArgumentError
-from dofkit.scene.dropped import without
 from dofkit.scene.expectation import unmet
+from dofkit.scene.scene import without
 
 SCENE: dict[str, Any] = {
     "coordinates": ["x", "y", "z"],

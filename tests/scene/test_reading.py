@@ -17,7 +17,7 @@ from dofkit.base.documents import read_document
 from dofkit.base.errors import Fault, SceneError
 from dofkit.base.yaml_events import ComposedText, compose
 from dofkit.interface.explanations import explanations_of
-from dofkit.scene.found_files import find
+from dofkit.scene.catalog import find
 from dofkit.scene.reading import MOST_FAULTS, SceneFile, load, loads
 from dofkit.scene.scene import Scene
 
@@ -240,7 +240,7 @@ def test_faults_without_end_are_counted() -> None:
 
 def test_a_fault_found_later_gets_its_place_too() -> None:
     file = SceneFile.read('coordinates: [x]\nconstraints:\n- "x = 1"\n- "x = 2"\n', "x")
-    located = file.with_places(SceneError((Fault("no", ("constraints", 1)),)))
+    located = file.error([Fault("no", ("constraints", 1))])
     assert (located.faults[0].line, located.faults[0].column) == (4, 3)
 
 

@@ -17,9 +17,9 @@ from shared.work import counted
 from dofkit.base.errors import Fault, SceneError
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import ZERO, coordinate, fn, num, parameter, sqrt
-from dofkit.scene.fields import as_written, exact
-from dofkit.scene.lowering import lower
-from dofkit.scene.scene import Scene, check, faults_of
+from dofkit.scene.fields import as_written, exact, faults_of
+from dofkit.scene.lowering import check, lower
+from dofkit.scene.scene import Scene
 from dofkit.system import System
 
 

@@ -15,8 +15,7 @@ import pytest
 import dofkit
 from dofkit.base.errors import ArgumentError
 from dofkit.methods.table import METHODS, QUESTIONS
-from dofkit.scene.lowering import lower
-from dofkit.scene.scene import survey_of
+from dofkit.scene.lowering import lower, survey_of
 
 MAPPING: dict[str, Any] = {"name": "m", "coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]}
 PENDULUM = {

@@ -1,11 +1,10 @@
-"""Outcomes by family, by tolerance and by precision; and what each reduction of the model saves."""
+"""Outcomes by family, by tolerance and by precision."""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
-from statistics import median
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from matplotlib import colormaps
@@ -14,14 +13,12 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
-from matplotlib.ticker import FuncFormatter, NullLocator
+from matplotlib.ticker import NullLocator
 
 from dofkit.benchmark.figures.style import WRONG, outcome_box, outcome_keys, sheet
-from dofkit.benchmark.record import ALL, AUTO, OUTCOMES, ChartRun, ReductionCost, Score, Step
-from dofkit.benchmark.sentences import compared
+from dofkit.benchmark.record import ALL, AUTO, OUTCOMES, ChartRun, Score, Step
 from dofkit.benchmark.statistics import grouped
 from dofkit.benchmark.trials import GLOSSES, HEADINGS
-from dofkit.relations.setting import REDUCTIONS
 
 # Method against family: who is right where, and how the others fail; under five headings, the hardest last
 
@@ -213,68 +210,3 @@ def _number(group: str) -> tuple[float, str]:
         return float(top) / float(bottom or 1), group
     except (ValueError, ZeroDivisionError):
         return math.inf, group
-
-
-# What each reduction saves, seen by switching it off
-
-OWN_SCENES, OTHER_SCENES = "#0072B2", "#B5B5B5"
-Pairs = Sequence[tuple[ReductionCost, ReductionCost]]
-
-
-def reductions(chart: ChartRun) -> Figure | None:
-    """Draw without against with, for each reduction: seconds, and what shrinks most of the model."""
-    pairs = [(off, on) for off, on in compared(chart) if on.seconds > 0 and off.seconds > 0]
-    if not pairs:
-        return None
-    names = list(dict.fromkeys(row.off for row, _ in pairs))
-    dots: dict[str, Any] = {"marker": "o", "linestyle": "none"}
-    keys = [
-        Line2D([], [], color=OWN_SCENES, markersize=6, label="scenes made for the reduction", **dots),
-        Line2D([], [], color=OTHER_SCENES, markersize=5, label="scenes of the catalog", **dots),
-        Line2D([], [], color="#000000", linewidth=2.2, label="median of the blue ones"),
-    ]
-    title = "What each reduction of the model saves"
-    figure = sheet(11.8, 0.4 * len(names) + 1.0, title, chart.captions["reductions"], keys)
-    axes = figure.subplots(1, 2, sharey=True)
-    _ratios(axes[0], names, pairs, lambda off, on: off.seconds / on.seconds)
-    _ratios(axes[1], names, pairs, grown)
-    axes[0].set_xlabel("seconds without the reduction / with it")
-    axes[1].set_xlabel("size of the model without / with, where it shrinks most")
-    titles = {str(key): reduction.title for key, reduction in REDUCTIONS.items()}
-    axes[0].set_yticks(range(len(names)), [titles.get(name, name) for name in names])
-    axes[0].set_ylim(len(names) - 0.5, -0.75)
-    return figure
-
-
-def grown(off: ReductionCost, on: ReductionCost) -> float:
-    """Return by how much that grows which the reduction shrinks most: coordinates, relations, forms, ..."""
-    sizes = ("coordinates", "relations", "forms", "largest", "followed")
-    ratios = [getattr(off, size) / max(1, getattr(on, size)) for size in sizes if getattr(off, size)]
-    return float(max(ratios, default=1.0))
-
-
-def _ratios(
-    axes: Axes, names: Sequence[str], pairs: Pairs, ratio: Callable[[ReductionCost, ReductionCost], float]
-) -> None:
-    axes.set_xscale("log")
-    axes.axvline(1, color="#666666", linewidth=1.0, zorder=1)
-    about: dict[str, Any] = {"transform": axes.get_yaxis_transform(), "va": "center", "ha": "right"}
-    every = [1.0]
-    for y, name in enumerate(names):
-        own, other = (
-            [ratio(off, on) for off, on in pairs if off.off == name and (off.family == name) == made]
-            for made in (True, False)
-        )
-        for dots, colour, size in ((other, OTHER_SCENES, 16), (own, OWN_SCENES, 26)):
-            axes.scatter(dots, [y] * len(dots), s=size, color=colour, alpha=0.75, linewidths=0, zorder=3)
-        middle = median(own or other)
-        axes.plot([middle, middle], [y - 0.3, y + 0.3], color="#000000", linewidth=2.2, zorder=4)
-        for x, value in ((1.1, middle), (1.2, max(own or other))):
-            text = f"{value:.2g}×" if value < 100 else f"{value:.0f}×"
-            axes.text(x, y, text, fontsize=8, **about)
-        every += own + other
-    for x, word in ((1.1, "median"), (1.2, "most")):
-        axes.text(x, -0.62, word, color="#666666", fontsize=7.5, **about)
-    axes.set_xlim(min(every) / 1.25, max(every) * 1.25)
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}×"))

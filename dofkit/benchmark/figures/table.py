@@ -17,7 +17,6 @@ FIGURES: Mapping[str, Callable[[ChartRun], Figure | None]] = {
     "cost": speed.cost,
     "tolerance": outcomes.tolerance,
     "bits": outcomes.bits,
-    "reductions": outcomes.reductions,
 }
 
 

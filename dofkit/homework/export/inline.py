@@ -12,7 +12,7 @@ from typing import Any
 
 from dofkit.base.documents import read_document
 from dofkit.homework.assignment import load_assignment
-from dofkit.scene.found_files import find
+from dofkit.scene.catalog import find
 
 
 def inlined(source: str | os.PathLike[str]) -> dict[str, Any]:

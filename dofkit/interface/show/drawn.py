@@ -83,13 +83,13 @@ def sheet_of(value: object, how: bool = False) -> Sheet:
 
 def _printed(report: Shown) -> Shown:
     """Return a report as it is printed, with decimals where its scene has decimals."""
-    scene = report._companion.scene
+    scene = report._companion.about
     return as_the_scene(report, scene) if isinstance(scene, Scene) else report
 
 
 def _beside(sheet: Sheet, companion: Companion, report: Report | None = None) -> Sheet:
     """With the title and the picture of the scene that it is about, where that is known."""
-    scene = companion.scene
+    scene = companion.about
     if not isinstance(scene, Scene):
         return sheet
     return sheet._replace(title=scene.title or "", picture=partial(picture_of, scene, report))

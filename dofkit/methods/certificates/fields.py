@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
+
+from networkx.utils import UnionFind
 
 from dofkit.checker.evidence import CheckedEvidence, VelocityField, bracket, field_named, on_row
 from dofkit.checker.trees import ONE, ZERO, CheckError, Tree, add, negative, times
@@ -92,23 +95,15 @@ def kept_motions(room: Room, columns: Sequence[str]) -> dict[str, str]:
     return {kept[p.row]: p.column for p in echelon(rows).pivots}
 
 
-def parts_of(scenery: Scenery, names: list[str]) -> list[list[str]]:
-    """Relations that share coordinates, together."""
-    coordinates = set(scenery.problem.coordinates)
-    held = {name: scenery.evidence.relation(name).left.symbols for name in names}
-    moved = {name: {s for q in coordinates for s in (q, f"{q}dot") if s in held[name]} for name in names}
-    found: list[tuple[set[str], list[str]]] = []
+def parts_of(scenery: Scenery, names: Sequence[str]) -> list[list[str]]:
+    """Return the relations in groups that share no coordinate."""
+    classes, groups = UnionFind(), dict[Any, list[str]]()
     for name in names:
-        own, members = {s.removesuffix("dot") if s not in coordinates else s for s in moved[name]}, [name]
-        rest = []
-        for symbols, others in found:
-            if symbols & own:
-                own, members = own | symbols, others + members
-            else:
-                rest.append((symbols, others))
-        found = [*rest, (own, members)]
-    order = {name: place for place, name in enumerate(names)}
-    return [sorted(members, key=order.__getitem__) for _, members in found]
+        held = scenery.evidence.relation(name).left.symbols
+        classes.union((name,), *(q for q in scenery.problem.coordinates if not held.isdisjoint((q, f"{q}dot"))))
+    for name in names:
+        groups.setdefault(classes[name,], []).append(name)
+    return list(groups.values())
 
 
 def _chosen(scenery: Scenery, fields: list[dict[str, str]], standing: Standing) -> list[tuple[int, str]]:
@@ -118,10 +113,15 @@ def _chosen(scenery: Scenery, fields: list[dict[str, str]], standing: Standing) 
     return [(p.row, p.column) for p in echelon(rows).pivots]
 
 
-def _kept(scenery: Scenery, ids: list[str], names: list[str]) -> bool:
+def _kept(scenery: Scenery, ids: Sequence[str], names: Sequence[str]) -> bool:
+    """Return whether fields are tangent to relations, identically."""
+    evidence = scenery.evidence
+
+    def is_tangent(field: str, row: str) -> bool:
+        return evidence.ring.vanishes(on_row(evidence, row, field_named(evidence, field)))
+
     try:
-        found = [field_named(scenery.evidence, one) for one in ids]
-        return all(scenery.evidence.ring.vanishes(on_row(scenery.evidence, row, one)) for one in found for row in names)
+        return all(evidence.once(("kept", a, row), partial(is_tangent, a, row)) for a in ids for row in names)
     except CheckError:
         return False
 

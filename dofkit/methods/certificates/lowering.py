@@ -12,7 +12,8 @@ from dofkit.expressions.text.characters import DEGREE, GREEK_LETTERS
 from dofkit.methods.certificates.certificate import Certifying
 from dofkit.methods.certificates.contradictions import Contradiction
 from dofkit.report import ConstraintEntry, FieldVerdict, Report
-from dofkit.scene.scene import Scene, survey_of
+from dofkit.scene.lowering import survey_of
+from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import SAID, with_plain_subscripts
 
 _UNDECIDED = FieldVerdict(verdict="undecided")

@@ -146,15 +146,21 @@ def puts(scenery: Scenery, names: Sequence[str]) -> Order:
     order: Order = []
     taken: set[str] = set()
     for name in sorted(held, key=lambda one: len(held[one])):
-        fit = [q for q in coordinates if q in held[name] - taken and evidence.is_nowhere_zero(_slope(lefts[name], q))]
+        fit = [q for q in coordinates if q in held[name] - taken and _gives(scenery, name, q)]
         if fit:
             order.insert(0, [name, fit[0]])
             taken |= held[name]
     return order
 
 
-def _slope(left: Tree, q: str) -> Tree:
-    return put_in(ZERO, q, left)[0]
+def _gives(scenery: Scenery, name: str, q: str) -> bool:
+    """Return whether an equation is linear in a coordinate with a factor that is nowhere 0."""
+    evidence = scenery.evidence
+
+    def look() -> bool:
+        return evidence.is_nowhere_zero(put_in(ZERO, q, evidence.relation(name).left)[0])
+
+    return evidence.once(("gives", name, q), look)
 
 
 def with_puts(scenery: Scenery, tree: Tree, order: Order) -> Tree:

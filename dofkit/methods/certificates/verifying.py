@@ -15,7 +15,7 @@ from dofkit.checker import verify as rechecked
 from dofkit.expressions.text.characters import SUBSCRIPTS
 from dofkit.methods.certificates.lowering import document_of_scene
 from dofkit.models.formats import is_model
-from dofkit.scene.found_files import find
+from dofkit.scene.catalog import find
 from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import SAID, standard_words

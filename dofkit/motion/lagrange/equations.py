@@ -32,10 +32,9 @@ from dofkit.motion.lagrange.small_motions import linearized
 from dofkit.motion.lagrange.term_order import ordered
 from dofkit.motion.lagrange.tidying import by_rates, length
 from dofkit.scene.drawing import Drawing
-from dofkit.scene.lowering import system_of
+from dofkit.scene.lowering import survey, system_of
 from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
-from dofkit.scene.survey import survey
 from dofkit.system import System
 
 __all__ = ["Conserved", "Linearized", "MotionReport", "NoEquationsError", "derived_of", "lagrange"]
@@ -108,7 +107,7 @@ def lagrange(scene: SceneLike, linearize: bool = False, budget: float | None = N
             report = _report(derived, *(_small(given, derived) if linearize else (None, ())))
     except OutOfTimeError as error:
         raise NoEquationsError(f"no equations of motion are given: {error}") from None
-    report._companion.scene = given
+    report._companion.about = given
     return report
 
 

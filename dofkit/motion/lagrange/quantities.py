@@ -12,7 +12,7 @@ from dofkit.expressions.tree import ZERO, Expr
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.ledger import MOVING
 from dofkit.scene.scene import Scene
-from dofkit.scene.world import Before, World
+from dofkit.scene.world import World
 
 #: Stand for a mass or an inertia that the scene leaves out; an error where the motion depends on it.
 MISSING = "_missing "
@@ -27,7 +27,7 @@ class EntryWorlds:
 
     def at(self, *here: str | int) -> World:
         """The world of the entry at a path."""
-        self._worlds.append(World(self.drawing, here, Before(len(self.faults))))
+        self._worlds.append(World(self.drawing, here))
         return self._worlds[-1]
 
     @property

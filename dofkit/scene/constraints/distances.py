@@ -17,10 +17,9 @@ from dofkit.expressions.renaming import is_name
 from dofkit.expressions.tree import ONE, TIME, TWO, ZERO, Expr, add, fn, mul, power, sqrt
 from dofkit.expressions.vectors import Vec, difference, minus, square, square_between
 from dofkit.scene.constraints.base import ConstraintBase, root
-from dofkit.scene.fields import Value, Vector, as_written
+from dofkit.scene.fields import Value, as_written
 from dofkit.scene.frames import Placed, between
-from dofkit.scene.ledger import symbols_of
-from dofkit.scene.parts import BodyPoint, Ends, Point, show_point
+from dofkit.scene.parts import Ends, Point, show_point
 from dofkit.scene.symbols import Symbol
 from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation, length_in_motion
 from dofkit.scene.world import World
@@ -52,8 +51,6 @@ class Link(ConstraintBase):
     variation: ClassVar[TypeVariation] = TypeVariation(places=("between",), lengths=("length",))
 
     def relations(self, world: World) -> Iterator[Relation]:
-        if _told_to_move(self, world):
-            return
         first, second = (world.point(end, "between", i) for i, end in enumerate(self.between))
         if first.label == second.label or _same_place(first, second):
             hint = "name two different points"
@@ -63,7 +60,7 @@ class Link(ConstraintBase):
         if given is not None:
             _check_length(world, first, second, given, "length")
         if first.frame is None and second.frame is None and (given is None or not _moves(given)):
-            world.links.append((first.label, second.label))
+            world.links.append((world.index, first.label, second.label))
         yield Relation(distance(world, first, second, given))
 
     def texts(self) -> Iterator[str]:
@@ -123,39 +120,6 @@ def _hung_on_what_moves(link: Link, names: NamesAtHand) -> Replacement | None:
 
 def _between_names(written: Mapping[str, Any]) -> bool:
     return all(isinstance(end, str) for end in written["between"])
-
-
-def _told_to_move(link: Link, world: World) -> bool:
-    """Whether an end of a link is a place that moves in time: a fault, which shows the equation that says it."""
-    moving = [i for i, end in enumerate(link.between) if isinstance(end, tuple) and TIME in _symbols(world, end)]
-    if not moving:
-        return False
-    sides = [_components(world, end) for end in link.between]
-    hint = "write the equation of the distance"
-    if all(sides):
-        length = "l" if link.length is None else as_written(link.length)
-        one, other = (sides[1], sides[0]) if moving[0] == 0 else (sides[0], sides[1])
-        gaps = [f"({q} - ({p}))^2" for q, p in zip(one, other, strict=False)]
-        squared = f"({length})^2" if any(sign in length for sign in "+-*/ ") else f"{length}^2"
-        hint = f'write its equation: `"{" + ".join(gaps)} = {squared}"`'
-    world.fault(
-        "the end of a link cannot depend on time",
-        "between",
-        moving[0],
-        hint=hint,
-    )
-    return True
-
-
-def _symbols(world: World, end: Vector) -> frozenset[Expr]:
-    return frozenset().union(*(symbols_of(part, world.names) for part in end if isinstance(part, str)))
-
-
-def _components(world: World, end: str | Vector | BodyPoint) -> tuple[str, ...]:
-    """The coordinates of a point as texts; none for a point of a body, or of what is not declared."""
-    if isinstance(end, str):
-        return world.table.particles.get(end, ())
-    return tuple(map(as_written, end)) if isinstance(end, tuple) else ()
 
 
 def _same_place(first: Placed, second: Placed) -> bool:
@@ -249,7 +213,7 @@ class Rigid(ConstraintBase):
             seen.add(member)
             placed.append(world.particle(member, "members", i))
         for first, second in combinations(placed, 2):
-            world.links.append((first.label, second.label))
+            world.links.append((world.index, first.label, second.label))
             yield Relation(distance(world, first, second, None), part=f"length {first.label}-{second.label}")
 
     def notes(self, world: World) -> Iterator[str]:

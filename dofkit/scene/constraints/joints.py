@@ -22,7 +22,7 @@ from dofkit.scene.constraints.base import ConstraintBase, component_relations
 from dofkit.scene.constraints.places import along
 from dofkit.scene.fields import Text, Vector
 from dofkit.scene.frames import Frame, between, relative
-from dofkit.scene.joint_geometry import JointGeometry, longest_of
+from dofkit.scene.joint_geometry import JointGeometry, Mentions, coordinates_mentioned, longest_of
 from dofkit.scene.ledger import LAW
 from dofkit.scene.parts import show_vector
 from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation
@@ -54,6 +54,10 @@ class Joint(ConstraintBase):
     variation: ClassVar[TypeVariation] = TypeVariation(places=("at",), directions=("axis", "axes"))
     #: What a coupling may mention of it.
     measures: ClassVar[Mapping[str, Measure]] = {}
+    #: What no part of its equations leaves out: of a common place the positions of the bodies (``place``), and how one
+    #: turns against the other (``turn``); of two moving bodies all coordinates (``moving``; ``apart``: if their origins
+    #: differ). None where parts do.
+    mentions: ClassVar[Mentions | None] = None
 
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
 
@@ -79,18 +83,13 @@ class Joint(ConstraintBase):
         del world, first, second, drawn
         yield from ()
 
-    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
-        """The coordinates that its equations mention, where no part of these stands alone; else None."""
-        del first, second, drawn
-        return None
-
     def joined(self, world: World, first: Frame, second: Frame) -> Sequence[Relation]:
         """The relations between the two frames; written out later where the drawing alone tells what they mention."""
         drawn = self.geometry(world)
         laws = tuple(self.laws(world, first, second, drawn))
         equations = partial(self.equations, first, second, drawn)
         longest = None if laws else longest_of(first, second, drawn)
-        mentioned = None if longest is None else self.mentioned(first, second, drawn)
+        mentioned = None if longest is None else coordinates_mentioned(self.mentions, first, second, drawn)
         if longest is None or mentioned is None:
             return (*equations(), *laws)
         return Unwritten(MOTIONS[world.dimension] - len(self.facts.freedoms), mentioned, longest, equations)

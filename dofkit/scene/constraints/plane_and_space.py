@@ -27,7 +27,7 @@ from dofkit.scene.constraints.joints import (
     turn_rate,
 )
 from dofkit.scene.frames import Frame
-from dofkit.scene.joint_geometry import JointGeometry, mentioned_by_moving, mentioned_together
+from dofkit.scene.joint_geometry import JointGeometry, Mentions
 from dofkit.scene.symbols import RING, Stroke, Symbol, axle, box, cylinder, prism, rail
 from dofkit.scene.world import World
 from dofkit.system import DRIVE, Kinematics, Relation, TypeFacts, VelocityRow
@@ -56,6 +56,7 @@ class Revolute(Driven):
         _revolute_rows, turn_rate, axial=True, half_turns=True, joint=True, planar_pair=True, freedoms=("angle",)
     )
     measures: ClassVar[Mapping[str, Measure]] = {"angle": ANGLE}
+    mentions: ClassVar[Mentions] = "turn"
     symbol: ClassVar[Symbol] = Symbol(plane=(RING,), space=(axle(1.5), *cylinder(0.5, 0.7)))
 
     def geometry(self, world: World) -> JointGeometry:
@@ -71,9 +72,6 @@ class Revolute(Driven):
         yield from together(first, second, drawn.at)
         if drawn.axes:
             yield from aligned(first, second, drawn.axis)
-
-    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
-        return mentioned_together(first, second, drawn.at, bool(drawn.axes))
 
     def law(self, first: Frame, second: Frame, drawn: JointGeometry, driven: Expr) -> Relation:
         if drawn.axes:
@@ -110,6 +108,7 @@ class Prismatic(Driven):
         freedoms=("displacement",),
     )
     measures: ClassVar[Mapping[str, Measure]] = {"displacement": SHIFT}
+    mentions: ClassVar[Mentions] = "moving"
     symbol: ClassVar[Symbol] = Symbol(
         plane=(rail(3.2, 0.8), rail(3.2, -0.8), Stroke(box(1.3, 0.7), 1, closed=True, filled=True)),
         space=(*prism(0.35, 2.6, 1), *prism(0.65, 0.9)),
@@ -125,10 +124,6 @@ class Prismatic(Driven):
         yield from parallel(first, second)
         for u in drawn.axis.across:
             yield Relation(shift(first, second, u)[0], part="across", vector=u)
-
-    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
-        del drawn
-        return mentioned_by_moving(first, second)
 
     def law(self, first: Frame, second: Frame, drawn: JointGeometry, driven: Expr) -> Relation:
         return displacement_law(shift(first, second, drawn.axis.vector), drawn.axis, driven)
@@ -146,6 +141,7 @@ class Weld(Joint):
     examples: ClassVar[Mapping[int, str]] = {0: "{type: weld, between: [crank, rod]}"}
     understood: ClassVar[tuple[str, ...]] = ("glue", "glued", "clamp", "fastened", "rigid_joint")
     facts: ClassVar[TypeFacts] = TypeFacts(_weld_rows, welded=True, half_turns=True, joint=True)
+    mentions: ClassVar[Mentions] = "apart"
     symbol: ClassVar[Symbol] = Symbol(
         plane=(
             Stroke(box(0.55, 0.55), closed=True, filled=True),
@@ -167,7 +163,3 @@ class Weld(Joint):
         del drawn
         yield from parallel(first, second)
         yield from apart(first, second)
-
-    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
-        del drawn
-        return None if first.start == second.start else mentioned_by_moving(first, second)

@@ -30,7 +30,7 @@ from dofkit.scene.constraints.joints import (
 )
 from dofkit.scene.fields import Value, Vector, as_written
 from dofkit.scene.frames import Frame, relative
-from dofkit.scene.joint_geometry import JointGeometry, mentioned_by_moving, mentioned_together
+from dofkit.scene.joint_geometry import JointGeometry, Mentions
 from dofkit.scene.parts import show_vector
 from dofkit.scene.symbols import RING, Stroke, Symbol, arc, axle, cylinder, helix, plate, prism
 from dofkit.scene.variation import TypeVariation
@@ -65,6 +65,7 @@ class Cylindrical(Driven):
         _cylindrical_rows, slide_rate, axial=True, half_turns=True, joint=True, freedoms=("angle", "displacement")
     )
     measures: ClassVar[Mapping[str, Measure]] = {"angle": ANGLE, "displacement": SLIDE}
+    mentions: ClassVar[Mentions] = "moving"
     symbol: ClassVar[Symbol] = Symbol(space=(*cylinder(0.3, 2.4, 1), *cylinder(0.6, 1.0)))
 
     def geometry(self, world: World) -> JointGeometry:
@@ -73,10 +74,6 @@ class Cylindrical(Driven):
 
     def equations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
         yield from coaxial(first, second, drawn.at, drawn.axis)
-
-    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
-        del drawn
-        return mentioned_by_moving(first, second)
 
     def law(self, first: Frame, second: Frame, drawn: JointGeometry, driven: Expr) -> Relation:
         return displacement_law(slide(first, second, drawn.at, drawn.axis.vector), drawn.axis, driven)
@@ -148,6 +145,7 @@ class Universal(LocatedJoint):
     facts: ClassVar[TypeFacts] = TypeFacts(
         _universal_rows, directions=2, axial=True, half_turns=True, joint=True, freedoms=("angle_1", "angle_2")
     )
+    mentions: ClassVar[Mentions] = "turn"
     symbol: ClassVar[Symbol] = Symbol(
         space=(
             Stroke(((-1.0, 0.0, 0.0), (1.0, 0.0, 0.0))),
@@ -171,9 +169,6 @@ class Universal(LocatedJoint):
             scalar, vector = turned
             e = add(mul(dot(vector, a), dot(vector, b)), mul(scalar, dot(vector, cross(b, a))))
         yield Relation(e, part="axes")
-
-    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
-        return mentioned_together(first, second, drawn.at, True)
 
     def _pair(self, world: World) -> tuple[Direction, Direction]:
         if self.axes is None:
@@ -213,6 +208,7 @@ class Spherical(LocatedJoint):
     facts: ClassVar[TypeFacts] = TypeFacts(
         _spherical_rows, half_turns=True, joint=True, freedoms=("rotation_1", "rotation_2", "rotation_3")
     )
+    mentions: ClassVar[Mentions] = "place"
     symbol: ClassVar[Symbol] = Symbol(
         space=(
             RING,
@@ -228,9 +224,6 @@ class Spherical(LocatedJoint):
 
     def equations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
         yield from together(first, second, drawn.at)
-
-    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
-        return mentioned_together(first, second, drawn.at, False)
 
 
 def _planar_rows(at: Kinematics) -> Iterator[VelocityRow]:
@@ -249,6 +242,7 @@ class Planar(Axial):
     facts: ClassVar[TypeFacts] = TypeFacts(
         _planar_rows, half_turns=True, joint=True, freedoms=("displacement_1", "displacement_2", "angle")
     )
+    mentions: ClassVar[Mentions] = "moving"
     symbol: ClassVar[Symbol] = Symbol(space=(plate(-0.15, 2.2), plate(0.15, 1.2, 1)))
 
     def geometry(self, world: World) -> JointGeometry:
@@ -260,7 +254,3 @@ class Planar(Axial):
         axis = drawn.axis
         yield from aligned(first, second, axis)
         yield Relation(shift(first, second, axis.vector)[0], part="distance", vector=axis.vector)
-
-    def mentioned(self, first: Frame, second: Frame, drawn: JointGeometry) -> frozenset[str] | None:
-        del drawn
-        return mentioned_by_moving(first, second)

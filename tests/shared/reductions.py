@@ -1,27 +1,21 @@
-"""What each reduction of `dofkit.relations.setting` saves: time and size of the model without one after another.
+"""Scenes for each reduction of the model, and the comparison of reports with and without one.
 
-The scenes grow by what one reduction leaves out; those of the catalog stand beside them.
+The scenes grow by what one reduction leaves out.
 """
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from dofkit.base.deadline import OutOfTimeError
-from dofkit.benchmark.record import ReductionCost
 from dofkit.classification.passes import Examined, examined
-from dofkit.relations.setting import ALL, REDUCTIONS, ReductionName, Reductions
+from dofkit.relations.setting import ReductionName, Reductions
 from dofkit.report import ConstraintEntry, Report
-from dofkit.scene.catalog import catalog_names
 from dofkit.scene.lowering import lower
 from dofkit.scene.reading import load
 
 Mapped = dict[str, Any]
 
-#: Seconds after which no new part of an answer is begun; times below `BRIEF` are the least of `REPEATS`.
-SECONDS, BRIEF, REPEATS = 10.0, 0.3, 3
 #: Fields that state how an answer was derived and how certain it is; of coordinates, one choice of many.
 NOT_COMPARED = (
     "verdict",
@@ -41,75 +35,27 @@ LISTS = ("redundant", "redundancies", "special_cases", "conflicting")
 
 
 class SceneFamily(NamedTuple):
-    """Scenes of any size that one reduction is for, in sizes for a quick run and for a whole one."""
+    """Scenes of any size that one reduction is for, and the size at which they are compared."""
 
     scene: Callable[[int], Mapped]
-    quick: int
-    whole: tuple[int, ...]
-
-
-class AblatedScene(NamedTuple):
-    """A scene as `dofkit.load` takes it, with its family and size."""
-
-    name: str
-    family: str
     size: int
-    source: Mapped | str
 
 
-def ablation(quick: bool = False) -> Iterator[ReductionCost]:
-    """Yield a row for every scene and every reduction that may matter: its own family's; all for the catalog."""
-    for family, made in SCENES.items():
-        for size in (made.quick,) if quick else made.whole:
-            yield from costs(AblatedScene(f"{family}-{size}", family, size, made.scene(size)), (family,))
-    for name in catalog_names()[:: 6 if quick else 1]:
-        yield from costs(AblatedScene(name, "catalog", 1, name), tuple(REDUCTIONS), 2)
+def study_of(source: Mapped | str, reductions: Reductions) -> Examined:
+    """Return the answer with some reductions in use."""
+    return examined(lower(load(source)), 60.0, reductions=reductions)
 
 
-def costs(scene: AblatedScene, without: tuple[ReductionName, ...], repeats: int = REPEATS) -> Iterator[ReductionCost]:
-    """Yield the costs with all reductions, then without each of some; a first run is not measured: a warm start."""
-    timed_study(scene.source, ALL, 1)
-    full, seconds = timed_study(scene.source, ALL, repeats)
-    yield _cost(scene, "", full, seconds, [])
-    for off in without:
-        study, seconds = timed_study(scene.source, ALL - {off}, repeats)
-        changed = [] if study is None or full is None else differences(full.report, study.report)
-        yield _cost(scene, off, study, seconds, changed)
-
-
-def timed_study(source: Mapped | str, reductions: Reductions, repeats: int = REPEATS) -> tuple[Examined | None, float]:
-    """Return the answer and its processor time; None where it ran out of time."""
-    best = float("inf")
-    for _ in range(repeats):
-        begin = time.thread_time()
-        try:
-            study = examined(lower(load(source)), SECONDS, reductions=reductions)
-        except OutOfTimeError:
-            return None, time.thread_time() - begin
-        best = min(best, time.thread_time() - begin)
-        if best > BRIEF:
-            break
-    return study, best
-
-
-def _cost(scene: AblatedScene, off: str, study: Examined | None, seconds: float, changed: list[str]) -> ReductionCost:
-    sizes = [] if study is None else [a.size for a in study.outcome.answers]
-    return ReductionCost(
-        scene=scene.name,
-        family=scene.family,
-        size=scene.size,
-        off=off,
-        seconds=seconds,
-        coordinates=sum(s.coordinates for s in sizes),
-        relations=sum(s.relations for s in sizes),
-        forms=sum(s.forms for s in sizes),
-        largest=max((s.coordinates for s in sizes), default=0),
-        written=0 if study is None else len(study.system.coordinates),
-        followed=0 if study is None else sum(a.looked.coordinates for a in study.outcome.answers),
-        unchanged=not changed,
-        undecided=study is None or (study.report.dof is None and study.report.consistent is not False),
-        differs=changed,
-    )
+def model_sizes(study: Examined) -> dict[str, int]:
+    """Return the size of the model that was computed with: coordinates, equations, forms, the largest block, ..."""
+    sizes = [a.size for a in study.outcome.answers]
+    return {
+        "coordinates": sum(s.coordinates for s in sizes),
+        "relations": sum(s.relations for s in sizes),
+        "forms": sum(s.forms for s in sizes),
+        "largest": max((s.coordinates for s in sizes), default=0),
+        "followed": sum(a.looked.coordinates for a in study.outcome.answers),
+    }
 
 
 def differences(full: Report, other: Report) -> list[str]:
@@ -254,16 +200,16 @@ def _cheapest(n: int) -> Mapped:
 
 
 SCENES: Mapping[ReductionName, SceneFamily] = {
-    "untouched": SceneFamily(_untouched, 32, (8, 16, 32, 64)),
-    "blocks": SceneFamily(_blocks, 8, (2, 4, 8, 16, 32)),
-    "twins": SceneFamily(_twins, 32, (8, 16, 32, 64)),
-    "copies": SceneFamily(_copies, 6, (3, 6, 12, 24)),
-    "still": SceneFamily(_still, 6, (3, 6, 12, 24)),
-    "welds": SceneFamily(_welds, 8, (4, 8, 16, 32)),
-    "clusters": SceneFamily(_clusters, 12, (6, 12, 24, 48)),
-    "eliminations": SceneFamily(_eliminations, 8, (4, 8, 16)),
-    "bridges": SceneFamily(_bridges, 6, (4, 8, 16, 32)),
-    "classes": SceneFamily(_classes, 8, (4, 8, 16, 32)),
-    "closed": SceneFamily(_closed, 6, (4, 6, 8, 12)),
-    "cheapest": SceneFamily(_cheapest, 16, (8, 16, 32, 64)),
+    "untouched": SceneFamily(_untouched, 32),
+    "blocks": SceneFamily(_blocks, 8),
+    "twins": SceneFamily(_twins, 32),
+    "copies": SceneFamily(_copies, 6),
+    "still": SceneFamily(_still, 6),
+    "welds": SceneFamily(_welds, 8),
+    "clusters": SceneFamily(_clusters, 12),
+    "eliminations": SceneFamily(_eliminations, 8),
+    "bridges": SceneFamily(_bridges, 6),
+    "classes": SceneFamily(_classes, 8),
+    "closed": SceneFamily(_closed, 6),
+    "cheapest": SceneFamily(_cheapest, 16),
 }
