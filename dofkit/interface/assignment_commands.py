@@ -117,7 +117,7 @@ def vary(
 
 def drawing() -> Callable[[Any, Any, str], str | None]:
     """Return the function that draws a scene for a handout."""
-    from dofkit.pictures.unanswered import unanswered
+    from dofkit.pictures.still import unanswered
 
     def draw(scene: Any, report: Any, title: str) -> str | None:
         picture = unanswered(scene, report, title)

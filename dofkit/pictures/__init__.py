@@ -1,18 +1,18 @@
 """Pictures: how does a mechanism look, how does it move, and what do its constraints allow?
 
 Pictures read a scene and its report, and never decide anything. `still` has `draw`, `graph` and `phase`; `animation`
-has `animate`. Pages (`player`) play and turn by one script of their own and fetch nothing; png, pdf, gif and mp4 need
-matplotlib (`raster`), svg does not (`vector`).
+has `animate`. Pages (`player`, `player.js`) play and rotate by a script of their own and fetch nothing; png, pdf, gif
+and mp4 need matplotlib, svg does not (`files`).
 
-From a scene to a file
-    1. `arrangement` chooses where everything stands: the reference configuration, or places that satisfy the
-       equations. `evaluation` computes expressions in floating point, `rates` the instantaneous motions.
-    2. `stage` collects what is known before drawing, `states` what the report says of each constraint, as colours and
-       words.
-    3. A sketch is made of `shapes`: of a `mechanism` (with `bodies`, `symbols` of joints and `runs` of strings, gears
-       and wheels), of `coordinates` without bodies (with `loci` and `fields`), of `directions` that brackets add, or
-       a `constraint_graph`. `unanswered` draws a scene for the person who has to find the answer.
-    4. `views` projects it; `layout` puts it on `paper` with a scale, labels, legend and title; `outlines` are hulls
-       and springs; `looks` are colours that the colour-blind can tell apart, each with a pattern.
-    5. `motion` makes frames; `alternative` says in words what is drawn.
+From a scene to a file, in this order
+    1. Positions: `arrangement` takes those of the reference configuration, or some that satisfy the equations, by
+       Newton's method; it also has the infinitesimal motions, the null space of the Jacobian (`evaluation`). `stage`
+       adds the places and sizes of symbols, `words` what the report says of each constraint.
+    2. Shapes: a `Sketch` is made of `shapes` that bodies and particles carry. There are four kinds: a `mechanism`
+       (with `joints` and the `loci` of equations), the set of up to three `coordinates`, the `directions` that
+       brackets add, and the `constraint_graph`.
+    3. Motion: frames are the same shapes with other poses (`motion`): a sampled finite motion, or each infinitesimal
+       one on its own.
+    4. Paper: `paper` projects shapes and has their outlines, `layout` chooses the scale and where names stand, and
+       adds title, legend, axes and notes; the marks are written as SVG or drawn by matplotlib.
 """

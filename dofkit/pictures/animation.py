@@ -1,4 +1,4 @@
-"""Moving pictures of scenes, and the door to them: `animate`."""
+"""Moving pictures of scenes: `animate`."""
 
 from __future__ import annotations
 
@@ -7,20 +7,19 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from dofkit.methods.classify import classify
 from dofkit.pictures.coordinates import MOST, gauge_sketch, is_bare
+from dofkit.pictures.files import ExtraMissingError, draw_marks, figure_of, require_matplotlib, saved
 from dofkit.pictures.layout import page_of, standpoint_of
 from dofkit.pictures.motion import clips_of
 from dofkit.pictures.paper import Page
 from dofkit.pictures.player import framed, page_height, page_html
-from dofkit.pictures.raster import ExtraMissingError, draw_marks, figure_of, require_matplotlib
 from dofkit.pictures.shapes import Clip, Sketch
-from dofkit.pictures.states import can_hold
-from dofkit.pictures.still import Picture, saved, staged, whole_sketch
+from dofkit.pictures.still import staged, whole_sketch, with_report
+from dofkit.pictures.words import can_hold
 from dofkit.report import Report
-from dofkit.scene.reading import SceneLike, load
+from dofkit.scene.reading import SceneLike
 
-#: Frames by second, and dots by inch of films.
+#: Frames per second, and dots per inch of films.
 RATE, DOTS = 20, 100
 NO_FFMPEG = "an mp4 needs the program ffmpeg, which is not on the path: install it, or save a gif or html"
 STILL, NOT_SHOWN = "Nothing moves.", "No motion was found that could be shown."
@@ -30,7 +29,7 @@ STILL, NOT_SHOWN = "Nothing moves.", "No motion was found that could be shown."
 class Animation:
     """A moving picture; a notebook shows it with a slider and a button that plays it.
 
-    ``clips`` are its motions: a finite one that was sampled, where there is one, and free ones to first order.
+    ``clips`` are its motions: a finite one that was sampled, if there is one, and infinitesimal ones.
     """
 
     sketch: Sketch
@@ -45,25 +44,25 @@ class Animation:
         return self.sketch.alternative
 
     def html(self) -> str:
-        """A page of its own that needs no network: a slider, a button, and a choice of motions."""
+        """Return a page that needs no network: a slider, a button, and a choice of motions."""
         return page_html(self.sketch, self.clips)
 
     def pages(self) -> Iterator[Page]:
-        """Every frame on paper, one motion after another; what does not close up goes there and back."""
+        """Yield every frame on paper, one motion after another; a motion that is not closed goes there and back."""
         every = [frame for clip in self.clips for frame in clip.frames]
         standpoint = standpoint_of(self.sketch, every)
         if not every:
             yield page_of(self.sketch)
         for clip in self.clips:
-            told = replace(self.sketch, answer=f"{self.sketch.answer}; {clip.name}")
+            sketch = replace(self.sketch, answer=f"{self.sketch.answer}; {clip.name}")
             back = () if clip.closed else clip.frames[-2:0:-1]
             for frame in (*clip.frames, *back):
-                yield page_of(told, frame, standpoint)
+                yield page_of(sketch, frame, standpoint)
 
     def save(self, path: str | Path) -> Path:
-        """Write it as html, gif or mp4, by the path's ending; as svg, png or pdf it stands still.
+        """Write it as html, gif or mp4, by the path's ending.
 
-        Raises ArgumentError for any other ending, ExtraMissingError where matplotlib or ffmpeg is missing, OSError.
+        Raises ArgumentError for any other ending, ExtraMissingError if matplotlib or ffmpeg is missing, OSError.
         """
         return saved(self, path, _WRITERS)
 
@@ -96,19 +95,14 @@ def animate(scene: SceneLike, report: Report | None = None) -> Animation:
     >>> len(dofkit.animate("four-bar-linkage").clips)
     1
     """
-    given = load(scene)
-    told = classify(given) if report is None else report
-    stage = staged(given, told)
+    loaded, report = with_report(scene, report)
+    stage = staged(loaded, report)
     many = is_bare(stage.system) and len(stage.system.coordinates) > MOST
     sketch = gauge_sketch(stage) if many else whole_sketch(stage)[0]
     clips = tuple(clips_of(stage, sketch))
-    held = (told.velocity_dof == 0 and told.scleronomic) or not can_hold(told)
-    notes = sketch.notes if clips else (*sketch.notes, STILL if held else NOT_SHOWN)
+    immobile = (report.velocity_dof == 0 and report.scleronomic) or not can_hold(report)
+    notes = sketch.notes if clips else (*sketch.notes, STILL if immobile else NOT_SHOWN)
     return Animation(replace(sketch, notes=notes), clips)
-
-
-def _write_html(animation: Animation, path: Path) -> None:
-    path.write_text(animation.html(), encoding="utf-8")
 
 
 def _write_film(animation: Animation, path: Path, writer: Any) -> None:
@@ -119,8 +113,6 @@ def _write_film(animation: Animation, path: Path, writer: Any) -> None:
         writer.grab_frame()
         for page in pages:
             axes.clear()
-            axes.set_axis_off()
-            axes.set(xlim=(0, page.width), ylim=(0, page.height))
             draw_marks(axes, page)
             writer.grab_frame()
 
@@ -138,20 +130,13 @@ def _write_mp4(animation: Animation, path: Path) -> None:
 
     if not FFMpegWriter.isAvailable():
         raise ExtraMissingError(NO_FFMPEG)
-    told = {"title": animation.sketch.title, "comment": animation.alternative}
+    metadata = {"title": animation.sketch.title, "comment": animation.alternative}
     flags = ["-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2"]
-    _write_film(animation, path, FFMpegWriter(fps=RATE, metadata=told, extra_args=flags))
+    _write_film(animation, path, FFMpegWriter(fps=RATE, metadata=metadata, extra_args=flags))
 
 
-def _write_still(animation: Animation, path: Path) -> None:
-    Picture(animation.sketch).save(path)
-
-
-_WRITERS: Mapping[str, Callable[[Animation, Path], None]] = {
-    "html": _write_html,
+_WRITERS: Mapping[str, Callable[[Animation, Path], object]] = {
+    "html": lambda animation, path: path.write_text(animation.html(), encoding="utf-8"),
     "gif": _write_gif,
     "mp4": _write_mp4,
-    ".svg": _write_still,
-    ".png": _write_still,
-    ".pdf": _write_still,
 }

@@ -1,4 +1,7 @@
-"""Where everything stands: the drawing's own places, or some that meet the finite relations; for pictures only."""
+"""Where everything stands, and what can move from there; for pictures only.
+
+The positions are those of the reference configuration, or some that satisfy the holonomic equations.
+"""
 
 from __future__ import annotations
 
@@ -7,22 +10,25 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, pairwise
+from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
 
 from dofkit.base.errors import DofkitError
-from dofkit.expressions.tree import TIME, Expr, coordinate, parameter
+from dofkit.expressions.tree import DT, TIME, Expr, coordinate, differential, parameter, velocity
 from dofkit.motion.sampled.configurations import configurations
-from dofkit.pictures.evaluation import derivatives, evaluated, values_at, with_unit_rows
+from dofkit.pictures.evaluation import by_pivots, derivatives, evaluated, kernel, values_at, with_unit_rows
 from dofkit.pictures.shapes import AT_REST, Array, Displacement, Place, place
 from dofkit.system import GROUND, PARTICLE_ROLES, Coordinate, System
 
-#: Rounds of Newton's method, the residual that is as good as 0, and how many beginnings are tried.
+#: Rounds of Newton's method, the residual that counts as 0, and the number of starting points.
 ROUNDS, MET, STARTS = 60, 1e-9, 8
-#: More coordinates than this are not moved onto the relations.
+#: More coordinates than this are not moved onto the equations.
 MOST_COORDINATES = 400
-#: What carries the point that stands for the configuration, where there is nothing but coordinates.
+#: The least velocity, of a unit velocity, that counts as motion.
+MOVES = 1e-5
+#: What carries the point that stands for the configuration of a scene of coordinates.
 POINT = "configuration"
 EXAMPLES = "The scene gives no positions: those drawn are examples."
 CHOSEN = "The scene gives no positions: those drawn were chosen to satisfy its constraints."
@@ -31,7 +37,7 @@ SCHEMATIC = "Schematic: no positions were found that satisfy all constraints."
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Numbers for all symbols of a system; ``note`` says where the places are from, ``met`` whether they are right."""
+    """Numbers for all symbols of a system; ``note`` says where they come from, ``met`` whether they satisfy it."""
 
     system: System
     numbers: Mapping[Expr, float]
@@ -40,72 +46,67 @@ class Arrangement:
 
     @cached_property
     def poses(self) -> dict[str, Displacement]:
-        """Where everything that carries something is."""
+        """Where every carrier is."""
         return poses_of(self.system, self.numbers, gibbs=True)
 
     def number(self, e: Expr) -> float:
-        """The value of an expression."""
-        found = float(evaluated(e, self.numbers))
-        return found if math.isfinite(found) else 0.0
+        """Return the value of an expression."""
+        value = float(evaluated(e, self.numbers))
+        return value if math.isfinite(value) else 0.0
 
     def point(self, at: Sequence[Expr]) -> Place:
-        """A given place of the drawing."""
+        """Return a point of the reference configuration."""
         return place([self.number(e) for e in at])
 
 
 def finite_relations(system: System, senses: Sequence[str] = ("=",)) -> list[Expr]:
-    """The relations between places alone, of some senses."""
-    told = (r for c in system.constraints for r in c.relations if r.sense in senses)
-    return [r.expr for r in told if all(s.args[0] in ("coordinate", "parameter", "time") for s in r.expr.symbols)]
+    """Return the relations between coordinates alone, of some senses."""
+    relations = (r for c in system.constraints for r in c.relations if r.sense in senses)
+    return [r.expr for r in relations if all(s.args[0] in ("coordinate", "parameter", "time") for s in r.expr.symbols)]
 
 
 def arrangement_of(system: System) -> Arrangement:
-    """The reference configuration; else places that meet the relations; else a schematic."""
+    """Return the reference configuration, else positions that satisfy the equations, else a schematic."""
     numbers: dict[Expr, float] = {parameter(p): 1.0 for p in (*system.parameters, *system.generic)} | {TIME: 0.0}
     if system.reference is not None:
-        return Arrangement(system, numbers | _known(system.reference, numbers), None, True)
+        return Arrangement(system, numbers | _finite_values(system.reference, numbers), None, True)
+    posed = _finite_values(system.pose, numbers)
     for seed in range(STARTS):
-        start = numbers | _start(system, seed) | _known(system.pose, numbers)
-        found = onto(system, start)
-        if found is not None:
-            free = not any(c.relations for c in system.constraints)
-            note = EXAMPLES if free else CHOSEN
-            return Arrangement(system, found, note, True)
+        solved = onto(system, numbers | _start(system, seed) | posed)
+        if solved is not None:
+            return Arrangement(
+                system, solved, CHOSEN if any(c.relations for c in system.constraints) else EXAMPLES, True
+            )
     try:
-        told = configurations(system, steps=0)[0]
+        sample = configurations(system, steps=0)[0]
     except DofkitError:
-        return Arrangement(system, numbers | _start(system, 0) | _known(system.pose, numbers), SCHEMATIC, False)
-    found = numbers | _symbols(system, told)
-    limits = values_at(finite_relations(system, (">=", ">")), found)
-    met = bool(np.all(limits >= -MET))
-    return Arrangement(system, found, CHOSEN if met else SCHEMATIC, met)
-
-
-def _known(given: Mapping[Expr, Expr], numbers: Mapping[Expr, float]) -> dict[Expr, float]:
-    return {s: v for s, e in given.items() if math.isfinite(v := float(evaluated(e, numbers)))}
-
-
-def _symbols(system: System, told: Mapping[str, float]) -> dict[Expr, float]:
-    """A configuration that was told, by its symbols; a body in the Gibbs chart is left as it is drawn."""
+        return Arrangement(system, numbers | _start(system, 0) | posed, SCHEMATIC, False)
+    # a body whose rotation is in the Gibbs chart stays as the reference configuration has it
     names = {c.name for c in system.coordinates} - {n for r in system.rotations for n in r.names}
-    return {(coordinate if n in names else parameter)(n): v for n, v in told.items()}
+    numbers |= {(coordinate if n in names else parameter)(n): v for n, v in sample.items()}
+    met = bool(np.all(values_at(finite_relations(system, (">=", ">")), numbers) >= -MET))
+    return Arrangement(system, numbers, CHOSEN if met else SCHEMATIC, met)
+
+
+def _finite_values(exprs: Mapping[Expr, Expr], numbers: Mapping[Expr, float]) -> dict[Expr, float]:
+    return {s: v for s, e in exprs.items() if math.isfinite(v := float(evaluated(e, numbers)))}
 
 
 def onto(system: System, numbers: Mapping[Expr, float]) -> dict[Expr, float] | None:
-    """Nearby numbers for coordinates and generic lengths at which the finite relations hold; None if not found."""
-    held, limits = finite_relations(system), finite_relations(system, (">=", ">"))
+    """Return nearby numbers for coordinates and generic lengths that satisfy the equations, or None."""
+    equations, limits = finite_relations(system), finite_relations(system, (">=", ">"))
     moving = [*(coordinate(c.name) for c in system.coordinates), *map(parameter, system.generic)]
     now = dict(numbers)
     if len(moving) > MOST_COORDINATES:
         return None
     for _ in range(ROUNDS):
-        broken = [e for e in limits if float(evaluated(e, now)) < 0]
-        wrong = values_at([*held, *broken], now)
-        rows = derivatives([*held, *broken], moving, now)
+        active = [*equations, *(e for e in limits if float(evaluated(e, now)) < 0)]
+        residuals = values_at(active, now)
+        rows = derivatives(active, moving, now)
         size = np.linalg.norm(rows, axis=1)
-        if not np.all(np.isfinite(wrong)) or not np.all(np.isfinite(rows)):
+        if not np.all(np.isfinite(residuals)) or not np.all(np.isfinite(rows)):
             return None
-        gap = wrong / np.where(size > 1e-9, size, 1.0)
+        gap = residuals / np.where(size > 1e-9, size, 1.0)
         if not gap.size or float(np.max(np.abs(gap))) < MET:
             return now
         step = -np.linalg.lstsq(with_unit_rows(rows), gap, rcond=1e-9)[0]
@@ -115,24 +116,22 @@ def onto(system: System, numbers: Mapping[Expr, float]) -> dict[Expr, float] | N
 
 
 def _start(system: System, seed: int) -> dict[Expr, float]:
-    """Places to begin from: particles hang in a chain or stand as their links say; all else is a little off 0."""
+    """Return starting values: particles hang in a chain or stand as their links say; all others are a little off 0."""
     rng = np.random.default_rng(seed)
-    found = {coordinate(c.name): 0.6 - 0.2 * (k % 3) for k, c in enumerate(system.coordinates) if c.owner is None}
+    values = {coordinate(c.name): 0.6 - 0.2 * (k % 3) for k, c in enumerate(system.coordinates) if c.owner is None}
     for r in system.rotations:
         if r.chart == "euler":
-            angles = (0.4, 0.7, 0.2)
-            found |= {coordinate(n): a for n, a in zip(r.names, angles, strict=True)}
-    spots = _spots(system)
-    for name, spot in spots.items():
-        own = [c.name for c in system.coordinates if c.owner == name]
-        found |= {coordinate(n): float(v) for n, v in zip(own, spot, strict=False)}
+            values |= {coordinate(n): a for n, a in zip(r.names, (0.4, 0.7, 0.2), strict=True)}
+    for name, spot in _spots(system).items():
+        names = [c.name for c in system.coordinates if c.owner == name]
+        values |= {coordinate(n): float(v) for n, v in zip(names, spot, strict=False)}
     if seed:
-        found = {s: v + 0.5 * float(rng.standard_normal()) for s, v in found.items()}
-    return found
+        values = {s: v + 0.5 * float(rng.standard_normal()) for s, v in values.items()}
+    return values
 
 
 def _spots(system: System) -> dict[str, Array]:
-    """Where particles that nothing places are put."""
+    """Return positions for particles that have none."""
     d = len(PARTICLE_ROLES[system.dimension])
     graph, fixed = _links(system)
     if not system.particles:
@@ -152,7 +151,7 @@ def _spots(system: System) -> dict[str, Array]:
 
 
 def _links(system: System) -> tuple[nx.Graph, dict[str, list[float]]]:
-    """Particles and fixed points, joined where a constraint runs between them; and where the fixed ones are."""
+    """Return the graph of particles and fixed points that constraints connect, and where the fixed ones are."""
     graph = nx.Graph()
     graph.add_nodes_from(system.particles)
     fixed: dict[str, list[float]] = {}
@@ -173,59 +172,58 @@ def _links(system: System) -> tuple[nx.Graph, dict[str, list[float]]]:
 
 
 def _hanging(graph: nx.Graph, fixed: Mapping[str, Sequence[float]], d: int) -> dict[str, Array]:
-    """Chains that hang from fixed points, each next particle lower and to one side."""
+    """Return chains that hang from fixed points, each particle lower than the one before and to one side."""
     down = np.array([0.45, -0.9]) if d == 2 else np.array([0.45, 0.3, -0.85])
-    found: dict[str, Array] = {n: np.array(p, dtype=float) for n, p in fixed.items()}
+    spots: dict[str, Array] = {n: np.array(p, dtype=float) for n, p in fixed.items()}
     for root in [*fixed, *graph]:
-        found.setdefault(root, np.array([1.0 + 0.8 * len(found)] + [0.0] * (d - 1)))
+        spots.setdefault(root, np.array([1.0 + 0.8 * len(spots)] + [0.0] * (d - 1)))
         for parent, child in nx.bfs_edges(graph, root):
-            tilt = np.array([(-1.0) ** len(found), *[1.0] * (d - 1)])
-            found.setdefault(child, found[parent] + down * tilt)
-    return {n: p for n, p in found.items() if n not in fixed}
+            tilt = np.array([(-1.0) ** len(spots), *[1.0] * (d - 1)])
+            spots.setdefault(child, spots[parent] + down * tilt)
+    return {n: p for n, p in spots.items() if n not in fixed}
+
+
+# Poses
 
 
 def poses_of(system: System, numbers: Mapping[Expr, float], *, gibbs: bool) -> dict[str, Displacement]:
-    """Where everything is; ``gibbs``: turns of spatial bodies are in the system's own charts, else Euler's angles."""
-    found = {GROUND: AT_REST}
+    """Return where every carrier is; ``gibbs``: rotations are in the system's own charts, not Euler's angles."""
+    poses = {GROUND: AT_REST}
     rotations = {r.body: r for r in system.rotations}
     owned: dict[str | None, list[Coordinate]] = {}
     for c in system.coordinates:
         owned.setdefault(c.owner, []).append(c)
+
+    def values(coordinates: Sequence[Coordinate]) -> list[float]:
+        return [float(numbers.get(coordinate(c.name), 0.0)) for c in coordinates]
+
     for body in system.bodies:
-        own = owned[body]
-        told = [float(numbers.get(coordinate(c.name), 0.0)) for c in own]
+        at = values(owned[body])
         start = np.array(place([float(evaluated(e, numbers)) for e in system.starts[body]]))
         turn = np.eye(3)
         if system.dimension == 2:
-            names = system.pose.get(coordinate(own[-1].name))
-            turn = about(2, told[-1] - (float(evaluated(names, numbers)) if names is not None else 0.0))
+            initial = system.pose.get(coordinate(owned[body][-1].name))
+            turn = about(2, at[-1] - (float(evaluated(initial, numbers)) if initial is not None else 0.0))
         elif system.dimension == 3 and body in rotations:
             r = rotations[body]
-            initial = [float(evaluated(e, numbers)) for e in r.initial]
             if gibbs and r.chart == "gibbs":
-                turn = _from_gibbs(np.array(told[3:]))
+                turn = _from_gibbs(np.array(at[3:]))
             else:
-                turn = _from_euler(told[3:]) @ _from_euler(initial).T
-        origin = np.array(place(told[: system.dimension]))
-        found[body] = Displacement(turn, origin - turn @ start)
+                turn = _from_euler(at[3:]) @ _from_euler([float(evaluated(e, numbers)) for e in r.initial]).T
+        poses[body] = Displacement(turn, np.array(place(at[: system.dimension])) - turn @ start)
+    carried: dict[str, Sequence[Coordinate]] = {particle: owned[particle] for particle in system.particles}
     if not system.bodies and not system.particles:
-        told = [numbers.get(coordinate(c.name), 0.0) for c in system.coordinates[:3]]
-        found[POINT] = Displacement(np.eye(3), np.array(place(told)))
-        for c in system.coordinates:
-            found[c.name] = Displacement(np.eye(3), np.array(place([numbers.get(coordinate(c.name), 0.0)])))
-    for particle in system.particles:
-        own = owned[particle]
-        found[particle] = Displacement(np.eye(3), np.array(place([numbers.get(coordinate(c.name), 0.0) for c in own])))
-    return found
+        carried = {POINT: system.coordinates[:3], **{c.name: (c,) for c in system.coordinates}}
+    return poses | {name: Displacement(np.eye(3), np.array(place(values(cs)))) for name, cs in carried.items()}
 
 
 def about(axis: int, angle: float) -> Array:
-    """The rotation about a coordinate axis."""
+    """Return the rotation about a coordinate axis."""
     c, s = math.cos(angle), math.sin(angle)
     i, j = [(1, 2), (2, 0), (0, 1)][axis]
-    found = np.eye(3)
-    found[i, i], found[i, j], found[j, i], found[j, j] = c, -s, s, c
-    return found
+    turn = np.eye(3)
+    turn[i, i], turn[i, j], turn[j, i], turn[j, j] = c, -s, s, c
+    return turn
 
 
 def _from_euler(angles: Sequence[float]) -> Array:
@@ -236,3 +234,79 @@ def _from_euler(angles: Sequence[float]) -> Array:
 def _from_gibbs(g: Array) -> Array:
     cross = np.array([[0, -g[2], g[1]], [g[2], 0, -g[0]], [-g[1], g[0], 0]])
     return np.asarray(np.eye(3) + 2 * (cross + cross @ cross) / (1 + g @ g))
+
+
+# Infinitesimal motions
+
+
+class FreeMotion(NamedTuple):
+    """A velocity that the constraints allow: ``rates`` of symbols; ``name`` of the coordinate that it moves alone."""
+
+    name: str
+    rates: Mapping[Expr, float]
+
+
+def free_motions(arrangement: Arrangement, chosen: Sequence[str] = (), freedom: int | None = None) -> list[FreeMotion]:
+    """Return independent infinitesimal motions; each moves one coordinate alone, of those ``chosen`` if possible.
+
+    ``freedom``: their number, if it is known and time does not occur. If time occurs, the first of them follows it:
+    what is driven moves with it.
+    """
+    rows, columns = velocity_rows(arrangement.system, arrangement.numbers)
+    timed = columns[-1:] == [TIME]
+    basis = kernel(rows, len(columns), None if timed else freedom)
+    names = [str(c.args[1]) for c in columns]
+    order = [names.index("t")] if timed else []
+    order += [names.index(n) for n in chosen if n in names]
+    order += [k for k in range(len(names)) if k not in order]
+    reduced, pivots = by_pivots(basis, order)
+    return [
+        FreeMotion(names[pivot], dict(zip(columns, map(float, row), strict=True)))
+        for row, pivot in zip(reduced, pivots, strict=False)
+    ]
+
+
+def velocity_rows(system: System, numbers: Mapping[Expr, float]) -> tuple[Array, list[Expr]]:
+    """Return linear equations of the velocities, and their columns: coordinates, then time if it occurs."""
+    columns = [coordinate(c.name) for c in system.coordinates]
+    finite = finite_relations(system)
+    others = [r.expr for c in system.constraints for r in c.relations if r.sense == "=" and r.expr not in set(finite)]
+    if any(TIME in e.symbols or DT in e.symbols for e in [*finite, *others]):
+        columns.append(TIME)
+    rates = [velocity(c.name) for c in system.coordinates]
+    forms = [differential(c.name) for c in system.coordinates]
+    rows = derivatives(others, rates, numbers) + derivatives(others, forms, numbers)
+    if columns[-1:] == [TIME]:
+        constant = derivatives(others, [DT], numbers) + values_at(others, numbers).reshape(-1, 1)
+        rows = np.hstack([rows, np.nan_to_num(constant)])
+    return np.vstack([derivatives(finite, columns, numbers), rows]), columns
+
+
+def is_linear(arrangement: Arrangement) -> bool:
+    """Return whether all relations with velocities are linear in them, as far as two velocities show."""
+    system = arrangement.system
+    rates = [velocity(c.name) for c in system.coordinates]
+    written = [r.expr for c in system.constraints for r in c.relations if r.expr.symbols & set(rates)]
+    if not written:
+        return True
+    random = np.random.default_rng(1)
+    at_rest = derivatives(written, rates, arrangement.numbers)
+    moving = {rate: float(random.standard_normal()) for rate in rates}
+    return bool(np.allclose(derivatives(written, rates, {**arrangement.numbers, **moving}), at_rest, atol=1e-5))
+
+
+def movers(arrangement: Arrangement, motions: Sequence[FreeMotion]) -> frozenset[str]:
+    """Return the bodies and particles that some motion moves."""
+    moving: set[str] = set()
+    for motion in motions:
+        for name, pose in displaced(arrangement, motion, 1e-3).items():
+            here = arrangement.poses[name]
+            if np.linalg.norm(pose.turn - here.turn) + np.linalg.norm(pose.shift - here.shift) > 1e-3 * MOVES:
+                moving.add(name)
+    return frozenset(moving)
+
+
+def displaced(arrangement: Arrangement, motion: FreeMotion, far: float) -> dict[str, Displacement]:
+    """Return where every carrier is after a step along a motion."""
+    moved = {s: arrangement.numbers.get(s, 0.0) + far * rate for s, rate in motion.rates.items()}
+    return poses_of(arrangement.system, {**arrangement.numbers, **moved}, gibbs=True)

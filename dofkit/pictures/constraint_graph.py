@@ -1,43 +1,43 @@
-"""Constraints and what they hold as a graph: redundant ones marked, circuits lit where one points at them."""
+"""The constraint graph: redundant constraints are marked, and circuits highlighted when one is pointed at."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
+from importlib.resources import files
+from typing import Literal
 
 import networkx as nx
 import numpy as np
 
-from dofkit.pictures.alternative import alternative, answer
-from dofkit.pictures.shapes import AT_REST, Place, Shape, Sketch, State, Vertex, place
-from dofkit.pictures.states import meanings, state_of, sure
+from dofkit.pictures.shapes import AT_REST, SQUARE, Place, Shape, Sketch, fixed, place
+from dofkit.pictures.words import alternative, answer, meanings, state_of, sure
 from dofkit.report import Report
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, Constraint, System
 
-#: More nodes than this are put on circles instead of being spread by springs.
-MOST_SPREAD = 450
-#: More nodes than this have no names.
-MOST_NAMES = 90
+#: More nodes than this are put on circles instead of being spread by springs; more than the second have no names.
+MOST_SPREAD, MOST_NAMES = 450, 90
+#: The number of circuits that stand below, and of the members of each.
+MOST_CIRCUITS, MOST_MEMBERS = 3, 12
 WHAT = "Constraint graph: dots are bodies, particles and coordinates; boxes are constraints."
+#: ("thing", name of a body, particle or coordinate), or ("constraint", name).
+Node = tuple[str, str]
 
 
 def graph_sketch(scene: Scene, system: System, report: Report, reason: str | None = None) -> Sketch:
-    """The graph of a scene: what moves as dots, constraints as boxes, a line from each to all that it mentions."""
+    """Return the graph of a scene: carriers as dots, constraints as boxes, a line to all that each mentions."""
     graph = constraint_graph(system)
     spots = _spots(graph)
     unit = 0.16 / max(1.0, (len(graph) / 14) ** 0.5)
     shapes: list[Shape] = []
     for first, second in graph.edges:
         name = first[1] if first[0] == "constraint" else second[1]
-        ends = (Vertex(GROUND, spots[first]), Vertex(GROUND, spots[second]))
-        shapes.append(
-            Shape("line", ends, "axis" if state_of(report, name) == "plain" else "bar", state_of(report, name), name)
-        )
-    named = len(graph) <= MOST_NAMES
+        state = state_of(report, name)
+        role: Literal["axis", "bar"] = "axis" if state == "plain" else "bar"
+        shapes.append(Shape("line", fixed(spots[first], spots[second]), role, state, name))
     for node in graph:
-        shapes += _node(report, node, spots[node], unit, named)
-    notes = [] if reason is None else [reason]
+        shapes += _node(report, node, spots[node], unit, len(graph) <= MOST_NAMES)
     return Sketch(
         title=f"{scene.title or scene.name}: constraint graph",
         dimension=2,
@@ -46,18 +46,14 @@ def graph_sketch(scene: Scene, system: System, report: Report, reason: str | Non
         size=2.0,
         answer=answer(report),
         alternative=f"{alternative(scene, report)} {WHAT}",
-        notes=(*notes, *_circuits_told(report)),
+        notes=(*(() if reason is None else (reason,)), *_circuit_notes(report)),
         meanings=meanings(report, looked=False),
         axes=(),
     )
 
 
-#: ("body", name) and the like, or ("constraint", name).
-_Node = tuple[str, str]
-
-
 def constraint_graph(system: System) -> nx.Graph:
-    """Owners, free coordinates and the ground, joined to the constraints that mention them."""
+    """Return carriers, free coordinates and the ground, joined to the constraints that mention them."""
     graph = nx.Graph()
     graph.add_nodes_from(("thing", n) for n in (*system.bodies, *system.particles))
     graph.add_nodes_from(("thing", c.name) for c in system.coordinates if c.owner is None)
@@ -69,14 +65,14 @@ def constraint_graph(system: System) -> nx.Graph:
 
 
 def _mentioned(system: System, constraint: Constraint) -> Iterator[str]:
-    """The owners, or else the names, of the coordinates in a constraint's relations."""
-    named = {s.args[1] for r in constraint.relations for s in r.expr.symbols}
+    """Yield the owners, or else the names, of the coordinates in a constraint's relations."""
+    names = {s.args[1] for r in constraint.relations for s in r.expr.symbols}
     for c in system.coordinates:
-        if c.name in named:
+        if c.name in names:
             yield c.owner or c.name
 
 
-def _spots(graph: nx.Graph) -> dict[_Node, Place]:
+def _spots(graph: nx.Graph) -> dict[Node, Place]:
     if len(graph) > MOST_SPREAD:
         laid = nx.circular_layout(graph)
     elif len(graph) < 3:
@@ -87,55 +83,35 @@ def _spots(graph: nx.Graph) -> dict[_Node, Place]:
     return {n: place(np.asarray(p) * np.array([1.25, 1.0])) for n, p in laid.items()}
 
 
-def _node(report: Report, node: _Node, spot: Place, unit: float, named: bool) -> Iterator[Shape]:
+def _node(report: Report, node: Node, spot: Place, unit: float, named: bool) -> Iterator[Shape]:
     kind, name = node
-    vertex = (Vertex(GROUND, spot),)
+    state = state_of(report, name) if kind == "constraint" else "plain"
     if kind == "thing":
-        yield Shape("ball", vertex, "ground" if name == GROUND else "node", owner=name, size=0.4 * unit)
-        state: State = "plain"
+        yield Shape("ball", fixed(spot), "ground" if name == GROUND else "node", owner=name, size=0.4 * unit)
     else:
-        state = state_of(report, name)
-        corners = ((-1, -1), (1, -1), (1, 1), (-1, 1))
-        rim = tuple(Vertex(GROUND, (spot[0] + 0.32 * unit * x, spot[1] + 0.32 * unit * y, 0.0)) for x, y in corners)
-        yield Shape("area", rim, "joint", state, name)
+        rim = ((spot[0] + 0.32 * unit * x, spot[1] + 0.32 * unit * y) for x, y in SQUARE)
+        yield Shape("area", fixed(*rim), "joint", state, name)
     if named:
-        yield Shape("words", vertex, "name", state, name, text=name)
+        yield Shape("words", fixed(spot), "name", state, name, text=name)
 
 
 def circuits_of(report: Report) -> Mapping[str, list[str]]:
-    """Each redundant constraint with those that it depends on."""
+    """Return each redundant constraint with those that it depends on."""
     return {entry.name: [entry.name, *entry.circuit] for entry in report.constraints if entry.circuit}
 
 
-def _circuits_told(report: Report) -> Iterator[str]:
+def _circuit_notes(report: Report) -> Iterator[str]:
     circuits = circuits_of(report)
-    for name, members in list(circuits.items())[:3]:
-        others = " and others" if len(members) > 13 else ""
-        yield f"{name} depends on {', '.join(members[1:13])}{others}{sure(report, 'redundant')}."
-    if len(circuits) > 3:
-        yield f"There are {len(circuits) - 3} more circuits: point at a constraint to highlight its own."
+    for name, (_, *members) in list(circuits.items())[:MOST_CIRCUITS]:
+        others = " and others" if len(members) > MOST_MEMBERS else ""
+        yield f"{name} depends on {', '.join(members[:MOST_MEMBERS])}{others}{sure(report, 'redundant')}."
+    if len(circuits) > MOST_CIRCUITS:
+        more = len(circuits) - MOST_CIRCUITS
+        yield f"There are {more} more circuits: point at a constraint to highlight its own."
 
 
 def hover_script(report: Report) -> str:
-    """What lights a circuit, as a script of the SVG."""
-    told = json.dumps(circuits_of(report), ensure_ascii=True).replace("<", "\\u003c")
-    return f"""(function () {{
-  var circuits = {told};
-  var root = document.currentScript ? document.currentScript.closest("svg") : document.documentElement;
-  var parts = root.querySelectorAll("[data-owner]");
-  function light(names) {{
-    parts.forEach(function (part) {{
-      var lit = !names || names.indexOf(part.getAttribute("data-owner")) >= 0;
-      part.style.opacity = lit ? "" : "0.15";
-    }});
-  }}
-  function circuit(name) {{
-    if (circuits[name]) {{ return circuits[name]; }}
-    for (var key in circuits) {{ if (circuits[key].indexOf(name) >= 0) {{ return circuits[key]; }} }}
-    return null;
-  }}
-  parts.forEach(function (part) {{
-    part.addEventListener("mouseenter", function () {{ light(circuit(part.getAttribute("data-owner"))); }});
-    part.addEventListener("mouseleave", function () {{ light(null); }});
-  }});
-}})();"""
+    """Return the script of the SVG that highlights a circuit."""
+    circuits = json.dumps(circuits_of(report), ensure_ascii=True).replace("<", "\\u003c")
+    script = (files("dofkit.pictures") / "graph.js").read_text(encoding="utf-8").rstrip()
+    return script.replace("@circuits@", circuits)

@@ -1,48 +1,131 @@
-"""The directions that forms allow, and those that their brackets add: a growth vector, in up to three coordinates."""
+"""The directions that differential constraints allow at each point, and those that their brackets add."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 
 from dofkit.base.errors import DofkitError
-from dofkit.pictures.alternative import alternative, answer
-from dofkit.pictures.fields import Distribution, element, elements
+from dofkit.expressions.tree import TIME, Expr, coordinate
+from dofkit.pictures.arrangement import Arrangement, is_linear, velocity_rows
+from dofkit.pictures.evaluation import kernel
 from dofkit.pictures.mechanism import notes_of
-from dofkit.pictures.rates import is_linear
-from dofkit.pictures.shapes import AT_REST, Array, Role, Shape, Sketch, Vertex, place
+from dofkit.pictures.shapes import AT_REST, Array, Role, Shape, Sketch, circle, fixed, place
 from dofkit.pictures.stage import StagedScene
-from dofkit.pictures.states import sure
+from dofkit.pictures.words import alternative, answer, sure
 from dofkit.report import Report
 from dofkit.system import GROUND
 
+#: Elements of a field along each direction, in the plane and in space; corners of an element.
+PLANE, SPACE, CORNERS = 11, (5, 5, 3), 12
 #: Half of the box that is shown, the length of directions, the step of brackets, and the sides of their square.
 HALF, LONG, STEP, SIDE = 1.2, 0.75, 1e-3, 0.55
-#: What counts as a new direction, and steps of a path.
-NEW, PARTS = 2e-2, 16
-#: Brackets of brackets are looked for so deep.
-DEEPEST = 4
+#: The least sine of the angle of a new direction, steps of a path, and the depth of brackets.
+NEW, PARTS, DEEPEST = 2e-2, 16, 4
 
-
-_Field = Callable[[Array], Array]
+Field = Callable[[Array], Array]
 
 
 class NoFormsError(DofkitError):
-    """A picture of directions was asked of a scene whose constraints are all finite, or which has one coordinate."""
+    """A picture of directions was asked of a scene without differential constraints, or with one coordinate."""
 
 
 class Direction3(NamedTuple):
-    """A vector at the first configuration, and the brackets that give it; ``order``: how many fields it takes."""
+    """A vector at the first configuration, and the brackets that give it; ``order``: the number of their fields."""
 
     name: str
     vector: Array
     order: int
 
 
+class Distribution:
+    """The directions that all constraints allow at a point, as smooth vector fields near one.
+
+    ``names`` are the coordinates, in order. ``fields`` is the number of independent fields there. ``timed``: whether
+    time occurs; it is fixed.
+    """
+
+    def __init__(self, arrangement: Arrangement) -> None:
+        self.arrangement = arrangement
+        self.names = [c.name for c in arrangement.system.coordinates]
+        self.symbols = [coordinate(n) for n in self.names]
+        self.start = np.array([arrangement.numbers.get(s, 0.0) for s in self.symbols])
+        self.timed = TIME in velocity_rows(arrangement.system, arrangement.numbers)[1]
+        basis = self.basis(self.start)
+        self.pivots = _pivots(basis)
+        self.fields = len(basis)
+
+    def values(self, q: Array) -> Mapping[Expr, float]:
+        """Return all numbers, with the coordinates at q."""
+        return {**self.arrangement.numbers, **dict(zip(self.symbols, map(float, q), strict=True))}
+
+    def basis(self, q: Array) -> Array:
+        """Return an orthonormal basis of the admissible directions at q as rows, with time fixed."""
+        rows, columns = velocity_rows(self.arrangement.system, self.values(q))
+        moving = [k for k, c in enumerate(columns) if c != TIME]
+        return kernel(rows[:, moving], len(self.names))
+
+    def at(self, q: Array) -> Array:
+        """Return the vector fields at q: each moves one of the pivots at unit speed and no other pivot."""
+        basis = self.basis(q)[: self.fields]
+        return np.asarray(np.linalg.lstsq(basis[:, self.pivots], basis, rcond=1e-6)[0])
+
+
+def _pivots(basis: Array) -> list[int]:
+    """Return columns on which a basis clearly has full rank: each the largest less what those before span."""
+    pivots: list[int] = []
+    remainder = basis.copy()
+    for _ in range(len(basis)):
+        sizes = np.linalg.norm(remainder, axis=0)
+        column = int(np.argmax(np.round(sizes, 6)))
+        way = remainder[:, column] / max(float(sizes[column]), 1e-12)
+        remainder = remainder - np.outer(way, way @ remainder)
+        pivots.append(column)
+    return sorted(pivots)
+
+
+def element(q: Iterable[float], directions: Array, size: float, role: Role = "field") -> Iterator[Shape]:
+    """Yield the admissible directions at a point: a short line, or a small disc."""
+    middle = np.array(place(q))
+    spanned = _orthonormal(directions)
+    if len(spanned) == 1:
+        yield Shape("line", fixed(middle - size * spanned[0], middle + size * spanned[0]), role)
+    elif len(spanned) == 2:
+        yield Shape("area", fixed(*(middle + size * (p[:2] @ spanned) for p in circle(CORNERS))), role)
+    else:
+        yield Shape("ball", fixed(middle), role, size=0.35 * size)
+
+
+def _orthonormal(directions: Array) -> Array:
+    """Return an orthonormal basis of what some directions of space span, as rows."""
+    padded = np.zeros((len(directions), 3))
+    padded[:, : directions.shape[1]] = directions
+    _, singular, right = np.linalg.svd(padded)
+    return np.asarray(right[: int(np.sum(singular > 1e-3))])
+
+
+def elements(distribution: Distribution, chosen: Sequence[int], half: float) -> Iterator[Shape]:
+    """Yield the field over a grid of the chosen coordinates, about the configuration of the scene."""
+    counts = (PLANE,) * 2 if len(chosen) == 2 else SPACE
+    centre = distribution.start[list(chosen)]
+    grids = [np.linspace(c - half, c + half, n) for c, n in zip(centre, counts, strict=False)]
+    size = (0.75 if len(chosen) == 2 else 0.6) * half / (counts[0] - 1)
+    for spot in product(*grids):
+        q = distribution.start.copy()
+        q[list(chosen)] = spot
+        directions = distribution.basis(q)[:, list(chosen)]
+        if np.all(np.isfinite(directions)) and 0 < len(_orthonormal(directions)) < 3:
+            yield from element(spot, directions, size)
+
+
+# The picture
+
+
 def phase_sketch(stage: StagedScene) -> Sketch:
-    """The allowed directions of a scene's forms about its configuration, and what their brackets add."""
+    """Return the admissible directions of a scene's forms about its configuration, and what their brackets add."""
     report, system = stage.report, stage.system
     if len(system.coordinates) < 2 or not any(e.form in ("pfaffian", "nonlinear") for e in report.constraints):
         raise NoFormsError("a picture of directions needs differential constraints and at least two coordinates")
@@ -51,55 +134,54 @@ def phase_sketch(stage: StagedScene) -> Sketch:
     distribution = Distribution(stage.arrangement)
     if not distribution.fields:
         raise NoFormsError("no admissible direction was found at this configuration")
-    found = directions_of(distribution)
-    shown = _shown(distribution, found)
-    shapes = [*elements(distribution, shown, HALF)] if len(shown) > 1 else []
-    shapes += _at_start(distribution, found, shown)
-    shapes += _square(distribution, shown)
-    names = [distribution.names[k] for k in shown]
+    directions = directions_of(distribution)
+    chosen = _chosen(distribution, directions)
+    shapes = [*elements(distribution, chosen, HALF)] if len(chosen) > 1 else []
+    shapes += [*_at_start(distribution, directions, chosen), *_square(distribution, chosen)]
+    names = [distribution.names[k] for k in chosen]
     axes = f"hown: {', '.join(names)}."
     if len(names) < len(distribution.names):
         axes += f" Not shown: {', '.join(n for n in distribution.names if n not in names)}."
     if distribution.timed:
         axes += " Time is fixed."
-    note = f"{_growth(report, found)}; s{axes}"
+    note = f"{_growth(report, directions)}; s{axes}"
     return Sketch(
-        title=f"{stage.scene.title or stage.scene.name}: directions",
-        dimension=max(2, len(shown)),
+        title=f"{stage.title}: directions",
+        dimension=max(2, len(chosen)),
         shapes=tuple(shapes),
         poses={GROUND: AT_REST},
         size=2 * HALF,
         answer=answer(report),
         alternative=f"{alternative(stage.scene, report)} {note if report.growth_vector is None else f'S{axes}'}",
-        notes=(note, *(f"{d.name}: {_told(distribution, d)}" for d in found[:4]), *notes_of(stage)),
+        notes=(note, *(f"{d.name}: {_vector(distribution, d)}" for d in directions[:4]), *notes_of(stage)),
         axes=tuple(names),
     )
 
 
-def _growth(report: Report, found: Sequence[Direction3]) -> str:
-    """The report's growth vector; where it has none, what the brackets at this place make likely."""
+def _growth(report: Report, directions: Sequence[Direction3]) -> str:
+    """Return the report's growth vector, or what the brackets at this point make likely."""
     if report.growth_vector is not None:
         return f"Growth vector ({', '.join(map(str, report.growth_vector))}){sure(report, 'growth_vector')}"
-    seen = (str(sum(d.order <= k for d in found)) for k in range(1, 1 + max(d.order for d in found)))
-    return f"The growth vector is undecided; in floating point it is ({', '.join(seen)}) at this point"
+    depth = max(d.order for d in directions)
+    dimensions = (str(sum(d.order <= k for d in directions)) for k in range(1, 1 + depth))
+    return f"The growth vector is undecided; in floating point it is ({', '.join(dimensions)}) at this point"
 
 
-def _told(distribution: Distribution, direction: Direction3) -> str:
+def _vector(distribution: Distribution, direction: Direction3) -> str:
     pairs = zip(distribution.names, direction.vector, strict=True)
     return " + ".join(f"{v:.3g} d/d{n}" for n, v in pairs if abs(v) > 1e-6).replace("+ -", "- ")
 
 
 def directions_of(distribution: Distribution) -> list[Direction3]:
-    """The fields at the start, then the brackets that add a direction, by order: as many as the growth vector tells."""
-    start, count = distribution.start, distribution.fields
+    """Return the fields at the start, then the brackets that add a direction, by their order."""
+    start = distribution.start
 
-    def field(k: int) -> _Field:
+    def field(k: int) -> Field:
         return lambda q: distribution.at(q)[k]
 
-    names = [f"X{k + 1}" for k in range(count)]
-    level: list[tuple[str, _Field]] = [(name, field(k)) for k, name in enumerate(names)]
-    found = [Direction3(name, x(start), 1) for name, x in level]
-    first = list(level)
+    first = [(f"X{k + 1}", field(k)) for k in range(distribution.fields)]
+    directions = [Direction3(name, x(start), 1) for name, x in first]
+    level = list(first)
     for order in range(2, DEEPEST + 1):
         following = []
         for name, x in first:
@@ -109,84 +191,74 @@ def directions_of(distribution: Distribution) -> list[Direction3]:
                 bracket = _bracket(x, y, STEP * 4.0 ** (order - 2))
                 vector = bracket(start)
                 following.append((f"[{name}, {other}]", bracket))
-                if _adds(found, vector):
-                    found.append(Direction3(f"[{name}, {other}]", vector, order))
+                if _adds(directions, vector):
+                    directions.append(Direction3(f"[{name}, {other}]", vector, order))
         level = following
-        if len(found) == len(start) or not any(d.order >= order - 1 for d in found):
+        if len(directions) == len(start) or not any(d.order >= order - 1 for d in directions):
             break
-    return found
+    return directions
 
 
-def _bracket(x: _Field, y: _Field, step: float) -> _Field:
-    """[X, Y] = DY X - DX Y, by differences along both."""
+def _bracket(x: Field, y: Field, step: float) -> Field:
+    """Return [X, Y] = DY X - DX Y, by differences along both."""
 
-    def along(f: _Field, q: Array, v: Array) -> Array:
+    def along(f: Field, q: Array, v: Array) -> Array:
         return np.asarray((f(q + step * v) - f(q - step * v)) / (2 * step))
 
     return lambda q: along(y, q, x(q)) - along(x, q, y(q))
 
 
-def _adds(found: Sequence[Direction3], vector: Array) -> bool:
-    """Is a vector clear of what is spanned already?"""
+def _adds(directions: Sequence[Direction3], vector: Array) -> bool:
+    """Return whether a vector is clear of what is spanned already."""
     size = float(np.linalg.norm(vector))
     if size < NEW or not np.isfinite(size):
         return False
-    rows = np.array([d.vector / np.linalg.norm(d.vector) for d in found] + [vector / size])
-    return int(np.linalg.matrix_rank(rows, tol=NEW)) > len(found)
+    rows = np.array([d.vector / np.linalg.norm(d.vector) for d in directions] + [vector / size])
+    return int(np.linalg.matrix_rank(rows, tol=NEW)) > len(directions)
 
 
-def _shown(distribution: Distribution, found: Sequence[Direction3]) -> list[int]:
-    """Up to three coordinates: those in which brackets show, then the first."""
+def _chosen(distribution: Distribution, directions: Sequence[Direction3]) -> list[int]:
+    """Return up to three coordinates: those that the directions depend on or that brackets move, then the first."""
     count = len(distribution.names)
     if count <= 3:
         return list(range(count))
-    weights = sum((np.abs(d.vector) > 1e-6).astype(float) * (10.0 if d.order > 1 else 0.0) for d in found)
-    varying = _varying(distribution)
-    ranked = sorted(range(count), key=lambda k: (-float(np.atleast_1d(weights)[k % count]) - 20.0 * varying[k], k))
-    return sorted(ranked[:3])
-
-
-def _varying(distribution: Distribution) -> list[bool]:
-    """Which coordinates the allowed directions depend on."""
-    found, here = [], distribution.at(distribution.start)
-    for k in range(len(distribution.names)):
+    here = distribution.at(distribution.start)
+    weights = 10.0 * sum((np.abs(d.vector) > 1e-6).astype(float) for d in directions if d.order > 1) + np.zeros(count)
+    for k in range(count):
         moved = distribution.start.copy()
         moved[k] += 0.37
-        found.append(bool(np.max(np.abs(distribution.at(moved) - here)) > 1e-6))
-    return found
+        weights[k] += 20.0 * bool(np.max(np.abs(distribution.at(moved) - here)) > 1e-6)
+    return sorted(sorted(range(count), key=lambda k: (-weights[k], k))[:3])
 
 
-def _at_start(distribution: Distribution, found: Sequence[Direction3], shown: Sequence[int]) -> Iterator[Shape]:
-    """What is allowed where the scene stands, large; and each new direction of a bracket as an arrow."""
-    start = distribution.start[list(shown)]
-    allowed = np.array([d.vector[list(shown)] for d in found if d.order == 1])
-    yield from element(start, allowed, 0.55 * LONG)
-    for direction in found:
-        seen = direction.vector[list(shown)]
+def _at_start(distribution: Distribution, directions: Sequence[Direction3], chosen: Sequence[int]) -> Iterator[Shape]:
+    """Yield what is admissible at the configuration, large; and each new direction of a bracket as an arrow."""
+    start = distribution.start[list(chosen)]
+    admissible = np.array([d.vector[list(chosen)] for d in directions if d.order == 1])
+    yield from element(start, admissible, 0.55 * LONG)
+    for direction in directions:
+        seen = direction.vector[list(chosen)]
         size = float(np.linalg.norm(seen))
         if size < 1e-6:
             continue
         role: Role = "guide" if direction.order == 1 else "bracket" if direction.order == 2 else "further"
         tip = start + LONG * seen / size
-        yield Shape("line", _path([start, tip]), role, owner=direction.name)
-        yield Shape("ball", _path([tip]), role, owner=direction.name, size=0.03)
-        yield Shape("words", _path([tip]), "name", owner=direction.name, text=direction.name)
+        yield Shape("line", fixed(start, tip), role, owner=direction.name)
+        yield Shape("ball", fixed(tip), role, owner=direction.name, size=0.03)
+        yield Shape("words", fixed(tip), "name", owner=direction.name, text=direction.name)
 
 
-def _square(distribution: Distribution, shown: Sequence[int]) -> Iterator[Shape]:
-    """Along X1, X2, back along X1, back along X2: where that ends is aside, along the bracket."""
-    if distribution.fields < 2 or len(shown) < 3:
+def _square(distribution: Distribution, chosen: Sequence[int]) -> Iterator[Shape]:
+    """Yield a path along X1, X2, back along X1, back along X2: it ends aside, along the bracket."""
+    if distribution.fields < 2 or len(chosen) < 3:
         return
-    q, path = distribution.start.copy(), [distribution.start.copy()]
+    q = distribution.start.copy()
+    path = [q]
     for k, sign in ((0, 1.0), (1, 1.0), (0, -1.0), (1, -1.0)):
         for _ in range(PARTS):
             half = q + sign * SIDE / PARTS / 2 * distribution.at(q)[k]
             q = q + sign * SIDE / PARTS * distribution.at(half)[k]
             path.append(q)
-    seen = [p[list(shown)] for p in path]
-    yield Shape("line", _path(seen), "trace", owner="square")
-    yield Shape("ball", _path([seen[-1]]), "trace", owner="square", size=0.025)
-
-
-def _path(points: Sequence[Array]) -> tuple[Vertex, ...]:
-    return tuple(Vertex(GROUND, place(p)) for p in points)
+    seen = [p[list(chosen)] for p in path]
+    yield Shape("line", fixed(*seen), "trace", owner="square")
+    yield Shape("ball", fixed(seen[-1]), "trace", owner="square", size=0.025)

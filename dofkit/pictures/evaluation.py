@@ -1,4 +1,4 @@
-"""Expressions in floating point over whole grids at once; for pictures only.
+"""Expressions in floating point over whole grids at once, their derivatives and null spaces; for pictures only.
 
 An unknown function is drawn as an example: a rising wave for each argument.
 """
@@ -6,118 +6,111 @@ An unknown function is drawn as an example: a rising wave for each argument.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 from dofkit.expressions.tree import Expr
 from dofkit.pictures.shapes import Array
 
-Known = Mapping[Expr, Array | float]
+Values = Mapping[Expr, Array | float]
 
-_UNARY = {
+_FUNCTIONS: Mapping[str, Callable[..., Array]] = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan,
     "sinh": np.sinh, "cosh": np.cosh, "tanh": np.tanh, "exp": np.exp, "log": np.log, "abs": np.abs,
+    "cot": lambda u: 1.0 / np.tan(u), "sec": lambda u: 1.0 / np.cos(u), "csc": lambda u: 1.0 / np.sin(u),
+    "atan2": np.arctan2,
 }  # fmt: skip
-#: Of symbols that are not given: parameters are 1, all else is 0.
+#: Values of symbols that are not given: parameters are 1, all others 0.
 _DEFAULT = {"parameter": 1.0}
 #: The step of derivatives, and the singular value (of rows of length 1) that counts as 0.
 STEP, SMALL = 1e-6, 1e-5
 
 
-def evaluated(e: Expr, known: Known, memo: dict[Expr, Array] | None = None) -> Array:
-    """The value of an expression; ``nan`` where it has none."""
+def evaluated(e: Expr, values: Values, memo: dict[Expr, Array] | None = None) -> Array:
+    """Return the value of an expression; ``nan`` where it has none."""
     memo = {} if memo is None else memo
     if e not in memo:
         with np.errstate(all="ignore"):
-            memo[e] = np.asarray(_value(e, known, memo), dtype=float)
+            memo[e] = np.asarray(_value(e, values, memo), dtype=float)
     return memo[e]
 
 
-def _value(e: Expr, known: Known, memo: dict[Expr, Array]) -> Array | float:
+def _value(e: Expr, values: Values, memo: dict[Expr, Array]) -> Array | float:
     if e.op == "num":
         return float(e.args[0])
     if e.op == "const":
         return math.pi if e.args[0] == "pi" else math.e
     if e.op == "sym":
-        return known.get(e, _DEFAULT.get(e.args[0], 0.0))
+        return values.get(e, _DEFAULT.get(e.args[0], 0.0))
     if e.op == "call":
-        return _example(e, known, memo)
-    parts = [evaluated(part, known, memo) for part in e.args if isinstance(part, Expr)]
+        return _example(e, values, memo)
+    operands = [evaluated(operand, values, memo) for operand in e.args if isinstance(operand, Expr)]
     if e.op == "add":
-        return np.asarray(sum(parts))
+        return np.asarray(sum(operands))
     if e.op == "mul":
-        return np.asarray(math.prod(parts))
+        return np.asarray(math.prod(operands))
     if e.op == "pow":
-        return np.asarray(parts[0] ** parts[1])
-    return _function(e.args[0], parts)
+        return np.asarray(operands[0] ** operands[1])
+    return np.asarray(_FUNCTIONS[e.args[0]](*operands))
 
 
-def _function(name: str, parts: Sequence[Array]) -> Array:
-    if name == "atan2":
-        return np.asarray(np.arctan2(*parts))
-    if name in ("cot", "sec", "csc"):
-        below = {"cot": np.tan, "sec": np.cos, "csc": np.sin}[name](parts[0])
-        return np.asarray(1.0 / below)
-    return np.asarray(_UNARY[name](parts[0]))
-
-
-def _example(e: Expr, known: Known, memo: dict[Expr, Array]) -> Array:
-    """u/2 + 0.4 sin(w u + p) for each argument u, and the derivatives of that."""
+def _example(e: Expr, values: Values, memo: dict[Expr, Array]) -> Array:
+    """Return u/2 + 0.4 sin(w u + p), summed over the arguments u, or a derivative of that."""
     name, orders, arguments = e.args
     phase = 0.7 * (sum(map(ord, name)) % 9)
-    if sum(order > 0 for order in orders) > 1:
-        return np.asarray(0.0)
     total = np.asarray(0.0)
+    if sum(order > 0 for order in orders) > 1:
+        return total
     for k, (order, argument) in enumerate(zip(orders, arguments, strict=True)):
         if any(orders) and not order:
             continue
         wave = 1.1 + 0.3 * k
-        inner = wave * evaluated(argument, known, memo) + phase + order * math.pi / 2
-        total = total + 0.4 * wave**order * np.sin(inner)
+        inner = evaluated(argument, values, memo)
+        total = total + 0.4 * wave**order * np.sin(wave * inner + phase + order * math.pi / 2)
         if order < 2:
-            total = total + (0.5 if order else 0.5 * evaluated(argument, known, memo))
+            total = total + (0.5 if order else 0.5 * inner)
     return total
 
 
-def values_at(exprs: Sequence[Expr], known: Known) -> Array:
-    """The values of some expressions, a row for each."""
+def values_at(exprs: Sequence[Expr], values: Values) -> Array:
+    """Return the values of some expressions, a row for each."""
     memo: dict[Expr, Array] = {}
-    found = [evaluated(e, known, memo) for e in exprs]
-    shape = np.broadcast_shapes(*(f.shape for f in found)) if found else ()
-    return np.array([np.broadcast_to(f, shape) for f in found]).reshape(len(exprs), *shape)
+    rows = [evaluated(e, values, memo) for e in exprs]
+    shape = np.broadcast_shapes(*(row.shape for row in rows)) if rows else ()
+    return np.array([np.broadcast_to(row, shape) for row in rows]).reshape(len(exprs), *shape)
 
 
-def derivatives(exprs: Sequence[Expr], by: Sequence[Expr], known: Known) -> Array:
-    """Their derivatives by some symbols: a row for each expression, by differences to both sides."""
-    if not exprs or not by:
-        return np.zeros((len(exprs), len(by)))
-    shifts = STEP * np.hstack([np.eye(len(by)), -np.eye(len(by))])
-    moved = {s: float(known.get(s, _DEFAULT.get(s.args[0], 0.0))) + shifts[k] for k, s in enumerate(by)}
-    found = values_at(exprs, {**known, **moved})
-    if found.ndim == 1:
-        return np.zeros((len(exprs), len(by)))
+def derivatives(exprs: Sequence[Expr], by: Sequence[Expr], values: Values) -> Array:
+    """Return their derivatives by some symbols, a row for each expression, by central differences."""
     half = len(by)
-    return np.nan_to_num((found[:, :half] - found[:, half:]) / (2 * STEP))
+    if not exprs or not by:
+        return np.zeros((len(exprs), half))
+    shifts = STEP * np.hstack([np.eye(half), -np.eye(half)])
+    moved = {s: float(values.get(s, _DEFAULT.get(s.args[0], 0.0))) + shifts[k] for k, s in enumerate(by)}
+    rows = values_at(exprs, {**values, **moved})
+    if rows.ndim == 1:
+        return np.zeros((len(exprs), half))
+    return np.nan_to_num((rows[:, :half] - rows[:, half:]) / (2 * STEP))
 
 
 def with_unit_rows(rows: Array) -> Array:
-    """Rows of length 1, but for those that are 0."""
+    """Return rows of length 1, except for those that are 0."""
     size = np.linalg.norm(rows, axis=1, keepdims=True)
     return np.asarray(rows / np.where(size > SMALL, size, 1.0))
 
 
 def kernel(rows: Array, columns: int, dimension: int | None = None) -> Array:
-    """A basis of what all rows take to 0, as rows; of a ``dimension`` where that is known better than by size."""
+    """Return a basis of the null space as rows; ``dimension``: its dimension, if that is known from elsewhere."""
     if not rows.size:
         return np.eye(columns)
     _, singular, right = np.linalg.svd(with_unit_rows(rows))
-    found = int(np.sum(singular > SMALL)) if dimension is None else max(0, columns - dimension)
-    return np.asarray(right[found:])
+    rank = int(np.sum(singular > SMALL)) if dimension is None else max(0, columns - dimension)
+    return np.asarray(right[rank:])
 
 
 def by_pivots(basis: Array, order: Sequence[int]) -> tuple[Array, list[int]]:
-    """The basis reduced so that each row alone moves one column, the first that can of an ``order``; and these."""
+    """Return the basis reduced so that each row alone moves one column, the first possible in an order; and these."""
     rows = basis.copy()
     pivots: list[int] = []
     for column in order:
@@ -129,8 +122,8 @@ def by_pivots(basis: Array, order: Sequence[int]) -> tuple[Array, list[int]]:
             continue
         rows[[k, best]] = rows[[best, k]]
         rows[k] /= rows[k, column]
-        for other in range(len(rows)):
-            if other != k:
-                rows[other] -= rows[other, column] * rows[k]
+        factors = rows[:, column].copy()
+        factors[k] = 0.0
+        rows -= np.outer(factors, rows[k])
         pivots.append(column)
     return rows, pivots

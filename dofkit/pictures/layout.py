@@ -8,11 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dofkit.pictures.looks import GREY, INK, Ink, ink_of, keys_of
-from dofkit.pictures.outlines import outline
-from dofkit.pictures.paper import HIGH, Mark, Page, ordered, width_of, wrapped
-from dofkit.pictures.shapes import Array, Poses, Shape, Sketch
-from dofkit.pictures.views import View, view_of
+from dofkit.pictures.paper import HIGH, Mark, Page, Spot, View, outline, view_of, width_of, wrapped
+from dofkit.pictures.shapes import GREY, INK, Array, Ink, Poses, Shape, Sketch, ink_of, keys_of
 
 #: The sheet in points, its margin, room for names around the picture, and sizes of texts.
 WIDTH, HEIGHT, MARGIN, ROOM = 460.0, 400.0, 14.0, 26.0
@@ -27,18 +24,18 @@ FAINT = Ink("#444444", layer=9)
 
 
 class PaperScale(NamedTuple):
-    """How the sketch stands on the sheet: points by a unit of length, and where the origin is."""
+    """Points of the sheet per unit of length, and where the origin is."""
 
     scale: float
     shift: Array
 
     def put(self, seen: Array) -> Array:
-        """Where on the sheet a point is."""
+        """Return where on the sheet a point is."""
         return np.asarray(self.scale * seen[..., :2] + self.shift)
 
 
 class Standpoint(NamedTuple):
-    """From where a sketch is seen, how it stands on the sheet, and how far each name is from what it names."""
+    """The view of a sketch, its scale on the sheet, and the offset of each name from what it names."""
 
     view: View
     fit: PaperScale
@@ -55,59 +52,53 @@ class Margins(NamedTuple):
 
 
 def standpoint_of(sketch: Sketch, every: Sequence[Poses] = ()) -> Standpoint:
-    """Where a sketch is seen from, so that it stays on the sheet in ``every`` pose."""
+    """Return the view and scale with which a sketch stays on the sheet in ``every`` pose."""
     view = view_of(sketch)
     fit = fit_of(sketch, view, [sketch.poses, *every])
     return Standpoint(view, fit, tuple(_offsets(sketch, view, fit)))
 
 
 def page_of(sketch: Sketch, poses: Poses | None = None, standpoint: Standpoint | None = None) -> Page:
-    """A sketch on paper, with everything where ``poses`` put it (by default where it is drawn)."""
+    """Return a sketch on paper, with everything where ``poses`` put it (by default the sketch's own)."""
     here = sketch.poses if poses is None else poses
     view, fit, offsets = standpoint or standpoint_of(sketch)
     margins = margins_of(sketch)
     drawn = [(s, mark_of(sketch, s, here, view, fit)) for s in sketch.shapes if s.kind != "words"]
     if sketch.dimension == 3:
-        drawn.sort(key=lambda pair: _nearness(sketch, pair[0], here, view))
+        nearness = {id(s): float(np.mean([view.seen(sketch.at(v, here))[2] for v in s.vertices])) for s, _ in drawn}
+        drawn.sort(key=lambda pair: nearness[id(pair[0])])
     names = _name_marks(sketch, here, view, fit, offsets)
     axes = [*axes_marks(sketch, view, margins), *_ruler_marks(sketch, fit, margins)]
-    marks = [*ordered([mark for _, mark in drawn]), *axes, *names, *margins.above, *margins.below]
+    layers = sorted((mark for _, mark in drawn), key=lambda mark: mark.ink.layer)
+    marks = [*layers, *axes, *names, *margins.above, *margins.below]
     return Page(WIDTH, HEIGHT, tuple(marks), sketch.title, sketch.alternative)
 
 
-def _nearness(sketch: Sketch, shape: Shape, poses: Poses, view: View) -> float:
-    return float(np.mean([view.seen(sketch.at(v, poses))[2] for v in shape.vertices]))
-
-
 def margins_of(sketch: Sketch) -> Margins:
-    """Title and answer above; legend and notes below."""
+    """Return title and answer, which stand above, and legend and notes, which stand below."""
     above, y = [], HEIGHT - MARGIN
-    for line in wrapped(sketch.title, TITLE, 0.88 * (WIDTH - 2 * MARGIN)):
-        y -= TITLE
-        above.append(Mark(((MARGIN, y),), FAINT._replace(line=INK), text=line, size=TITLE, align="start", bold=True))
-        y -= TITLE * (HIGH - 1)
-    for line in wrapped(sketch.answer, ANSWER, WIDTH - 2 * MARGIN):
-        y -= ANSWER
-        above.append(Mark(((MARGIN, y),), FAINT, text=line, size=ANSWER, align="start"))
-        y -= ANSWER * (HIGH - 1)
+    heads = [(line, TITLE, INK) for line in wrapped(sketch.title, TITLE, 0.88 * (WIDTH - 2 * MARGIN))]
+    heads += [(line, ANSWER, FAINT.line) for line in wrapped(sketch.answer, ANSWER, WIDTH - 2 * MARGIN)]
+    for line, size, colour in heads:
+        ink = FAINT._replace(line=colour)
+        above.append(_text_mark((MARGIN, y - size), line, size, ink)._replace(bold=size == TITLE))
+        y -= size * HIGH
     below, low = [], MARGIN
-    lines = [line for note in sketch.notes for line in wrapped(note, NOTE, WIDTH - 2 * MARGIN)]
-    for line in reversed(lines):
-        below.append(Mark(((MARGIN, low),), FAINT, text=line, size=NOTE, align="start"))
+    for line in reversed([line for note in sketch.notes for line in wrapped(note, NOTE, WIDTH - 2 * MARGIN)]):
+        below.append(_text_mark((MARGIN, low), line, NOTE))
         low += NOTE * HIGH
-    rows = _legend(sketch)
-    for row in reversed(rows):
-        below += [_raised(mark, low) for mark in row]
+    for row in reversed(_legend(sketch)):
+        below += [mark._replace(spots=tuple((x, y + low) for x, y in mark.spots)) for mark in row]
         low += NOTE * HIGH * 1.15
     return Margins(tuple(above), tuple(below), y - 2.0, low + 2.0)
 
 
-def _raised(mark: Mark, by: float) -> Mark:
-    return mark._replace(spots=tuple((x, y + by) for x, y in mark.spots))
+def _text_mark(spot: Spot, text: str, size: float, ink: Ink = FAINT) -> Mark:
+    return Mark((spot,), ink, text=text, size=size, align="start")
 
 
 def _legend(sketch: Sketch) -> list[list[Mark]]:
-    """A sample and a word for each state that occurs, in rows."""
+    """Return a sample and a text for each line of the legend, in rows."""
     rows: list[list[Mark]] = [[]]
     x = MARGIN
     for ink, text in keys_of(sketch.shapes, sketch.meanings):
@@ -117,14 +108,13 @@ def _legend(sketch: Sketch) -> list[list[Mark]]:
             x = MARGIN
         box = ((x, 0.0), (x + 16, 0.0), (x + 16, 7.0), (x, 7.0))
         spots = box if ink.fill else ((x, 3.5), (x + 16, 3.5))
-        rows[-1].append(Mark(spots, ink, closed=bool(ink.fill)))
-        rows[-1].append(Mark(((x + 21, 0.5),), FAINT, text=text, size=NOTE, align="start"))
+        rows[-1] += [Mark(spots, ink, closed=bool(ink.fill)), _text_mark((x + 21, 0.5), text, NOTE)]
         x += wide
     return [row for row in rows if row]
 
 
 def fit_of(sketch: Sketch, view: View, every: Iterable[Poses]) -> PaperScale:
-    """The largest scale at which the sketch, wherever it moves, stays on the sheet."""
+    """Return the largest scale at which the sketch, wherever it moves, stays on the sheet."""
     margins = margins_of(sketch)
     shapes = [s for s in sketch.shapes if s.kind != "words"]
     seen = [_box(sketch, s, poses, view) for poses in every for s in shapes]
@@ -141,7 +131,7 @@ def fit_of(sketch: Sketch, view: View, every: Iterable[Poses]) -> PaperScale:
 
 
 def _box(sketch: Sketch, shape: Shape, poses: Poses, view: View) -> Array:
-    """Points between which a shape lies on paper."""
+    """Return points between which a shape lies on paper."""
     if shape.kind not in ("hull", "ball"):
         return outline(sketch, shape, poses, view)[:, :2]
     seen = np.array([view.seen(sketch.at(v, poses))[:2] for v in shape.vertices])
@@ -149,24 +139,25 @@ def _box(sketch: Sketch, shape: Shape, poses: Poses, view: View) -> Array:
 
 
 def _at_least(low: Array, high: Array, least: float) -> tuple[Array, Array]:
-    """The same box, with sides no shorter than ``least``."""
+    """Return the same box, with sides no shorter than ``least``."""
     more = np.maximum(0.0, least - (high - low)) / 2
     return low - more, high + more
 
 
 def mark_of(sketch: Sketch, shape: Shape, poses: Poses, view: View, fit: PaperScale) -> Mark:
-    """A shape on the sheet."""
+    """Return a shape on the sheet."""
     spots = fit.put(outline(sketch, shape, poses, view))
-    told = tuple((float(x), float(y)) for x, y in spots)
     closed = shape.kind in ("area", "hull", "ball")
     ink = ink_of(shape)
-    if not closed:
-        ink = ink._replace(fill=None)
-    return Mark(told, ink, closed=closed, owner=shape.owner)
+    return Mark(_spots(spots), ink if closed else ink._replace(fill=None), closed=closed, owner=shape.owner)
+
+
+def _spots(points: Iterable[Array]) -> tuple[Spot, ...]:
+    return tuple((float(x), float(y)) for x, y in points)
 
 
 def axes_marks(sketch: Sketch, view: View, margins: Margins) -> Iterator[Mark]:
-    """The directions of the world, in a corner."""
+    """Yield the directions of the world, in a corner."""
     if not sketch.axes:
         return
     long = 20.0
@@ -185,13 +176,13 @@ def axes_marks(sketch: Sketch, view: View, margins: Margins) -> Iterator[Mark]:
         if size > 0.15:
             ahead, side = way / size * 4.0, np.array([-way[1], way[0]]) / size * 2.0
             barbs = (tip - ahead + side, tip, tip - ahead - side)
-            yield Mark(tuple((float(x), float(y)) for x, y in barbs), ink)
+            yield Mark(_spots(barbs), ink)
             at = tip + way / size * 7.0
             yield Mark(((at[0], at[1] - 2.8),), Ink(GREY, layer=9), text=name, size=NOTE)
 
 
 def ruler_of(sketch: Sketch, fit: PaperScale) -> tuple[float, str] | None:
-    """A round length that can be read off, and its text; None where lengths mean nothing."""
+    """Return a round length for the ruler, and its text; None if lengths mean nothing."""
     if not sketch.measurable:
         return None
     wanted = RULER / fit.scale
@@ -201,21 +192,21 @@ def ruler_of(sketch: Sketch, fit: PaperScale) -> tuple[float, str] | None:
 
 
 def _ruler_marks(sketch: Sketch, fit: PaperScale, margins: Margins) -> Iterator[Mark]:
-    """A ruler at the right, below."""
+    """Yield the marks of a ruler, at the right below."""
     ruler = ruler_of(sketch, fit)
     if ruler is None:
         return
     length, text = ruler
     right, y = WIDTH - MARGIN, margins.low + 12.0
-    left = right - length * fit.scale
+    start = right - length * fit.scale
     ink = Ink(GREY, 1.0, layer=8)
-    for spots in (((left, y), (right, y)), ((left, y - 3), (left, y + 3)), ((right, y - 3), (right, y + 3))):
+    for spots in (((start, y), (right, y)), ((start, y - 3), (start, y + 3)), ((right, y - 3), (right, y + 3))):
         yield Mark(spots, ink)
     yield Mark(((right, y - 11.0),), Ink(GREY, layer=9), text=text, size=NOTE - 1, align="end")
 
 
 def _offsets(sketch: Sketch, view: View, fit: PaperScale) -> Iterator[Array]:
-    """How far each name stands from what it names: where it covers least."""
+    """Yield the offset of each name from what it names, where it covers least."""
     margins = margins_of(sketch)
     words = [s for s in sketch.shapes if s.kind == "words"]
     busy = _busy(sketch, sketch.poses, view, fit)
@@ -229,7 +220,7 @@ def _offsets(sketch: Sketch, view: View, fit: PaperScale) -> Iterator[Array]:
 
 
 def name_size(sketch: Sketch) -> float:
-    """The size of names: smaller where there are many."""
+    """Return the size of names, smaller if there are many."""
     return NAME if sum(s.kind == "words" for s in sketch.shapes) < 26 else NAME - 2
 
 
@@ -246,8 +237,8 @@ def _name_marks(sketch: Sketch, poses: Poses, view: View, fit: PaperScale, offse
 
 
 def _busy(sketch: Sketch, poses: Poses, view: View, fit: PaperScale) -> Array:
-    """Points of all that is drawn, a few points of length apart."""
-    found = [np.zeros((0, 2))]
+    """Return points of all that is drawn, a few points of length apart."""
+    points = [np.zeros((0, 2))]
     for shape in sketch.shapes:
         if shape.kind == "words":
             continue
@@ -255,8 +246,8 @@ def _busy(sketch: Sketch, poses: Poses, view: View, fit: PaperScale) -> Array:
         ends = np.vstack([spots[1:], spots[:1]]) if shape.kind in ("area", "hull", "ball") else spots[1:]
         for a, b in zip(spots, ends, strict=False):
             count = 1 + int(min(60.0, math.hypot(*(b - a)) / 5.0))
-            found.append(a + np.outer(np.arange(count) / count, b - a))
-    return np.vstack(found)
+            points.append(a + np.outer(np.arange(count) / count, b - a))
+    return np.vstack(points)
 
 
 def _best_offset(
@@ -265,7 +256,7 @@ def _best_offset(
     size: float,
     around: tuple[Array, Sequence[tuple[float, float, float, float]], Margins],
 ) -> Array:
-    """Where beside its anchor a name covers least."""
+    """Return the offset from its anchor at which a name covers least."""
     busy, taken, margins = around
     wide, high = width_of(shape.text, size) / 2 + 1.5, size / 2 + 1.0
     best, least = np.zeros(2), math.inf

@@ -1,33 +1,39 @@
-"""From a scene and its report to a sketch of the mechanism."""
+"""From a scene and its report to the sketch of a mechanism: bodies, particles, springs, all names, and notes."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
-from dofkit.expressions.tree import parameter
-from dofkit.pictures.alternative import alternative, answer
-from dofkit.pictures.bodies import body_shapes, force_shapes, particle_shapes, rail_shapes
-from dofkit.pictures.loci import meeting_shapes
-from dofkit.pictures.runs import run_shapes
-from dofkit.pictures.shapes import Shape, Sketch, State, Vertex, place
-from dofkit.pictures.stage import StagedScene
-from dofkit.pictures.symbols import joint_shapes, name_of
+import numpy as np
 
-#: More names of constraints than this are left out, and so many equations are told below.
-MOST_NAMES, MOST_TEXTS = 24, 4
+from dofkit.expressions.tree import parameter
+from dofkit.pictures.arrangement import about
+from dofkit.pictures.joints import joint_shapes, name_of, run_shapes
+from dofkit.pictures.loci import meeting_shapes
+from dofkit.pictures.shapes import SQUARE, Array, Place, Shape, Sketch, State, Vertex, carried_by, fixed, place
+from dofkit.pictures.stage import StagedScene, axis_of
+from dofkit.pictures.words import alternative, answer
+from dofkit.scene.parts import Force
+from dofkit.system import GROUND
+
+#: How far a hull reaches beyond its points, how long a stub is and the sides of a free body; in symbols.
+PAD, THIN, STUB, FREE = 0.85, 0.45, 6.0, (3.0, 1.8, 1.2)
+#: More particles, and more named constraints, than this have no names; so many equations stand below.
+MOST_PARTICLES, MOST_NAMES, MOST_TEXTS = 60, 24, 4
 _WEIGHT: tuple[State, ...] = ("plain", "moving", "redundant", "conflicting")
 FREE_PLACES = "Schematic: the scene gives no positions of its joints."
 
 
 def sketch_of(stage: StagedScene) -> Sketch:
-    """The sketch of a mechanism."""
-    shapes = [*rail_shapes(stage), *body_shapes(stage), *force_shapes(stage)]
+    """Return the sketch of a mechanism."""
+    shapes = [*_rail(stage), *_body_shapes(stage), *_force_shapes(stage)]
     for number in range(len(stage.system.constraints)):
         shapes += run_shapes(stage, number)
         shapes += joint_shapes(stage, number)
-    shapes += [*meeting_shapes(stage), *particle_shapes(stage), *_names(stage)]
+    shapes += [*meeting_shapes(stage), *_particle_shapes(stage), *_names(stage)]
     return Sketch(
-        title=stage.scene.title or stage.scene.name,
+        title=stage.title,
         dimension=stage.system.dimension,
         shapes=tuple(shapes),
         poses=stage.arrangement.poses,
@@ -40,38 +46,152 @@ def sketch_of(stage: StagedScene) -> Sketch:
     )
 
 
+def _body_shapes(stage: StagedScene) -> Iterator[Shape]:
+    """Yield a hull for each body, and its name."""
+    for body in stage.system.bodies:
+        spots = _attached(stage, body)
+        state = stage.state_of_body(body)
+        wheel = any(_shapes_body(stage, k, body) for k in range(len(stage.system.connections)))
+        if not spots and not wheel:
+            yield from _free_body(stage, body)
+            continue
+        far = [s for s in spots if np.linalg.norm(np.array(s) - np.array(spots[0])) > 1e-6 * stage.size]
+        if spots and not far and not wheel:
+            spots = [*spots, *_stub(stage, body, spots[0])]
+        corners = carried_by(body, spots)
+        if corners:
+            yield Shape("hull", corners, "body", state, body, (PAD if stage.flat else THIN) * stage.unit)
+        yield name_of(stage, body, corners or (stage.origin(body),), state)
+
+
+def _shapes_body(stage: StagedScene, number: int, body: str) -> bool:
+    """Return whether a constraint draws the body itself: a wheel, a toothed one, a cam."""
+    members = stage.system.connections[number].members
+    run = stage.symbol(number).run
+    return (run == "profile" and members[-1] == body) or (run in ("wheel", "teeth") and body in members[:2])
+
+
+def _attached(stage: StagedScene, body: str) -> list[Place]:
+    """Return the points of a body at which something is attached."""
+    points: list[Place] = []
+    for k, connection in enumerate(stage.system.connections):
+        if body not in connection.members or stage.symbol(k).run == "teeth":
+            continue
+        mentioned = [v.at for v in stage.vertices(connection) if v.carrier == body]
+        points += mentioned
+        if not mentioned and stage.places[k] is not None and stage.symbol(k).run == "":
+            points.append(place(stage.spot(k, body)))
+    return list(dict.fromkeys(points))
+
+
+def _stub(stage: StagedScene, body: str, at: Place) -> list[Place]:
+    """Return the end of a body that is attached at one point only."""
+    length, turn = STUB * stage.unit, 0.9 * stage.system.bodies.index(body)
+    for k, connection in enumerate(stage.system.connections):
+        if body not in connection.members or stage.places[k] is None:
+            continue
+        if stage.symbol(k).rails and stage.flat:
+            return []
+        if not stage.flat and connection.directions:
+            axis = axis_of(stage.arrangement, connection, 0)
+            across = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
+            size = float(np.linalg.norm(across))
+            way = (math.cos(turn) * across + math.sin(turn) * np.cross(axis, across)) / size
+            return [place(np.array(at) + length * way)]
+    way = np.array([0.55, 0.83, 0.0]) if stage.flat else np.array([0.55, 0.2, 0.8])
+    return [place(np.array(at) + length * (about(2, turn) @ way))]
+
+
+def _free_body(stage: StagedScene, body: str) -> Iterator[Shape]:
+    """Yield a body that nothing is attached to: a box with its axes."""
+    origin = stage.origin(body)
+    centre, state, u = np.array(origin.at), stage.state_of_body(body), stage.unit
+    half = np.array(FREE) * u
+    if stage.system.dimension == 1:
+        half[1] = 1.2 * u
+    faces = [[np.array([x, y, 0.0]) * half for x, y in SQUARE]] if stage.flat else _faces(half)
+    for face in faces:
+        yield Shape("area", carried_by(body, (centre + corner for corner in face)), "body", state, body)
+    for way in np.eye(3)[: max(1, stage.system.dimension)]:
+        yield Shape("line", (origin, *carried_by(body, [centre + way * 2.2 * u])), "axis", owner=body)
+    yield name_of(stage, body, carried_by(body, [centre + np.array([0.0, half[1], 0.0])]), state)
+
+
+def _faces(half: Array) -> list[list[Array]]:
+    """Return the faces of a box about the origin."""
+    faces = []
+    for axis in range(3):
+        for side in (-1.0, 1.0):
+            faces.append([np.insert(np.array(corner), axis, side) * half for corner in SQUARE])
+    return faces
+
+
+def _particle_shapes(stage: StagedScene) -> Iterator[Shape]:
+    """Yield a dot for each particle, and its name."""
+    for particle in stage.system.particles:
+        vertex, state = stage.origin(particle), stage.state_of_body(particle)
+        yield Shape("ball", (vertex,), "point", state, particle, 0.42 * stage.unit)
+        if len(stage.system.particles) <= MOST_PARTICLES:
+            yield name_of(stage, particle, (vertex,), state)
+
+
+def _rail(stage: StagedScene) -> Iterator[Shape]:
+    """Yield, in one dimension, the line that everything is on."""
+    if stage.system.dimension != 1:
+        return
+    poses = stage.arrangement.poses
+    reach = [pose.moved((0.0, 0.0, 0.0))[0] for name, pose in poses.items() if name != GROUND] or [0.0]
+    yield Shape("line", fixed([min(reach) - 6 * stage.unit], [max(reach) + 6 * stage.unit]), "guide")
+
+
+def _force_shapes(stage: StagedScene) -> Iterator[Shape]:
+    """Yield springs and dampers between points that are drawn."""
+    for force in stage.scene.forces:
+        ends = tuple(_ends(stage, force))
+        if len(ends) == 2:
+            yield Shape("coil", ends, "force", owner=force.name or force.type, size=0.5 * stage.unit)
+
+
+def _ends(stage: StagedScene, force: Force) -> Iterator[Vertex]:
+    for end in force.between or ():
+        if isinstance(end, str) and (end in stage.system.starts or end in stage.system.particles):
+            yield stage.origin(end)
+        elif isinstance(end, tuple) and not any(isinstance(number, str) for number in end):
+            yield from fixed([float(number) for number in end if not isinstance(number, str)])
+
+
 def _names(stage: StagedScene) -> Iterator[Shape]:
-    """The names that were given to constraints, one for those at one place."""
-    told: dict[tuple[Vertex, ...], list[int]] = {}
+    """Yield the names that were given to constraints, one text for all at the same point."""
+    by_anchor: dict[tuple[Vertex, ...], list[int]] = {}
     named = [k for k, c in enumerate(stage.scene.constraints) if c.name is not None]
     for number in named if len(named) <= MOST_NAMES else ():
         anchor = _anchor(stage, number)
         if anchor:
-            told.setdefault(anchor, []).append(number)
-    for anchor, numbers in told.items():
+            by_anchor.setdefault(anchor, []).append(number)
+    for anchor, numbers in by_anchor.items():
         names = [stage.system.constraints[k].name for k in numbers]
         states: list[State] = [stage.state(name) for name in names]
         yield name_of(stage, ", ".join(names), anchor, max(states, key=_WEIGHT.index))
 
 
 def _anchor(stage: StagedScene, number: int) -> tuple[Vertex, ...]:
-    """What the name of a constraint stands beside."""
+    """Return what the name of a constraint stands beside."""
     connection, at = stage.system.connections[number], stage.places[number]
-    symbol = stage.symbol(number)
-    if symbol.run in ("bar", "bars", "rope"):
+    run = stage.symbol(number).run
+    if run in ("bar", "bars", "rope"):
         return tuple(stage.vertices(connection))[:2]
-    if symbol.run == "teeth":
+    if run == "teeth":
         pins = [stage.places[k] for k, c in enumerate(stage.system.connections) if c.facts.axial]
         spots = [Vertex(m, p) for m, p in zip(connection.members, pins, strict=False) if p is not None]
         return tuple(spots[-2:])
     if at is None or not connection.members:
         return ()
     member = next((m for m in connection.members if m in stage.system.bodies), connection.members[0])
-    return (Vertex(member, place(stage.spot(number, member))),)
+    return carried_by(member, [stage.spot(number, member)])
 
 
 def notes_of(stage: StagedScene) -> Iterator[str]:
-    """What is told below a picture."""
+    """Yield what stands below a picture: where its positions come from, numbers, and the equations as written."""
     if stage.unseen is not None:
         yield stage.unseen
     if stage.schematic:
@@ -79,17 +199,12 @@ def notes_of(stage: StagedScene) -> Iterator[str]:
     elif stage.arrangement.note is not None:
         yield stage.arrangement.note
     used = {s for c in stage.system.constraints for r in c.relations for s in r.expr.symbols}
-    shown = [p for p in stage.system.parameters if parameter(p) in used]
-    if shown:
-        told = ", ".join(f"{p} = {stage.arrangement.numbers.get(parameter(p), 1.0):.4g}" for p in shown[:6])
-        yield f"Drawn with {told}."
+    parameters = [p for p in stage.system.parameters if parameter(p) in used]
+    if parameters:
+        numbers = stage.arrangement.numbers
+        yield f"Drawn with {', '.join(f'{p} = {numbers.get(parameter(p), 1.0):.4g}' for p in parameters[:6])}."
     if stage.system.functions:
         yield f"Unknown functions ({', '.join(stage.system.functions)}) are drawn as an example."
-    yield from equations_told(stage)
-
-
-def equations_told(stage: StagedScene) -> Iterator[str]:
-    """The equations of a scene, as they are written."""
     written = [c for c in stage.system.constraints if c.facts.written]
     for constraint in written[:MOST_TEXTS]:
         yield f"{constraint.name}: {constraint.text}"

@@ -1,4 +1,4 @@
-"""A page that turns and plays a sketch: one file, its script inside, nothing fetched."""
+"""A page that rotates and plays a sketch: one file with its script, which fetches nothing."""
 
 from __future__ import annotations
 
@@ -13,10 +13,9 @@ from typing import Any
 import numpy as np
 
 from dofkit.base.display import schemes
+from dofkit.pictures.files import CLASS, dark_style
 from dofkit.pictures.layout import MARGIN, WIDTH, Standpoint, margins_of, name_size, ruler_of, standpoint_of
-from dofkit.pictures.looks import ON_DARK, Ink, ink_of, keys_of
-from dofkit.pictures.shapes import Array, Clip, Displacement, Poses, Sketch
-from dofkit.pictures.vector import CLASS, dark_style
+from dofkit.pictures.shapes import ON_DARK, Array, Clip, Displacement, Ink, Poses, Sketch, ink_of, keys_of
 
 #: An inline page in pixels: how wide it is at most, its edge, and a line of its text.
 FRAME, EDGE, LINE = int(WIDTH * 1.5), 12.0, 22.0
@@ -26,10 +25,10 @@ DRAG = "Drag the picture, or use the arrow keys, to turn it."
 
 
 def page_html(sketch: Sketch, clips: Sequence[Clip]) -> str:
-    """A page with a sketch that can be played, and turned where it is of space."""
+    """Return a page with a sketch that can be played, and turned if it is spatial."""
     package = files("dofkit.pictures")
     data = json.dumps(player_data(sketch, clips), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-    parts = {
+    pieces = {
         "title": escape(sketch.title),
         "answer": escape(sketch.answer),
         "alternative": escape(sketch.alternative, quote=True),
@@ -39,7 +38,7 @@ def page_html(sketch: Sketch, clips: Sequence[Clip]) -> str:
         "script": (package / "player.js").read_text(encoding="utf-8"),
     }
     frame = (package / "player.html").read_text(encoding="utf-8")
-    return re.sub("@([a-z]+)@", lambda found: parts[found[1]], frame)
+    return re.sub("@([a-z]+)@", lambda match: pieces[match[1]], frame)
 
 
 def _notes(sketch: Sketch) -> tuple[str, ...]:
@@ -47,7 +46,7 @@ def _notes(sketch: Sketch) -> tuple[str, ...]:
 
 
 def framed(page: str, height: float) -> str:
-    """A page inside another one, so many pixels high, which its script and style do not touch."""
+    """Return a page as an inline frame of a height in pixels, whose script and style do not affect the rest."""
     return (
         f'<style>{schemes("." + CLASS)}</style><iframe class="{CLASS}" srcdoc="{escape(page, quote=True)}" '
         f'sandbox="allow-scripts" title="dofkit" '
@@ -56,7 +55,7 @@ def framed(page: str, height: float) -> str:
 
 
 def page_height(sketch: Sketch, clips: Sequence[Clip]) -> float:
-    """How many pixels `page_html` takes within a frame: title, answer, panel, buttons, legend, notes."""
+    """Return the height of `page_html` in pixels: title, answer, panel, buttons, legend, notes."""
     margins = margins_of(sketch)
     panel = (FRAME - 2 * EDGE) * (margins.high - margins.low) / WIDTH
     lines = [
@@ -69,7 +68,7 @@ def page_height(sketch: Sketch, clips: Sequence[Clip]) -> float:
 
 
 def player_data(sketch: Sketch, clips: Sequence[Clip]) -> dict[str, Any]:
-    """What the script needs: shapes on their carriers, poses frame by frame, and where it is all seen from."""
+    """Return what the script needs: shapes on their carriers, poses frame by frame, and the view."""
     every = [frame for clip in clips for frame in clip.frames]
     standpoint = standpoint_of(sketch, every)
     carriers = list(dict.fromkeys(v.carrier for s in sketch.shapes for v in s.vertices))
@@ -77,16 +76,16 @@ def player_data(sketch: Sketch, clips: Sequence[Clip]) -> dict[str, Any]:
     offsets = iter(standpoint.offsets)
     shapes = []
     for shape in sketch.shapes:
-        told: dict[str, Any] = {
+        entry: dict[str, Any] = {
             "k": shape.kind,
             "v": [[carriers.index(v.carrier), *_rounded(v.at)] for v in shape.vertices],
             "i": looks.setdefault(ink_of(shape), len(looks)),
         }
         if shape.size:
-            told["s"] = _number(shape.size)
+            entry["s"] = _number(shape.size)
         if shape.kind == "words":
-            told |= {"t": shape.text, "o": _rounded(next(offsets))}
-        shapes.append(told)
+            entry |= {"t": shape.text, "o": _rounded(next(offsets))}
+        shapes.append(entry)
     return {
         "dimension": sketch.dimension,
         "axes": list(sketch.axes[: sketch.dimension]),
@@ -94,14 +93,21 @@ def player_data(sketch: Sketch, clips: Sequence[Clip]) -> dict[str, Any]:
         "dark": dict(ON_DARK),
         "looks": [[k.line, k.width, list(k.dash), k.fill, k.dense, k.hatch, k.layer] for k in looks],
         "names": name_size(sketch),
-        "still": _told_poses(sketch, carriers, sketch.poses),
-        "clips": [_told_clip(sketch, carriers, clip) for clip in clips],
+        "still": _pose_rows(sketch, carriers, sketch.poses),
+        "clips": [
+            {
+                "name": clip.name,
+                "closed": clip.closed,
+                "frames": [_pose_rows(sketch, carriers, frame) for frame in clip.frames],
+            }
+            for clip in clips
+        ],
         **_panel(sketch, standpoint, every),
     }
 
 
 def _panel(sketch: Sketch, standpoint: Standpoint, every: Iterable[Poses]) -> dict[str, Any]:
-    """The panel's size, and how the sketch stands on it."""
+    """Return the panel's size, and the scale of the sketch on it."""
     margins = margins_of(sketch)
     width, height = WIDTH, margins.high - margins.low
     view, fit, _ = standpoint
@@ -126,17 +132,12 @@ def _panel(sketch: Sketch, standpoint: Standpoint, every: Iterable[Poses]) -> di
     }
 
 
-def _told_clip(sketch: Sketch, carriers: Sequence[str], clip: Clip) -> dict[str, Any]:
-    frames = [_told_poses(sketch, carriers, frame) for frame in clip.frames]
-    return {"name": clip.name, "closed": clip.closed, "frames": frames}
+def _pose_rows(sketch: Sketch, carriers: Sequence[str], poses: Poses) -> list[list[float]]:
+    """Return each carrier's shift, and its rotation if it rotates: cosine and sine, or three rows."""
+    return [_pose_row(sketch, poses[c]) if c in poses else [0.0, 0.0, 0.0] for c in carriers]
 
 
-def _told_poses(sketch: Sketch, carriers: Sequence[str], poses: Poses) -> list[list[float]]:
-    """Each carrier's shift, then what its turn is made of, where it turns: cosine and sine, or three rows."""
-    return [_told_pose(sketch, poses[c]) if c in poses else [0.0, 0.0, 0.0] for c in carriers]
-
-
-def _told_pose(sketch: Sketch, pose: Displacement) -> list[float]:
+def _pose_row(sketch: Sketch, pose: Displacement) -> list[float]:
     if np.allclose(pose.turn, np.eye(3), atol=1e-9):
         return _rounded(pose.shift)
     if sketch.dimension < 3:

@@ -1,4 +1,7 @@
-"""What a picture is made of before it is put on paper: shapes whose vertices are carried by bodies and particles."""
+"""What a picture is made of before it is put on paper: shapes carried by bodies and particles, and how they look.
+
+The colours are those that the colour-blind can tell apart (Okabe and Ito's), with a pattern for each meaning.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,8 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
+
+from dofkit.system import GROUND
 
 Array = np.ndarray[Any, Any]
 Place = tuple[float, float, float]
@@ -22,10 +27,12 @@ Role = Literal[
 ]  # fmt: skip
 #: What the report says of it.
 State = Literal["plain", "moving", "redundant", "conflicting"]
+#: The corners of a square about the origin.
+SQUARE = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
 
 
 class Vertex(NamedTuple):
-    """A point of what carries it, where it stands in the drawing."""
+    """A point that a body, a particle or the ground carries, given where it is in the reference configuration."""
 
     carrier: str
     at: Place
@@ -44,28 +51,27 @@ class Shape(NamedTuple):
 
 
 class Displacement(NamedTuple):
-    """What stands at a in the drawing is at p + R (a - p0): here ``turn`` R, and ``shift`` p - R p0."""
+    """A displacement of a carrier: a point at a is moved to ``turn`` a + ``shift``."""
 
     turn: Array
     shift: Array
 
     def moved(self, at: Sequence[float] | Array) -> Array:
-        """Where a point of the drawing is."""
+        """Return where a point is after the displacement."""
         return np.asarray(self.turn @ np.asarray(at, dtype=float) + self.shift)
 
     def back(self, point: Sequence[float] | Array) -> Place:
-        """Where in the drawing the point stands that is now here."""
-        x, y, z = self.turn.T @ (np.asarray(point, dtype=float) - self.shift)
-        return float(x), float(y), float(z)
+        """Return where the point was before the displacement."""
+        return place(self.turn.T @ (np.asarray(point, dtype=float) - self.shift))
 
 
-#: Of the ground, and of what nothing is known.
+#: The displacement of the ground.
 AT_REST = Displacement(np.eye(3), np.zeros(3))
 Poses = Mapping[str, Displacement]
 
 
 class Clip(NamedTuple):
-    """A motion: the poses of everything, frame by frame; ``closed`` where the last is followed by the first."""
+    """A motion: the poses of everything, frame by frame; ``closed`` if the first follows the last."""
 
     name: str
     frames: tuple[Poses, ...]
@@ -76,9 +82,9 @@ class Clip(NamedTuple):
 class Sketch:
     """All of a picture but its paper.
 
-    ``dimension`` of the world drawn; ``poses`` of what carries its shapes; ``size``: how far it reaches; ``notes`` are
-    told below it, ``alternative`` to who cannot see it. ``axes``: names of the three directions; ``measurable``: do
-    lengths mean something? ``meanings``: what the legend says of states; None: there is no legend.
+    ``dimension`` of the world drawn; ``poses`` of what carries its shapes; ``size``: its extent; ``notes`` stand below
+    it; ``alternative`` describes it in words. ``axes``: names of the three directions; ``measurable``: whether lengths
+    mean something. ``meanings``: what the legend says of states (None: there is no legend).
     """
 
     title: str
@@ -94,11 +100,130 @@ class Sketch:
     meanings: Mapping[State, str] | None = field(default_factory=dict)
 
     def at(self, vertex: Vertex, poses: Poses | None = None) -> Array:
-        """Where a vertex is."""
+        """Return where a vertex is."""
         return (self.poses if poses is None else poses).get(vertex.carrier, AT_REST).moved(vertex.at)
 
 
 def place(values: Iterable[float]) -> Place:
-    """A point of one, two or three numbers as one of space."""
-    x, y, z = (*(float(v) for v in values), 0.0, 0.0)[:3]
+    """Return a point of up to three numbers as one of space."""
+    x, y, z = (*(float(v) for v in values), 0.0, 0.0, 0.0)[:3]
     return x, y, z
+
+
+def carried_by(carrier: str, points: Iterable[Iterable[float]]) -> tuple[Vertex, ...]:
+    """Return points as vertices of a carrier."""
+    return tuple(Vertex(carrier, place(point)) for point in points)
+
+
+def fixed(*points: Iterable[float]) -> tuple[Vertex, ...]:
+    """Return points of the world as vertices."""
+    return carried_by(GROUND, points)
+
+
+def circle(count: int, closed: bool = False) -> Array:
+    """Return points of the unit circle as rows (x, y, 0); ``closed``: the first also stands at the end."""
+    angles = 2 * np.pi * np.arange(count + closed) / count
+    return np.column_stack([np.cos(angles), np.sin(angles), np.zeros(len(angles))])
+
+
+# Looks
+
+SKY, GREEN, BLUE, VERMILLION, PURPLE = "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7"
+GREY, WHITE, INK = "#6E6E6E", "#FFFFFF", "#222222"
+#: Each colour as it is on dark paper; on light paper it is as named.
+ON_DARK: Mapping[str, str] = {
+    WHITE: "#151B23", "#F1F1F1": "#1E2630", "#EFEFEF": "#2A333D", "#A8A8A8": "#7D8792",
+    "#8A8A8A": "#78828D", GREY: "#97A1AC", "#555555": "#A9B3BD", "#444444": "#C3CBD3", "#333333": "#CBD3DB",
+    INK: "#E6EDF3", BLUE: "#6CB6F0", SKY: "#56B4E9", GREEN: "#2FC99E", "#8CCDB9": "#3E8A75",
+    "#7A5C2E": "#CBA56A", "#B87A00": "#E8AC3C", "#FBE3B5": "#4B3B17", "#8A5A00": "#EDB44E",
+    VERMILLION: "#FF8B45", "#F7CDB4": "#55321D", "#B34700": "#FF955A", PURPLE: "#E3A0C5",
+}  # fmt: skip
+
+
+class Ink(NamedTuple):
+    """A line's colour, width and dashes in points; a fill, its opacity and its hatching; which layer lies above."""
+
+    line: str = INK
+    width: float = 1.2
+    dash: tuple[float, ...] = ()
+    fill: str | None = None
+    dense: float = 1.0
+    hatch: bool = False
+    layer: int = 3
+
+
+_PLAIN: Mapping[Role, Ink] = {
+    "body": Ink("#555555", 1.0, fill="#A8A8A8", dense=0.45, hatch=True, layer=1),
+    "joint": Ink(INK, 1.3, fill=WHITE, layer=6),
+    "guide": Ink("#555555", 1.0, layer=4),
+    "bar": Ink("#333333", 2.6, layer=3),
+    "rope": Ink("#7A5C2E", 1.5, layer=3),
+    "ground": Ink(INK, 1.3, fill="#EFEFEF", layer=2),
+    "hatch": Ink(INK, 0.8, layer=2),
+    "axis": Ink(GREY, 0.9, layer=2),
+    "locus": Ink(GREEN, 1.8, layer=2),
+    "surface": Ink("#8CCDB9", 0.7, layer=2),
+    "plane": Ink("#8A8A8A", 0.8, fill="#F1F1F1", layer=0),
+    "node": Ink(INK, 0.8, fill="#333333", layer=7),
+    "trace": Ink(PURPLE, 1.1, layer=2),
+    "tie": Ink(GREY, 1.0, (5.0, 2.0, 1.0, 2.0), layer=2),
+    "force": Ink(GREY, 1.1, layer=2),
+    "point": Ink(INK, 0.8, fill="#333333", layer=7),
+    "name": Ink(INK, layer=9),
+    "field": Ink(BLUE, 0.8, fill=SKY, dense=0.3, layer=3),
+    "bracket": Ink(VERMILLION, 2.0, (5.0, 2.0), layer=5),
+    "further": Ink(PURPLE, 2.0, (1.5, 1.5), layer=5),
+}
+_LOUD: Mapping[State, Ink] = {
+    "redundant": Ink("#B87A00", 2.2, (5.0, 2.5), fill="#FBE3B5", layer=6),
+    "conflicting": Ink(VERMILLION, 3.2, (2.2, 1.4), fill="#F7CDB4", layer=6),
+}
+_LOUD_NAMES = {"redundant": "#8A5A00", "conflicting": "#B34700"}
+#: The roles that show the state of a constraint, and those of them with thin lines.
+_OF_CONSTRAINTS = ("joint", "guide", "bar", "rope", "locus", "tie", "surface")
+_THIN = ("guide", "joint", "surface")
+#: What the legend says of roles in their plain state.
+_ROLES: Mapping[Role, str] = {
+    "bracket": "bracket",
+    "locus": "set of an equation or inequality",
+    "surface": "set of an equation or inequality",
+    "tie": "related by an equation",
+    "force": "spring or damper (no constraint)",
+}
+
+
+def ink_of(shape: Shape) -> Ink:
+    """Return how a shape is drawn."""
+    plain = _PLAIN[shape.role]
+    if shape.kind == "ball" and shape.role == "joint":
+        plain = plain._replace(layer=7)
+    if shape.state == "moving" and shape.role == "body":
+        return plain._replace(line=BLUE, fill=SKY, dense=0.35, hatch=False)
+    if shape.state == "moving" and shape.role == "point":
+        return plain._replace(line=BLUE, fill=BLUE)
+    if shape.state in _LOUD and shape.role in _OF_CONSTRAINTS:
+        loud = _LOUD[shape.state]
+        width = 1.9 if shape.role in _THIN else loud.width
+        return loud._replace(fill=loud.fill if plain.fill else None, layer=plain.layer, width=width)
+    if shape.state in _LOUD and shape.role == "name":
+        return plain._replace(line=_LOUD_NAMES[shape.state])
+    return plain
+
+
+def keys_of(shapes: Iterable[Shape], meanings: Mapping[State, str] | None) -> list[tuple[Ink, str]]:
+    """Return the lines of the legend: roles and states that occur and have a meaning; none without meanings."""
+    if meanings is None:
+        return []
+    keys: dict[str, Ink] = {}
+    for shape in shapes:
+        ink = ink_of(shape)
+        if shape.role in ("body", "point") and shape.state in ("moving", "plain"):
+            if shape.state in meanings:
+                keys.setdefault(
+                    meanings[shape.state], _PLAIN["body"] if shape.state == "plain" else ink._replace(dense=0.5)
+                )
+        elif shape.state in meanings and shape.state in _LOUD and ink.dash == _LOUD[shape.state].dash:
+            keys.setdefault(meanings[shape.state], ink._replace(fill=None, width=2.4))
+        elif shape.role in _ROLES and (shape.state == "plain" or shape.role in ("bracket", "force")):
+            keys.setdefault(_ROLES[shape.role], _PLAIN["locus"] if shape.role == "surface" else ink)
+    return [(ink, text) for text, ink in keys.items()]

@@ -1,4 +1,4 @@
-"""What is known of a scene before it is drawn: where its joints are, how large its symbols, what the report says."""
+"""What is determined before a scene is drawn: where its joints are, how large its symbols, what moves, its states."""
 
 from __future__ import annotations
 
@@ -8,31 +8,42 @@ from dataclasses import dataclass
 import networkx as nx
 import numpy as np
 
-from dofkit.pictures.arrangement import EXAMPLES, Arrangement, arrangement_of
-from dofkit.pictures.rates import FreeMotion, free_motions, is_linear, movers
+from dofkit.pictures.arrangement import (
+    EXAMPLES,
+    Arrangement,
+    FreeMotion,
+    arrangement_of,
+    free_motions,
+    is_linear,
+    movers,
+)
 from dofkit.pictures.shapes import AT_REST, Array, Place, State, Vertex, place
-from dofkit.pictures.states import can_hold, meanings, state_of
+from dofkit.pictures.words import can_hold, meanings, state_of
 from dofkit.report import Report
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
 from dofkit.scene.symbols import Symbol
 from dofkit.system import GROUND, Connection, System
 
-#: A symbol's size by the picture's; and by the least distance between places.
+#: A symbol's size by that of the picture, by the least distance between points, and its least size.
 SYMBOL, CROWDED, LEAST = 0.032, 0.2, 0.014
-#: Joints whose place is free keep so many symbols apart.
+#: The distance in symbols between joints whose position is free.
 APART = 7.0
-#: More coordinates than this, and what moves is not looked for.
+#: With more coordinates than this, it is not determined what moves.
 MOST_COLUMNS = 300
 TOO_MANY = f"More than {MOST_COLUMNS} coordinates: which parts move was not determined."
 NOT_LINEAR = "A constraint is nonlinear in the velocities: individual motions are not shown."
+#: Where a joint whose position is taken is put instead, to the side and upwards.
+_ASIDE = ((0, 0), (0, 1), (1, 0), (1, 1), (0, -1), (-1, 0), (2, 0), (0, 2))
 
 
 @dataclass(frozen=True)
 class StagedScene:
-    """A scene with its places. ``places``: of each constraint's symbol in the drawing (None: it has none); ``unit``:
-    the size of symbols, ``size`` that of the whole, ``schematic``: some places are made up; ``measurable``: lengths
-    mean something; ``unseen``: why it was not looked for what moves.
+    """A scene with its positions.
+
+    ``places``: of each constraint's symbol in the reference configuration (None: it has none); ``unit``: the size of
+    symbols, ``size`` that of the whole, ``schematic``: some positions are invented; ``measurable``: lengths mean
+    something; ``unseen``: why it was not determined what moves.
     """
 
     scene: Scene
@@ -55,19 +66,24 @@ class StagedScene:
 
     @property
     def flat(self) -> bool:
-        """Is the world at most a plane?"""
+        """Whether the world is at most a plane."""
         return self.system.dimension < 3
 
+    @property
+    def title(self) -> str:
+        """The scene's title, or its name."""
+        return self.scene.title or self.scene.name
+
     def symbol(self, number: int) -> Symbol:
-        """How the constraint of a number is drawn."""
+        """Return how the constraint of a number is drawn."""
         return self.scene.constraints[number].symbol
 
     def state(self, name: str) -> State:
-        """What the report says of a constraint."""
+        """Return what the report says of a constraint."""
         return state_of(self.report, name)
 
     def state_of_body(self, name: str) -> State:
-        """Does a body or particle move?"""
+        """Return whether a body or particle moves."""
         return "moving" if name in self.moving else "plain"
 
     @property
@@ -76,15 +92,20 @@ class StagedScene:
         return meanings(self.report, self.unseen is None and can_hold(self.report))
 
     def here(self, vertex: Vertex) -> Array:
-        """Where a vertex is."""
+        """Return where a vertex is."""
         return self.arrangement.poses.get(vertex.carrier, AT_REST).moved(vertex.at)
 
     def vertices(self, connection: Connection) -> Iterator[Vertex]:
-        """The points that a constraint mentions, where they are known."""
+        """Yield the points that a constraint mentions, if they are known."""
         yield from vertices_of(self.arrangement, connection)
 
+    def origin(self, carrier: str) -> Vertex:
+        """Return the origin of a body, or a particle."""
+        starts = self.system.starts
+        return Vertex(carrier, self.arrangement.point(starts[carrier]) if carrier in starts else (0.0, 0.0, 0.0))
+
     def spot(self, number: int, member: str) -> Array:
-        """Where a symbol stands in the drawing of a member: particles are their own place, rails about the point."""
+        """Return where a symbol stands in the frame of a member; the symbol of a slide moves along with the point."""
         connection, at = self.system.connections[number], np.array(self.places[number] or (0.0, 0.0, 0.0))
         if any(p.carrier == member and p.particle for p in connection.points):
             return np.zeros(3)
@@ -92,16 +113,16 @@ class StagedScene:
         if vertex is None or not connection.facts.slides:
             return at
         axis = axis_of(self.arrangement, connection, 0)
-        there = np.array(self.carried(member, place(self.here(vertex))).at)
+        there = np.array(self.carried(member, self.here(vertex)).at)
         return np.asarray(at + axis * float(axis @ (there - at)))
 
-    def carried(self, carrier: str, point: Sequence[float]) -> Vertex:
-        """The vertex of a carrier that is now at a point of the world."""
+    def carried(self, carrier: str, point: Sequence[float] | Array) -> Vertex:
+        """Return the vertex of a carrier that is now at a point of the world."""
         return Vertex(carrier, self.arrangement.poses.get(carrier, AT_REST).back(point))
 
 
 def vertices_of(arrangement: Arrangement, connection: Connection) -> Iterator[Vertex]:
-    """The points that a constraint mentions, where they are known."""
+    """Yield the points that a constraint mentions, if they are known."""
     for point in connection.points:
         if point.particle:
             yield Vertex(point.carrier, (0.0, 0.0, 0.0))
@@ -110,18 +131,21 @@ def vertices_of(arrangement: Arrangement, connection: Connection) -> Iterator[Ve
 
 
 def stage_of(scene: Scene, report: Report) -> StagedScene:
-    """Look at a scene. Raises SceneError as `lower` does."""
+    """Return a scene with its positions. Raises SceneError as `lower` does."""
     system = lower(scene)
     arrangement = arrangement_of(system)
-    given = [_given_place(arrangement, c) for c in system.connections]
-    known = _known_points(scene, arrangement, given)
-    size, centre = _extent(known)
-    unit = _unit(known, size)
-    places, schematic = _all_places(scene, arrangement, given, unit)
-    size, centre = _extent([*known, *(p for p, told in zip(places, given, strict=True) if p and told is None)])
-    unseen = _unseen(arrangement)
+    written = [_written_place(arrangement, c) for c in system.connections]
+    points = _points(scene, arrangement, written)
+    size, _ = _extent(points)
+    unit = _unit(points, size)
+    places, schematic = _all_places(scene, arrangement, written, unit)
+    size, centre = _extent([*points, *(p for p, w in zip(places, written, strict=True) if p and w is None)])
+    unseen = None if is_linear(arrangement) else NOT_LINEAR
+    if len(system.coordinates) > MOST_COLUMNS:
+        unseen = TOO_MANY
     motions = () if unseen or not can_hold(report) else _motions(arrangement, report)
-    apart = len({tuple(np.round(p, 9)) for p in known}) > 1
+    apart = len({tuple(np.round(p, 9)) for p in points}) > 1
+    invented = schematic or system.generic or arrangement.note == EXAMPLES
     return StagedScene(
         scene=scene,
         report=report,
@@ -133,51 +157,43 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
         size=size,
         centre=centre,
         schematic=schematic,
-        measurable=apart and arrangement.met and not (schematic or system.generic or arrangement.note == EXAMPLES),
+        measurable=apart and arrangement.met and not invented,
         unseen=unseen,
     )
 
 
-def _unseen(arrangement: Arrangement) -> str | None:
-    """Why it is not looked for what moves, where it is not."""
-    if len(arrangement.system.coordinates) > MOST_COLUMNS:
-        return TOO_MANY
-    return None if is_linear(arrangement) else NOT_LINEAR
-
-
 def _motions(arrangement: Arrangement, report: Report) -> tuple[FreeMotion, ...]:
-    drawn = arrangement.system.reference is not None
-    freedom = report.instantaneous_dof if drawn else report.velocity_dof
+    referred = arrangement.system.reference is not None
+    freedom = report.instantaneous_dof if referred else report.velocity_dof
     return tuple(free_motions(arrangement, report.generalized_coordinates or (), freedom))
 
 
-def _given_place(arrangement: Arrangement, connection: Connection) -> Place | None:
-    """Where the drawing puts a constraint's symbol."""
+def _written_place(arrangement: Arrangement, connection: Connection) -> Place | None:
+    """Return where the scene puts a constraint's symbol, or None."""
     for at in connection.places:
         if at is not None:
             return arrangement.point(at)
-    for vertex in vertices_of(arrangement, connection):
-        return vertex.at
-    return None
+    return next((vertex.at for vertex in vertices_of(arrangement, connection)), None)
 
 
-def _known_points(scene: Scene, arrangement: Arrangement, given: Sequence[Place | None]) -> list[Array]:
-    """The places of the drawing where they are now, wheels with their rims."""
-    found = [arrangement.poses[p].moved((0.0, 0.0, 0.0)) for p in arrangement.system.particles]
-    for number, (connection, at) in enumerate(zip(arrangement.system.connections, given, strict=True)):
-        found += [arrangement.poses[v.carrier].moved(v.at) for v in vertices_of(arrangement, connection)]
+def _points(scene: Scene, arrangement: Arrangement, written: Sequence[Place | None]) -> list[Array]:
+    """Return the points of the scene where they are now, with the rims of wheels."""
+    poses = arrangement.poses
+    points = [poses[p].moved((0.0, 0.0, 0.0)) for p in arrangement.system.particles]
+    for number, (connection, at) in enumerate(zip(arrangement.system.connections, written, strict=True)):
+        points += [poses[v.carrier].moved(v.at) for v in vertices_of(arrangement, connection)]
         body = next((m for m in connection.members if m in arrangement.system.bodies), None)
         if at is not None and connection.places and body is not None:
-            found.append(arrangement.poses[body].moved(at))
+            points.append(poses[body].moved(at))
         radius = radius_of(scene, arrangement, number)
         if radius and body is not None:
-            middle = arrangement.poses[body].moved(arrangement.point(arrangement.system.starts[body]))
-            found += [middle + radius * np.array(way) for way in ((1, 1, 0), (-1, -1, 0))]
-    return found
+            middle = poses[body].moved(arrangement.point(arrangement.system.starts[body]))
+            points += [middle + radius * np.array(way) for way in ((1, 1, 0), (-1, -1, 0))]
+    return points
 
 
 def radius_of(scene: Scene, arrangement: Arrangement, number: int) -> float:
-    """The radius of a wheel that rolls, as the first relation (height less radius) has it; 0 for what is none."""
+    """Return the radius of a wheel that rolls, as its first relation (height less radius) has it; else 0."""
     if not scene.constraints[number].symbol.size:
         return 0.0
     contact = arrangement.system.constraints[number].relations[0].expr
@@ -187,7 +203,7 @@ def radius_of(scene: Scene, arrangement: Arrangement, number: int) -> float:
 
 
 def _extent(points: Sequence[Array | Place]) -> tuple[float, Place]:
-    """The largest side of the box around points, and its middle."""
+    """Return the largest side of the box around points, and its middle."""
     if not points:
         return 1.0, (0.0, 0.0, 0.0)
     low, high = np.min(np.array(points), axis=0), np.max(np.array(points), axis=0)
@@ -196,7 +212,7 @@ def _extent(points: Sequence[Array | Place]) -> tuple[float, Place]:
 
 
 def _unit(points: Sequence[Array], size: float) -> float:
-    """The size of symbols: smaller where places crowd."""
+    """Return the size of symbols, smaller where points are close."""
     distinct = np.unique(np.round(np.array(points) / size, 6), axis=0) * size if points else np.zeros((0, 3))
     if len(distinct) < 2:
         return 0.055 * size
@@ -206,33 +222,28 @@ def _unit(points: Sequence[Array], size: float) -> float:
 
 
 def _all_places(
-    scene: Scene, arrangement: Arrangement, given: Sequence[Place | None], unit: float
+    scene: Scene, arrangement: Arrangement, written: Sequence[Place | None], unit: float
 ) -> tuple[list[Place | None], bool]:
-    """The place of every symbol; what the drawing leaves free is put beside what it joins."""
-    places = list(given)
+    """Return the place of every symbol, and whether they are schematic; a free one is put near what it joins."""
+    places = list(written)
     system = arrangement.system
-    free = [
-        k
-        for k, c in enumerate(system.connections)
-        if places[k] is None and c.members and scene.constraints[k].symbol.run == ""
-    ]
-    drawn = any(at is not None for at in places)
-    laid = {} if drawn else _layout(system, free, unit)
+    symbols = [constraint.symbol for constraint in scene.constraints]
+    free = [k for k, c in enumerate(system.connections) if places[k] is None and c.members and symbols[k].run == ""]
+    laid = {} if any(at is not None for at in places) else _layout(system, free, unit)
     taken: list[Place] = []
     for k in free:
         connection = system.connections[k]
-        base, pinned = _beside(arrangement, connection, places, k)
+        base, pinned = _neighbour(arrangement, connection, places, k)
         wanted = laid.get(k, base)
-        if scene.constraints[k].symbol.rails and base is not None and not pinned:
-            axis = axis_of(arrangement, connection, 0)
-            wanted = place(np.array(base) + APART * unit * axis)
-        places[k] = _clear(wanted or (0.0, 0.0, 0.0), taken, APART * unit, system.dimension)
-        taken.append(places[k] or (0.0, 0.0, 0.0))
+        if symbols[k].rails and base is not None and not pinned:
+            wanted = place(np.array(base) + APART * unit * axis_of(arrangement, connection, 0))
+        taken.append(_clear(wanted or (0.0, 0.0, 0.0), taken, APART * unit, system.dimension))
+        places[k] = taken[-1]
     return places, bool(laid) and bool(system.generic)
 
 
 def _layout(system: System, free: Sequence[int], unit: float) -> dict[int, Place]:
-    """Places of joints where nothing is drawn: bodies and joints as a graph, spread by springs."""
+    """Return places of joints if none is given: bodies and joints as a graph, spread by springs."""
     graph = nx.Graph()
     for k in free:
         graph.add_edges_from((k, m) for m in system.connections[k].members)
@@ -242,13 +253,12 @@ def _layout(system: System, free: Sequence[int], unit: float) -> dict[int, Place
     return {k: place(laid[k]) for k in free}
 
 
-def _beside(
+def _neighbour(
     arrangement: Arrangement, connection: Connection, places: Sequence[Place | None], number: int
 ) -> tuple[Place | None, bool]:
-    """A place of the moved body, and whether a pin is there."""
-    others = arrangement.system.connections
+    """Return a place of the moved body, and whether a pin is there."""
     for member in reversed([m for m in connection.members if m != GROUND]):
-        for k, other in enumerate(others):
+        for k, other in enumerate(arrangement.system.connections):
             if k != number and places[k] is not None and member in other.members:
                 return places[k], other.facts.axial
     body = next((m for m in connection.members if m in arrangement.system.starts), None)
@@ -256,31 +266,30 @@ def _beside(
 
 
 def _clear(wanted: Place, taken: Sequence[Place], gap: float, dimension: int) -> Place:
-    """The place nearest to what is wanted that keeps clear of others."""
+    """Return the place nearest to what is wanted that keeps clear of others."""
     up = np.array([0.0, 1.0, 0.0]) if dimension == 2 else np.array([0.0, 0.0, 1.0])
     side = np.array([1.0, 0.0, 0.0])
-    ways = [w * side + h * up for w, h in ((0, 0), (0, 1), (1, 0), (1, 1), (0, -1), (-1, 0), (2, 0), (0, 2))]
     for scale in (1.0, 2.0, 3.0, 4.0):
-        for way in ways:
-            spot = np.array(wanted) + gap * scale * way
+        for w, h in _ASIDE:
+            spot = np.array(wanted) + gap * scale * (w * side + h * up)
             if all(np.linalg.norm(spot - np.array(other)) > 0.9 * gap for other in taken):
                 return place(spot)
     return place(np.array(wanted) + gap * len(taken) * side)
 
 
 def axis_of(arrangement: Arrangement, connection: Connection, number: int) -> Array:
-    """A direction of a joint in the drawing: of length 1, and of some way where it is left open."""
-    given = connection.directions[number] if number < len(connection.directions) else None
+    """Return a direction of a joint in the reference configuration, of length 1; a usual one if none is given."""
+    direction = connection.directions[number] if number < len(connection.directions) else None
     usual = (
         [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)] if arrangement.system.dimension < 3 else [(0.0, 0.0, 1.0), (1.0, 0.0, 0.0)]
     )
-    axis = np.array(usual[min(number, 1)] if given is None else arrangement.point(given))
+    axis = np.array(usual[min(number, 1)] if direction is None else arrangement.point(direction))
     size = float(np.linalg.norm(axis))
     return axis / size if size > 1e-12 else np.array(usual[0])
 
 
 def carriers(connection: Connection) -> Mapping[int, str]:
-    """The members by number, what is held by the ground second: rails and sockets are the ground's."""
+    """Return the members by number, with the ground first if it is second: rails and sockets are the ground's."""
     members = list(connection.members)
     if len(members) > 1 and members[1] == GROUND and not connection.points:
         members[:2] = members[1::-1]

@@ -1,44 +1,50 @@
-"""Still pictures of scenes, and the doors to them: `draw`, `graph`, `phase`, and `svg` for inside of other pages."""
+"""Still pictures of scenes: `draw`, `graph`, `phase`, `svg` for other pages, and one that gives no answer away."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from html import escape
 from pathlib import Path
-from typing import TypeVar
 
 import numpy as np
 
-from dofkit.base.arguments import format_of_path
+from dofkit.base.wording import many
 from dofkit.methods.classify import classify
 from dofkit.pictures.constraint_graph import graph_sketch, hover_script
 from dofkit.pictures.coordinates import MOST, coordinate_sketch, is_bare
 from dofkit.pictures.directions import phase_sketch
+from dofkit.pictures.files import has_matplotlib, png_of, saved, svg_of, write_pdf
 from dofkit.pictures.layout import WIDTH, page_of
-from dofkit.pictures.mechanism import sketch_of
+from dofkit.pictures.mechanism import FREE_PLACES, sketch_of
 from dofkit.pictures.paper import Page
 from dofkit.pictures.player import framed, page_height, page_html
-from dofkit.pictures.raster import has_matplotlib, png_of, write_pdf
 from dofkit.pictures.shapes import Sketch
 from dofkit.pictures.stage import StagedScene, stage_of
-from dofkit.pictures.vector import svg_of
 from dofkit.report import Report
 from dofkit.scene.reading import SceneLike, load
 from dofkit.scene.scene import Scene
 
 #: Pixels around a still picture on a page of its own.
 BESIDE = 20.0
-#: A picture that reaches so much further than its places has larger symbols.
+#: A picture that extends this much further than its points has larger symbols.
 WIDER = 1.6
 NOTHING = "The scene declares nothing that could move."
 NO_AXES = "No geometry to draw: constraint graph."
+_PAGE = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>{title}</title>
+<meta name="viewport" content="width=device-width">
+<style>:root {{ color-scheme: light dark; }}
+body {{ margin: 1em; font-family: sans-serif; }} svg {{ max-width: 100%; height: auto; }}</style></head>
+<body>
+{body}</body></html>
+"""
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A still picture; a notebook shows it, those of space can be turned there.
+    """A still picture; a notebook shows it, and spatial ones can be rotated there.
 
     ``alternative`` says in words what it shows and the answer.
     """
@@ -60,11 +66,11 @@ class Picture:
         return page_of(self.sketch)
 
     def svg(self) -> str:
-        """The picture as the text of an SVG."""
+        """Return the picture as the text of an SVG."""
         return svg_of(self.page, script=self.script)
 
     def html(self) -> str:
-        """The picture as a page of its own, that needs no network; one of space turns as it is dragged."""
+        """Return the picture as a page that needs no network; a spatial one rotates as it is dragged."""
         if self.sketch.dimension == 3:
             return page_html(self.sketch, ())
         return _PAGE.format(title=escape(self.sketch.title), body=self.svg())
@@ -72,7 +78,7 @@ class Picture:
     def save(self, path: str | Path) -> Path:
         """Write it as svg, png, pdf or html, by the path's ending.
 
-        Raises ArgumentError for any other ending, ExtraMissingError where matplotlib is needed and missing, OSError.
+        Raises ArgumentError for any other ending, ExtraMissingError if matplotlib is needed and missing, OSError.
         """
         return saved(self, path, _WRITERS)
 
@@ -85,45 +91,11 @@ class Picture:
         return png_of(self.page) if has_matplotlib() else None
 
 
-_Drawn = TypeVar("_Drawn")
-
-
-def saved(picture: _Drawn, path: str | Path, writers: Mapping[str, Callable[[_Drawn, Path], None]]) -> Path:
-    """Write a picture with the one of the ``writers`` that the path's ending asks for; returns the path.
-
-    Raises ArgumentError for any other ending, and what the writer raises.
-    """
-    target = Path(path)
-    writers[format_of_path(target, writers)](picture, target)
-    return target
-
-
-_PAGE = """<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>{title}</title>
-<meta name="viewport" content="width=device-width">
-<style>:root {{ color-scheme: light dark; }}
-body {{ margin: 1em; font-family: sans-serif; }} svg {{ max-width: 100%; height: auto; }}</style></head>
-<body>
-{body}</body></html>
-"""
-
-
-def _write_text(text: Callable[[Picture], str]) -> Callable[[Picture, Path], None]:
-    def write(picture: Picture, path: Path) -> None:
-        path.write_text(text(picture), encoding="utf-8")
-
-    return write
-
-
-def _write_png(picture: Picture, path: Path) -> None:
-    path.write_bytes(png_of(picture.page))
-
-
-_WRITERS: Mapping[str, Callable[[Picture, Path], None]] = {
-    "svg": _write_text(Picture.svg),
-    "png": _write_png,
+_WRITERS: Mapping[str, Callable[[Picture, Path], object]] = {
+    "svg": lambda picture, path: path.write_text(picture.svg(), encoding="utf-8"),
+    "png": lambda picture, path: path.write_bytes(png_of(picture.page)),
     "pdf": lambda picture, path: write_pdf(picture.page, path),
-    "html": _write_text(Picture.html),
+    "html": lambda picture, path: path.write_text(picture.html(), encoding="utf-8"),
 }
 
 
@@ -158,26 +130,28 @@ def draw(scene: SceneLike, report: Report | None = None) -> Picture:
     >>> dofkit.draw("four-bar-linkage").alternative
     'Planar four-bar linkage: 3 bodies, 4 constraints. 1 degree of freedom (proved).'
     """
-    given = load(scene)
-    told = classify(given) if report is None else report
-    return Picture(*whole_sketch(staged(given, told)))
+    return Picture(*whole_sketch(staged(*with_report(scene, report))))
+
+
+def with_report(scene: SceneLike, report: Report | None) -> tuple[Scene, Report]:
+    """Return a scene and its report, which is computed if it is not known."""
+    loaded = load(scene)
+    return loaded, classify(loaded) if report is None else report
 
 
 def staged(scene: Scene, report: Report) -> StagedScene:
-    """The scene with its places, symbols as large as the whole picture needs them."""
+    """Return a scene with its positions, and symbols as large as the whole picture needs them."""
     stage = stage_of(scene, report)
     if is_bare(stage.system):
         return stage
     sketch = sketch_of(stage)
     points = [sketch.at(v) for s in sketch.shapes if s.role in ("body", "locus") for v in s.vertices]
     reach = float(np.max(np.ptp(np.array(points), axis=0))) if points else 0.0
-    if reach < WIDER * stage.size:
-        return stage
-    return replace(stage, unit=max(stage.unit, 0.024 * reach))
+    return stage if reach < WIDER * stage.size else replace(stage, unit=max(stage.unit, 0.024 * reach))
 
 
 def whole_sketch(stage: StagedScene) -> tuple[Sketch, str]:
-    """The sketch of a scene of any kind, and the script that goes with it."""
+    """Return the sketch of a scene of any kind, and the script that goes with it."""
     if not is_bare(stage.system):
         return sketch_of(stage), ""
     if 0 < len(stage.system.coordinates) <= MOST:
@@ -212,9 +186,8 @@ def graph(scene: SceneLike, report: Report | None = None) -> Picture:
     >>> dofkit.graph("five-particles-ten-links").alternative.split(":")[0]
     'Five particles rigidly connected, link by link'
     """
-    given = load(scene)
-    told = classify(given) if report is None else report
-    return Picture(graph_sketch(given, stage_of(given, told).system, told), hover_script(told))
+    loaded, report = with_report(scene, report)
+    return Picture(graph_sketch(loaded, stage_of(loaded, report).system, report), hover_script(report))
 
 
 def phase(scene: SceneLike, report: Report | None = None) -> Picture:
@@ -246,14 +219,34 @@ def phase(scene: SceneLike, report: Report | None = None) -> Picture:
     >>> dofkit.phase("disc-rolling-on-plane").sketch.notes[0].split(";")[0]
     'Growth vector (2, 3, 4)'
     """
-    given = load(scene)
-    told = classify(given) if report is None else report
-    return Picture(phase_sketch(stage_of(given, told)))
+    return Picture(phase_sketch(stage_of(*with_report(scene, report))))
 
 
 def svg(scene: SceneLike, report: Report | None = None, width: float = WIDTH) -> str:
-    """A small picture of a scene as the text of an ``svg`` element, for inside of another page; it is `draw`'s.
-
-    ``width`` is in the page's pixels. Raises as `draw` does.
-    """
+    """Return the picture of `draw` as an ``svg`` element for another page, ``width`` pixels wide. Raises as `draw`."""
     return svg_of(draw(scene, report).page, width)
+
+
+def unanswered(scene: Scene, report: Report, title: str) -> Picture | None:
+    """Return the picture for an assignment, or None for a scene of coordinates only. Raises as `draw`.
+
+    It shows nothing that the report says: neither equations nor what moves, is redundant or contradicts others.
+    """
+    if not (scene.particles or scene.bodies):
+        return None
+    stage = staged(scene, report)
+    sketch = sketch_of(stage)
+    shapes = tuple(s._replace(state="moving" if s.role in ("body", "point") else "plain") for s in sketch.shapes)
+    contents = f"{title}: {', '.join(_contents(scene))}."
+    notes = (FREE_PLACES,) if stage.schematic else ()
+    return Picture(
+        replace(sketch, title="", answer="", alternative=contents, shapes=shapes, meanings=None, notes=notes)
+    )
+
+
+def _contents(scene: Scene) -> Iterator[str]:
+    if scene.bodies:
+        yield many(len(scene.bodies), "body")
+    if scene.particles:
+        yield many(len(scene.particles), "particle")
+    yield many(len(scene.constraints), "constraint")

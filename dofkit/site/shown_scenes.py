@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from dofkit.methods.classify import classify
+from dofkit.pictures.files import svg_of
 from dofkit.pictures.still import draw
-from dofkit.pictures.vector import svg_of
 from dofkit.report import Report
 from dofkit.scene.catalog import catalog_folder, catalog_text
 from dofkit.scene.reading import loads

@@ -20,7 +20,7 @@ from dofkit.homework.handout.sheets import HANDOUTS, remarks, write_sheet, writt
 from dofkit.homework.questions import KINDS
 from dofkit.interface import cli
 from dofkit.interface.assignment_commands import drawing
-from dofkit.pictures.unanswered import unanswered
+from dofkit.pictures.still import unanswered
 
 PENDULUM: dict[str, Any] = {
     "dimension": 2,

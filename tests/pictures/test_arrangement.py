@@ -10,9 +10,8 @@ import pytest
 
 import dofkit
 from dofkit.expressions.tree import coordinate, parameter
-from dofkit.pictures.arrangement import SCHEMATIC, arrangement_of, poses_of
+from dofkit.pictures.arrangement import SCHEMATIC, arrangement_of, free_motions, movers, poses_of
 from dofkit.pictures.evaluation import evaluated
-from dofkit.pictures.rates import free_motions, movers
 from dofkit.scene.lowering import lower
 
 

@@ -11,8 +11,7 @@ import pytest
 
 import dofkit
 from dofkit.pictures.arrangement import arrangement_of
-from dofkit.pictures.directions import NoFormsError, directions_of
-from dofkit.pictures.fields import Distribution
+from dofkit.pictures.directions import Distribution, NoFormsError, directions_of
 from dofkit.scene.lowering import lower
 
 HEISENBERG: dict[str, Any] = {"coordinates": ["x", "y", "z"], "constraints": ["dz = x dy - y dx"]}

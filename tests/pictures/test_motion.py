@@ -15,7 +15,7 @@ import pytest
 import dofkit
 from dofkit.base.errors import ArgumentError
 from dofkit.pictures.animation import STILL, Animation
-from dofkit.pictures.raster import ExtraMissingError
+from dofkit.pictures.files import ExtraMissingError
 
 #: Of the truss with corners (0, 0), (4, 0), (1, 3): AB, AC, BC.
 LENGTHS = [4, 10**0.5, 18**0.5]
@@ -121,7 +121,7 @@ def test_space_is_told_by_rows_of_turns() -> None:
 
 
 def test_other_endings_are_told(tmp_path: Path) -> None:
-    with pytest.raises(ArgumentError, match=r"the endings are \.html, \.gif, \.mp4, "):
+    with pytest.raises(ArgumentError, match=r"the endings are \.html, \.gif, \.mp4$"):
         dofkit.animate("crank-held-at-angle").save(tmp_path / "a.avi")
 
 

@@ -16,12 +16,11 @@ from dofkit.base.errors import ArgumentError
 from dofkit.pictures import stage
 from dofkit.pictures.arrangement import SCHEMATIC
 from dofkit.pictures.coordinates import POINT
+from dofkit.pictures.files import ExtraMissingError
 from dofkit.pictures.layout import page_of
-from dofkit.pictures.looks import ON_DARK, WHITE, ink_of, keys_of
 from dofkit.pictures.mechanism import FREE_PLACES
 from dofkit.pictures.paper import HIGH, Page, width_of
-from dofkit.pictures.raster import ExtraMissingError
-from dofkit.pictures.shapes import Role, Shape, State
+from dofkit.pictures.shapes import ON_DARK, WHITE, Role, Shape, State, ink_of, keys_of
 from dofkit.pictures.still import Picture, svg
 from dofkit.report import FieldVerdict
 
@@ -329,7 +328,7 @@ def test_other_files(tmp_path: Path) -> None:
 
 
 def test_without_matplotlib_what_needs_it_says_so(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr("dofkit.pictures.raster.find_spec", lambda name: None)
+    monkeypatch.setattr("dofkit.pictures.files.find_spec", lambda name: None)
     picture = dofkit.draw("four-bar-linkage")
     picture.save(tmp_path / "a.svg")
     assert picture._repr_png_() is None

@@ -1,0 +1,106 @@
+"""What a report says, in the words of pictures: the answer, the states of constraints, and the legend."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from dofkit.base.wording import many, verb
+from dofkit.pictures.shapes import State
+from dofkit.report import Report
+from dofkit.scene.scene import Scene
+
+INFINITESIMAL = "infinitesimally mobile"
+UNDECIDED = "number of degrees of freedom undecided"
+#: The number of names that are listed.
+MOST = 8
+
+
+def state_of(report: Report, name: str) -> State:
+    """Return whether a constraint contradicts others, is redundant (wholly or in part), or neither."""
+    if name in report.conflicting or name in report.infeasible:
+        return "conflicting"
+    in_part = any(entry.redundant_equations for entry in report.constraints if entry.name == name)
+    return "redundant" if in_part or name in (report.redundant or ()) else "plain"
+
+
+def sure(report: Report, field: str) -> str:
+    """Return `` (probable)`` or the like to stand after what a field says; nothing if it is proved."""
+    entry = report.verdicts.get(field)
+    return "" if entry is None or entry.verdict == "proved" else f" ({entry.verdict})"
+
+
+def can_hold(report: Report) -> bool:
+    """Return whether it is not excluded that all constraints are satisfied together."""
+    return report.consistent is not False and report.feasible is not False
+
+
+def meanings(report: Report, looked: bool) -> Mapping[State, str]:
+    """Return what the legend says of each state. ``looked``: whether it was determined what moves.
+
+    Infinitesimal motions are drawn: they are finite motions only if the report says so.
+    """
+    words: dict[State, str] = {
+        "redundant": f"redundant or partly redundant{sure(report, 'redundant')}",
+        "conflicting": f"contradicts others{sure(report, 'consistent' if report.conflicting else 'feasible')}",
+    }
+    if not looked:
+        return words
+    if report.velocity_dof is None or report.consistent is None:
+        return {**words, "moving": f"{INFINITESIMAL}; finite motion undecided", "plain": "immobile"}
+    return {**words, "moving": INFINITESIMAL if report.singular else "mobile", "plain": "immobile"}
+
+
+def answer(report: Report) -> str:
+    """Return the answer in one sentence.
+
+    >>> import dofkit
+    >>> answer(dofkit.classify("four-bar-linkage"))
+    '1 degree of freedom (proved)'
+    """
+    if report.consistent is False:
+        names = _names(report.conflicting)
+        text = f"no motion: {names} contradict each other" if report.conflicting else "no motion"
+    elif report.feasible is False:
+        text = f"no motion: {_names(report.infeasible)} cannot be satisfied together"
+    else:
+        text = ", ".join(_freedom(report))
+    return text if text == UNDECIDED else f"{text} ({report.verdict})"
+
+
+def _freedom(report: Report) -> Iterator[str]:
+    """Yield the freedom, the velocity freedom where it differs, and what is undecided."""
+    dof, velocities = report.dof, report.velocity_dof
+    yield UNDECIDED if dof is None else f"{dof} {verb(dof, 'degree', 'degrees')} of freedom"
+    if velocities is not None and velocities != dof:
+        yield f"{velocities} independent {verb(velocities, 'velocity', 'velocities')}"
+    if report.singular and report.instantaneous_dof is not None:
+        yield f"instantaneous freedom {report.instantaneous_dof} at this singular configuration"
+    if dof is not None and report.consistent is None:
+        yield "if the constraints are consistent"
+    if report.feasible is None and not all(entry.bilateral for entry in report.constraints):
+        yield "if the inequalities can be satisfied"
+
+
+def alternative(scene: Scene, report: Report) -> str:
+    """Return what is drawn, and the answer, in a few sentences."""
+    further = "further " if scene.bodies or scene.particles else ""
+    counts = [(scene.bodies, "body"), (scene.particles, "particle"), (scene.coordinates, f"{further}coordinate")]
+    contents = [many(len(items), what) for items, what in (*counts, (scene.constraints, "constraint")) if items]
+    sentences = [f"{scene.title or scene.name}: {', '.join(contents) or 'nothing is declared'}.", f"{answer(report)}."]
+    how = sure(report, "redundant")
+    wholly = report.redundant or []
+    if wholly:
+        sentences.append(f"Redundant{how}: {_names(wholly)}.")
+    in_part = [entry.name for entry in report.constraints if entry.redundant_equations and entry.name not in wholly]
+    if in_part:
+        sentences.append(f"Partly redundant{how}: {_names(in_part)}.")
+    if report.growth_vector:
+        vector = ", ".join(map(str, report.growth_vector))
+        sentences.append(f"Growth vector ({vector}){sure(report, 'growth_vector')}.")
+    return " ".join(sentences)
+
+
+def _names(names: Iterable[str]) -> str:
+    listed = list(names)
+    more = f" and {len(listed) - MOST} more" if len(listed) > MOST else ""
+    return ", ".join(listed[:MOST]) + more
