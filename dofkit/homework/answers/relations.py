@@ -15,7 +15,7 @@ from dofkit.expressions.text.names import in_words, unmarked
 from dofkit.expressions.text.tokens import read_word
 from dofkit.expressions.tree import E, Expr, coordinate, parameter
 from dofkit.homework.answers.declared import DeclaredNames, usual_name
-from dofkit.homework.answers.pieces import Pieces, pieces_of
+from dofkit.homework.answers.pieces import Pieces, pieces_of, plainer
 from dofkit.homework.answers.script import Script
 from dofkit.homework.judgement import DoubtError
 from dofkit.scene.added_equations import Read, as_text
@@ -31,20 +31,12 @@ _RATE = re.compile(r"(.+?)_?d?dot(_\w+)?")
 _RELATION = re.compile(r"[=<>≤≥]")
 #: Of a quotient of two numbers before a factor everybody reads the first way: `1/2(m v^2)` is half of it.
 _HALF = re.compile(r"\(\d+/\d+\)\*\(")
-_NAME = r"\\?[A-Za-zα-ωΑ-Ω][A-Za-z0-9α-ωΑ-Ω_{}]{0,7}"
-_FUNCTION = re.compile(
-    rf"\A\s*(?:\\?[A-Za-zα-ωΑ-Ω]\w{{0,3}}\s*\(\s*{_NAME}(?:\s*,\s*{_NAME})+\s*\)"
-    rf"|(?:[fghFGH]|phi|Phi|φ|Φ|\\phi|\\Phi|\\varphi)(?:_?\{{?\w{{0,2}}\}}?)?(?:\s*\(\s*{_NAME}\s*\))?)\s*=(?!=)\s*"
-)
 #: Names of constants of integration.
 _OF_INTEGRATION = re.compile(r"[CcKk](?:_?\d)?|[A-Za-z]+_?0|const\w*|konst\w*|c[st]t?e?")
 #: Words that are one name, never a product.
 _WHOLE = re.compile(r"const|konst|cst|cte|lam|mu|mult", re.IGNORECASE)
 _DEFINITION = re.compile(r"\s*(?P<name>\\?[A-Za-zα-ω]+(?:_\w+)?)\s*(?:\^\s*\{?2\}?|²)?\s*:?=(?!=)(?P<value>[^=]+)\Z")
 _WORDS = re.compile(r"\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?")
-_CALLED = re.compile(r"\A\s*\\?([A-Za-zα-ωΑ-Ω]\w*)\s*\(\s*\\?(?:var)?([A-Za-zα-ωΑ-Ω]\w*)\s*\)\s*=(?!=)")
-_POWER_OF_E = re.compile(r"(?<![\w\\])([A-Za-zα-ωΑ-Ω])e(?=\s*(?:\^|\*\*))")
-_CONSTANTS = re.compile(r"\b(const|konst|cst|cte)(?:[^\W\d_]*)\.?(?!\w)", re.IGNORECASE)
 _SIGNS, _PLUS, _MINUS = re.compile("[±∓]"), re.compile("±"), re.compile("∓")
 
 
@@ -267,7 +259,7 @@ def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading
     ways: list[tuple[tuple[Comparison, ...], tuple[bool, ...], AnswerNames]] = [((), (), vocabulary)]
     for n, script in enumerate(pieces.scripts):
         more = []
-        script = _plainer(script, vocabulary)
+        script = plainer(script, vocabulary.names)
         if pieces.derived and n + 1 < len(pieces.scripts) and not _readable(script, vocabulary):
             continue
         for relations, bare, own in ways:
@@ -363,38 +355,6 @@ def _of_other_meaning(script: Script, vocabulary: AnswerNames) -> tuple[str, ...
     if all(c.left == c.right for c in read):
         return ()  # `v = xdot` says what the name means
     return tuple(word for word, quantity in vocabulary.usual.items() if quantity in written)
-
-
-def _plainer(script: Script, vocabulary: AnswerNames) -> Script:
-    """Without a leading name; `r(phi) =` is r, `Ce^x` is C e^x."""
-    script = _without_lead(script, vocabulary)
-    match = _CALLED.match(script.text)
-    if match is not None and {spelled(match[1]), spelled(match[2])} <= vocabulary.names.coordinates:
-        script = script.replaced(_CALLED, lambda m: f"{m[1]} =")
-    if vocabulary.names.lookup.meaning("e") is not None:
-        return script
-    return script.replaced(
-        _POWER_OF_E, lambda m: m[0] if vocabulary.names.lookup.meaning(m[0]) is not None else f"{m[1]} e"
-    )
-
-
-def _without_lead(script: Script, vocabulary: AnswerNames) -> Script:
-    """Without `f(x, y) =` before an expression or an equation; `const.` is the name of a constant."""
-    script = script.replaced(_CONSTANTS, "const")
-    lead = _FUNCTION.match(script.text)
-    if lead is None or lead.end() == len(script.text):
-        return script
-    if "(" not in lead[0] and not re.match(r"\s*[fgh]", lead[0]) and "=" not in script.text[lead.end() :]:
-        return script
-    name = re.sub(r"[\\{}]", "", lead[0].split("=")[0].split("(")[0]).strip()
-    listed = "," in lead[0]
-    if listed and name in vocabulary.names.parameters:
-        return script.cut(lead.end())
-    if vocabulary.names.lookup.meaning(name) is not None or re.search(
-        rf"\b{re.escape(name)}\b", script.text[lead.end() :]
-    ):
-        return script
-    return script.cut(lead.end())
 
 
 def _with_both_signs(script: Script) -> Script:
