@@ -21,13 +21,13 @@ def components(names_of: Iterable[Iterable[Hashable]]) -> list[list[int]]:
 
     for i, names in enumerate(names_of):
         leader.append(i)
-        own = i
+        root = i
         for name in names:
-            other = owner.setdefault(name, own)
-            if other != own:
-                other = led(other)
-                own, other = (own, other) if own < other else (other, own)
-                leader[other] = own
+            first_owner = owner.setdefault(name, root)
+            if first_owner != root:
+                first_owner = led(first_owner)
+                root, first_owner = (root, first_owner) if root < first_owner else (first_owner, root)
+                leader[first_owner] = root
     groups: dict[int, list[int]] = {}
     for i in range(len(leader)):
         groups.setdefault(led(i), []).append(i)

@@ -12,8 +12,8 @@ from dofkit.classification.study import Study
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.mobility import special_position
+from dofkit.mobility.counts import kutzbach_count
 from dofkit.mobility.general_position import General, has_geometry, in_general_position
-from dofkit.mobility.kutzbach import kutzbach_count
 from dofkit.mobility.near_dependence import MOST, nearly_dependent
 from dofkit.mobility.placement import Placement, drawn_placement, measured_placement
 from dofkit.relations.normal.pieces import Finite

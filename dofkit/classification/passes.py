@@ -19,7 +19,7 @@ from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
 from dofkit.exact.points.balls import precise_for
 from dofkit.exact.zero import BOTH, Engines
-from dofkit.mobility.kutzbach import without_drives
+from dofkit.mobility.counts import without_drives
 from dofkit.relations.answer import DEFECTS
 from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.report import ConstraintEntry, FieldVerdict, Mobility, Report

@@ -17,8 +17,8 @@ from dofkit.classification.labels.companions import integrable_part
 from dofkit.classification.study import Study
 from dofkit.expressions.text import to_text
 from dofkit.integrability.growth_vector import is_free
+from dofkit.mobility.counts import CountedFacts, count
 from dofkit.mobility.joint_tree import tree_coordinates
-from dofkit.mobility.textbook_count import CountedFacts, count
 from dofkit.relations.answer import BITS
 from dofkit.relations.blocks import about_constants, uses_time
 from dofkit.relations.normal.pieces import Finite

@@ -9,7 +9,7 @@ from typing import Any
 
 from dofkit.base.libraries import np
 from dofkit.classification.turned_coordinates import ANYWHERE
-from dofkit.configuration.drawing.at_reference import ball_point
+from dofkit.configuration.at_reference import ball_point
 from dofkit.configuration.generic_points import pose_point
 from dofkit.configuration.local import neighbourhood
 from dofkit.configuration.rigid_motions import displacements_real

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from dofkit.base.verdicts import OPEN
 from dofkit.expressions.tree import Expr
-from dofkit.mobility.textbook_count import CountedFacts, count
+from dofkit.mobility.counts import CountedFacts, count
 from dofkit.report import FORMS, ConstraintEntry, Count, FieldVerdict, ForceEntry, Form, Report
 from dofkit.system import Constraint, Relation, System
 

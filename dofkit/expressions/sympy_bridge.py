@@ -180,21 +180,24 @@ _READ: dict[str, Callable[[Bridge, Any], Expr]] = {
 
 
 def antiderivative_by_sympy(e: Expr, x: Expr, positive: frozenset[Expr]) -> Expr | None:
-    """Return the antiderivative of ``e`` by the symbol ``x`` that Risch's algorithm finds in SymPy, or None.
+    """Return the antiderivative of ``e`` by the symbol ``x`` that SymPy finds, or None.
 
-    It covers rational functions, exponentials and logarithms, and says so quickly where an integrand is none of them.
-    Raises UntranslatableError where the result cannot be written as an expression.
+    Risch's algorithm covers rational functions, exponentials and logarithms, and says quickly where an integrand is
+    none of them; then the rules that a person would use. Raises UntranslatableError where a result cannot be written.
     """
-    from sympy import Integral
+    from sympy import Integral, Piecewise
+    from sympy.integrals.manualintegrate import manualintegrate
     from sympy.integrals.risch import risch_integrate
     from sympy.polys.polyerrors import BasePolynomialError
 
     plain = {s: ex.parameter(f"p{i}") for i, s in enumerate(sorted(e.symbols, key=repr))}
     bridge = Bridge((), frozenset(plain[s] for s in e.symbols & positive))
-    try:
-        integral = risch_integrate(bridge.sympy(substitute(e, plain)), bridge.sympy(plain[x]))
-    except (ArithmeticError, AttributeError, BasePolynomialError, LookupError, RuntimeError, TypeError, ValueError):
-        return None  # NotImplementedError is a RuntimeError
-    if integral.has(Integral):
-        return None
-    return substitute(bridge.expr(integral), {p: s for s, p in plain.items()})
+    integrand, variable = bridge.sympy(substitute(e, plain)), bridge.sympy(plain[x])
+    for integrate in (risch_integrate, manualintegrate):
+        try:
+            integral = integrate(integrand, variable)
+        except (ArithmeticError, AttributeError, BasePolynomialError, LookupError, RuntimeError, TypeError, ValueError):
+            continue  # NotImplementedError is a RuntimeError
+        if not integral.has(Integral, Piecewise):
+            return substitute(bridge.expr(integral), {p: s for s, p in plain.items()})
+    return None

@@ -23,13 +23,13 @@ class JointSum(NamedTuple):
 
     def text(self, letters: dict[str, str]) -> str:
         """The sum as text; joints get their letters."""
-        parts = []
+        terms = []
         for name, factor in self.terms:
             letter = letters.setdefault(name, _letter(len(letters)))
-            parts.append(_term(factor, letter))
+            terms.append(_term(factor, letter))
         if round(self.drawn, DECIMALS):
-            parts.append(_signed(figures(self.drawn)))
-        return _joined(parts)
+            terms.append(_signed(figures(self.drawn)))
+        return _joined(terms)
 
 
 def relation(left: JointSum, right: JointSum | None, polynomial: Sequence[float]) -> dict[str, Any]:
@@ -41,15 +41,15 @@ def relation(left: JointSum, right: JointSum | None, polynomial: Sequence[float]
     'p = 2 (-q)^2'
     """
     letters: dict[str, str] = {}
-    one = left.text(letters)
-    parts = [_signed(figures(polynomial[0]))] if polynomial[0] else []
+    first = left.text(letters)
+    terms = [_signed(figures(polynomial[0]))] if polynomial[0] else []
     if right is not None:
         other = right.text(letters)
         base = other if other in letters.values() else f"({other})"
         for power, factor in enumerate(polynomial[1:], 1):
             if factor:
-                parts.append(_term(factor, base if power == 1 else f"{base}^{power}"))
-    return {"joints": {letter: name for name, letter in letters.items()}, "text": f"{one} = {_joined(parts)}"}
+                terms.append(_term(factor, base if power == 1 else f"{base}^{power}"))
+    return {"joints": {letter: name for name, letter in letters.items()}, "text": f"{first} = {_joined(terms)}"}
 
 
 def bounds(total: JointSum, between: Sequence[float]) -> dict[str, Any]:
@@ -103,8 +103,8 @@ def _signed(text: str) -> str:
     return f"- {text[1:]}" if text.startswith("-") else f"+ {text}"
 
 
-def _joined(parts: Iterable[str]) -> str:
-    told = " ".join(parts)
-    if told.startswith("- "):
-        return f"-{told[2:]}"
-    return told.removeprefix("+ ") or "0"
+def _joined(terms: Iterable[str]) -> str:
+    text = " ".join(terms)
+    if text.startswith("- "):
+        return f"-{text[2:]}"
+    return text.removeprefix("+ ") or "0"

@@ -70,12 +70,12 @@ class SceneDraft:
     _bodies: set[str] = field(default_factory=lambda: {"ground", "t"})
     _constraints: set[str] = field(default_factory=set)
 
-    def body(self, name: str, line: int | None, **given: Any) -> str:
+    def body(self, name: str, line: int | None, **fields: Any) -> str:
         """Add a body; the name that it got."""
-        found = identifier(name, self._bodies)
+        unique_name = identifier(name, self._bodies)
         self._at(("bodies", len(self.bodies)), line)
-        self.bodies.append({"name": found, **given})
-        return found
+        self.bodies.append({"name": unique_name, **fields})
+        return unique_name
 
     def place(self, body: str, at: Iterable[float]) -> None:
         """Where the origin of a body stands in the drawing; turned as its inertia is told (`inertia_of`)."""
@@ -84,10 +84,10 @@ class SceneDraft:
 
     def particle(self, name: str, line: int | None, at: Iterable[float]) -> str:
         """Add a particle; the name that it got."""
-        found = identifier(name, self._bodies)
+        unique_name = identifier(name, self._bodies)
         self._at(("particles", len(self.particles)), line)
-        self.particles.append({"name": found, "at": vector(at)})
-        return found
+        self.particles.append({"name": unique_name, "at": vector(at)})
+        return unique_name
 
     def coordinate(self, name: str, drawn: float) -> str:
         """Add a coordinate of no body and no particle, where there is none of this name; the name."""
@@ -96,12 +96,12 @@ class SceneDraft:
             self.configuration[name] = number(drawn)
         return name
 
-    def constraint(self, name: str, kind: str, line: int | None, **given: Any) -> str:
+    def constraint(self, name: str, kind: str, line: int | None, **fields: Any) -> str:
         """Add a constraint; the name that it got."""
-        found = unique(name, self._constraints)
+        unique_name = unique(name, self._constraints)
         self._at(("constraints", len(self.constraints)), line)
-        self.constraints.append({"name": found, "type": kind, **given})
-        return found
+        self.constraints.append({"name": unique_name, "type": kind, **fields})
+        return unique_name
 
     def leave_out(self, what: str, binding: bool = False) -> None:
         """Say what was not read, and why; once. ``binding``: it is a constraint, and would take freedom away."""
@@ -139,8 +139,8 @@ class SceneDraft:
 
 def number(value: float) -> float | int:
     """A number as a person would write it: rounded, whole where it is."""
-    found = round(float(value), DECIMALS)
-    return int(found) if found == int(found) and abs(found) < 1e15 else found
+    rounded = round(float(value), DECIMALS)
+    return int(rounded) if rounded == int(rounded) and abs(rounded) < 1e15 else rounded
 
 
 def vector(values: Iterable[float]) -> list[float | int]:
@@ -162,9 +162,9 @@ def measurable(axis: Sequence[float | int]) -> list[float | int | Decimal]:
     size = math.sqrt(sum(v * v for v in axis))
     sign = 1 if axis[k] > 0 else -1
     a, b = (round(Decimal(sign * axis[i] / size / (1 + abs(axis[k]) / size)), 9) for i in range(3) if i != k)
-    found: list[float | int | Decimal] = [sign * 2 * a, sign * 2 * b]
-    found.insert(k, sign * (1 - a * a - b * b))
-    return found
+    components: list[float | int | Decimal] = [sign * 2 * a, sign * 2 * b]
+    components.insert(k, sign * (1 - a * a - b * b))
+    return components
 
 
 def inertia_of(rows: Sequence[Sequence[float]]) -> list[Any]:
@@ -184,11 +184,11 @@ def inertia_of(rows: Sequence[Sequence[float]]) -> list[Any]:
 
 def unique(name: str, taken: set[str]) -> str:
     """The name, with a number where it is taken; it is taken then."""
-    found, k = name, 2
-    while found in taken:
-        found, k = f"{name}_{k}", k + 1
-    taken.add(found)
-    return found
+    unique_name, k = name, 2
+    while unique_name in taken:
+        unique_name, k = f"{name}_{k}", k + 1
+    taken.add(unique_name)
+    return unique_name
 
 
 def identifier(name: str, taken: set[str]) -> str:

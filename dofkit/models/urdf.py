@@ -119,39 +119,39 @@ class _UrdfScene:
         link = self.robot.links[name]
         centre = pose.after(link.centre)
         rows = centre.turn @ link.inertia @ centre.turn.T
-        own = self.stands[name] = self.draft.body(name, link.line, mass=number(link.mass), inertia=inertia_of(rows))
-        self.draft.place(own, centre.at)
+        body = self.stands[name] = self.draft.body(name, link.line, mass=number(link.mass), inertia=inertia_of(rows))
+        self.draft.place(body, centre.at)
         if joint is None:
-            self.draft.constraint(name, "weld", link.line, between=[GROUND, own])
+            self.draft.constraint(name, "weld", link.line, between=[GROUND, body])
             self.draft.leave_out(f"the support of {name}, the root link: it is taken to be fixed")
 
     def _joint(self, joint: RobotJoint, frame: Transform) -> None:
         kind = _KINDS.get(joint.kind)
         if kind is None:
             return
-        given: dict[str, Any] = {"between": [self.stands[joint.parent], self.stands[joint.child]]}
+        fields: dict[str, Any] = {"between": [self.stands[joint.parent], self.stands[joint.child]]}
         if joint.kind != FIXED:
-            given["at"] = vector(frame.at)
+            fields["at"] = vector(frame.at)
         if joint.kind in WITH_AXIS:
-            given["axis"] = vector(frame.turn @ np.array(joint.axis))
-        self.names[joint.name] = self.draft.constraint(joint.name, kind, joint.line, **given)
+            fields["axis"] = vector(frame.turn @ np.array(joint.axis))
+        self.names[joint.name] = self.draft.constraint(joint.name, kind, joint.line, **fields)
 
     def _loop(self, loop: LoopJoint, pose: Mapping[str, Transform]) -> None:
         """A joint that closes a loop, its place by the first link, its point by both."""
-        (one, first), (other, second) = loop.ends
-        frames = [pose[link].after(at) for link, at in ((one, first), (other, second))]
+        (first_link, first), (other, second) = loop.ends
+        frames = [pose[link].after(at) for link, at in ((first_link, first), (other, second))]
         ends = [{"on": self.stands[link], "at": vector(f.at)} for (link, _), f in zip(loop.ends, frames, strict=True)]
         points = [end["at"] if end["on"] == GROUND else end for end in ends]
         kind = _KINDS[loop.kind]
         if loop.kind in ("ball", "spherical"):
             self.draft.constraint(loop.name, "coincident", loop.line, between=points)
             return
-        given: dict[str, Any] = {"between": [end["on"] for end in ends]}
+        fields: dict[str, Any] = {"between": [end["on"] for end in ends]}
         if loop.kind != FIXED:
-            given["at"] = vector(frames[0].at)
+            fields["at"] = vector(frames[0].at)
         if loop.kind in WITH_AXIS:
-            given["axis"] = vector(frames[0].turn @ np.array(loop.axis))
-        self.draft.constraint(loop.name, kind, loop.line, **given)
+            fields["axis"] = vector(frames[0].turn @ np.array(loop.axis))
+        self.draft.constraint(loop.name, kind, loop.line, **fields)
 
     def _mimics(self) -> None:
         """What joints mimic; one that does not move leaves nothing free."""
@@ -161,14 +161,14 @@ class _UrdfScene:
                 continue
             other = kinds[joint.mimic.joint]
             right = None if other == FIXED else JointSum(((self.names[joint.mimic.joint], 1.0),))
-            given = relation(JointSum(((self.names[joint.name], 1.0),)), right, [0.0, joint.mimic.factor])
-            self.draft.constraint(f"{joint.name} mimics {joint.mimic.joint}", "coupling", joint.mimic.line, **given)
+            fields = relation(JointSum(((self.names[joint.name], 1.0),)), right, [0.0, joint.mimic.factor])
+            self.draft.constraint(f"{joint.name} mimics {joint.mimic.joint}", "coupling", joint.mimic.line, **fields)
 
     def _ranges(self) -> None:
         ranged = [joint for joint in self.robot.joints if joint.range and joint.kind in SCALAR]
         if ranged and not self.limits:
-            shown = [f"{j.name} from {j.range[0]:.4g} to {j.range[1]:.4g}" for j in ranged if j.range]
-            self.draft.leave_out(f"the ranges of joints ({listed(shown)}): with `--limits` they become inequalities")
+            ranges = [f"{j.name} from {j.range[0]:.4g} to {j.range[1]:.4g}" for j in ranged if j.range]
+            self.draft.leave_out(f"the ranges of joints ({listed(ranges)}): with `--limits` they become inequalities")
             return
         for joint in ranged:
             stands, between = self.drawn.get(joint.name, 0.0), joint.range or ()
@@ -176,14 +176,14 @@ class _UrdfScene:
             if turns is None:
                 self.draft.leave_out(f"the range of {joint.name}: {OVER}")
                 continue
-            given = bounds(JointSum(((self.names[joint.name], 1.0),), stands + turns), between)
-            self.draft.constraint(f"{joint.name} range", "coupling", joint.line, **given)
+            fields = bounds(JointSum(((self.names[joint.name], 1.0),), stands + turns), between)
+            self.draft.constraint(f"{joint.name} range", "coupling", joint.line, **fields)
 
     def _rest(self) -> None:
         if any(body.get("mass") for body in self.draft.bodies):
             self.draft.forces.append({"type": "gravity", "acceleration": [0, 0, -9.81]})
-        for told in (*self.robot.unread, *_rounded_angles(self.robot)):
-            self.draft.leave_out(told)
+        for remark in (*self.robot.unread, *_rounded_angles(self.robot)):
+            self.draft.leave_out(remark)
 
 
 def _rounded_angles(robot: Robot) -> Iterator[str]:
@@ -254,9 +254,9 @@ def closures(robot: Robot, poses: Poses) -> Iterator[Closure]:
             yield Closure(joint.name, joint.kind, frame, child, joint.axis, True, joint.line)
     for loop in robot.loops:
         if loop.kind not in _BALLS:
-            (one, first), (other, second) = loop.ends
+            (first_link, first), (other, second) = loop.ends
             turned = not np.array_equal(second.turn, np.eye(3))
-            ends = poses.pose[one].after(first), poses.pose[other].after(second)
+            ends = poses.pose[first_link].after(first), poses.pose[other].after(second)
             yield Closure(loop.name, loop.kind, *ends, loop.axis, turned, loop.line)
 
 
@@ -267,16 +267,16 @@ def drawn_joints(robot: Robot, poses: Poses, size: float, tolerance: float) -> t
     """
     adrift = [name for name in robot.links if name not in poses.pose]
     if adrift:
-        told = f"the link '{adrift[0]}' is not connected to a root link: the joints above it form a cycle"
+        detail = f"the link '{adrift[0]}' is not connected to a root link: the joints above it form a cycle"
         hint = "let the joints lead from one root to every link"
-        return {}, [Fault(told, line=robot.links[adrift[0]].line, column=1, hint=hint)]
+        return {}, [Fault(detail, line=robot.links[adrift[0]].line, column=1, hint=hint)]
     drawn, faults = robot.drawn(), list[Fault]()
     for closure in closures(robot, poses):
         moved = closure.moved(size, tolerance)
         if moved is None:
             places = " and ".join(f"({', '.join(map(str, _short(f.at)))})" for f in (closure.first, closure.second))
-            told = f"its ends are at {places}, or in orientations that a {closure.kind} joint does not allow"
-            message = f"the loop that '{closure.name}' closes is open where every joint is at 0: {told}"
+            detail = f"its ends are at {places}, or in orientations that a {closure.kind} joint does not allow"
+            message = f"the loop that '{closure.name}' closes is open where every joint is at 0: {detail}"
             faults.append(Fault(message, line=closure.line, column=1, hint="change the origins so that its ends meet"))
         else:
             drawn[closure.name] = moved

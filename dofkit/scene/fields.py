@@ -78,19 +78,19 @@ def meant_key(word: object, known: tuple[str, ...]) -> str | None:
 
 def suggestion(word: object, known: Sequence[str], what: str) -> str:
     """A sentence that names the nearest of ``known``, or lists them."""
-    found = meant_key(word, tuple(known)) if what == "keys" else nearest(word, known)
-    if found is not None:
-        return f"did you mean '{found}'?"
+    near = meant_key(word, tuple(known)) if what == "keys" else nearest(word, known)
+    if near is not None:
+        return f"did you mean '{near}'?"
     if not known:
         return f"there are no {what}"
-    shown = ", ".join(list(known)[:12]) + (", ..." if len(known) > 12 else "")
-    return f"the {what} are {shown}"
+    listed = ", ".join(list(known)[:12]) + (", ..." if len(known) > 12 else "")
+    return f"the {what} are {listed}"
 
 
 def fault_error(message: str, hint: str | None = None, **context: Any) -> PydanticCustomError:
     """An error for a validator to raise; ``hint`` travels in its context."""
-    given = {"message": message, **({"hint": hint} if hint else {}), **context}
-    return PydanticCustomError(_OURS, "{message}", given)
+    details = {"message": message, **({"hint": hint} if hint else {}), **context}
+    return PydanticCustomError(_OURS, "{message}", details)
 
 
 def faults_of(error: ValidationError) -> tuple[Fault, ...]:
@@ -125,9 +125,9 @@ def exact(value: object) -> Fraction:
     if isinstance(value, Decimal):
         return _from_decimal(value)
     if isinstance(value, str):
-        found = _literal(value)
-        if found is not None:
-            return found
+        number = _literal(value)
+        if number is not None:
+            return number
     raise fault_error(f"a number is needed, not {in_words(value)}")
 
 
@@ -151,8 +151,8 @@ def _value(value: object) -> Fraction | str:
         text = value.strip()
         if not text:
             raise fault_error("a number or a text is needed, not an empty text")
-        found = _literal(text)
-        return value if found is None else found
+        number = _literal(text)
+        return value if number is None else number
     if isinstance(value, (list, tuple, dict)):
         raise fault_error(f"a number or a text is needed, not {in_words(value)}")
     return exact(value)
@@ -300,7 +300,7 @@ def retold(
     place: Callable[[tuple[int | str, ...]], tuple[int | str, ...]] = lambda loc: loc,
 ) -> ValidationError:
     """The same faults in our words, those that are already ours left as they are; ``place`` maps each path."""
-    told = []
+    details = []
     for detail in error.errors(include_url=False):
         context = dict(detail.get("ctx") or {})
         if detail["type"] != _OURS:
@@ -308,8 +308,8 @@ def retold(
             context = {"message": message, **({"hint": hint} if hint else {})}
         kind = PydanticCustomError(_OURS, "{message}", context)
         where = tuple(part for part in place(detail["loc"]) if part != "[key]")
-        told.append(InitErrorDetails(type=kind, loc=where, input=detail["input"]))
-    return ValidationError.from_exception_data(error.title, told)
+        details.append(InitErrorDetails(type=kind, loc=where, input=detail["input"]))
+    return ValidationError.from_exception_data(error.title, details)
 
 
 def untagged(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
@@ -364,17 +364,17 @@ class TaggedUnion:
     def validated(self, value: object, handler: ValidatorFunctionWrapHandler) -> Any:
         """A member, its faults at paths free of the key. Raises as Pydantic's validators do."""
         if isinstance(value, (dict, Mapping)):
-            given = value.get(self.key)
-            if given is not None and not isinstance(given, str):
+            word = value.get(self.key)
+            if word is not None and not isinstance(word, str):
                 raise fault_at(
-                    (self.key,), f"the `{self.key}` is a text, not {in_words(given)}", self.advise(None, value)
+                    (self.key,), f"the `{self.key}` is a text, not {in_words(word)}", self.advise(None, value)
                 )
-            if given is None:
+            if word is None:
                 hint = self.advise(None, value) or self.listing + ", ".join(self.known)
                 raise fault_error(f"{self.called} needs its `{self.key}`", hint)
-            if given not in self.known:
-                hint = self.advise(given, value) or suggestion(given, list(self.known), self.names)
-                raise fault_at((self.key,), self.unknown.format(given), hint)
+            if word not in self.known:
+                hint = self.advise(word, value) or suggestion(word, list(self.known), self.names)
+                raise fault_at((self.key,), self.unknown.format(word), hint)
         elif not isinstance(value, self.base):
             raise fault_error(*self.otherwise)
         try:

@@ -175,5 +175,5 @@ def between(first: Placed, second: Placed) -> tuple[Vec, Expr]:
     """second - first as numerator and denominator."""
     if first.under == second.under:
         return minus(second.over, first.over), first.under
-    left, right = scaled(second.under, first.over), scaled(first.under, second.over)
-    return minus(right, left), mul(first.under, second.under)
+    first_over, second_over = scaled(second.under, first.over), scaled(first.under, second.over)
+    return minus(second_over, first_over), mul(first.under, second.under)

@@ -40,14 +40,14 @@ def longest_of(first: Frame, second: Frame, drawn: JointGeometry) -> int | None:
     moving = [frame for frame in (first, second) if not frame.fixed]
     if not moving or any(frame.chart not in ("plane", "gibbs") for frame in moving) or drawn.number is not None:
         return None
-    given = [
+    numbers = [
         *chain.from_iterable((*frame.start, *(frame.initial if frame.chart == "plane" else ())) for frame in moving),
         *(drawn.place or ()),
         *chain.from_iterable(axis.vector for axis in drawn.axes),
     ]
-    if any(part.op != "num" for part in given):
+    if any(part.op != "num" for part in numbers):
         return None
-    bits = longest_number(given)
+    bits = longest_number(numbers)
     return bits if bits < FEW_BITS else 2 * bits + 4
 
 

@@ -191,7 +191,7 @@ def _parameters(value: object) -> object:
             seen.add(name)
         return dict.fromkeys(value, "real")
     if isinstance(value, Mapping):
-        return {name: "real" if given is None else given for name, given in value.items()}
+        return {name: "real" if entry is None else entry for name, entry in value.items()}
     return value
 
 
@@ -200,7 +200,7 @@ def _functions(value: object) -> object:
     if value is None:
         return {}
     if isinstance(value, Mapping):
-        return {name: (given,) if isinstance(given, str) else given for name, given in value.items()}
+        return {name: (entry,) if isinstance(entry, str) else entry for name, entry in value.items()}
     return value
 
 

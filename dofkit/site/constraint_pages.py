@@ -11,8 +11,8 @@ from dofkit.expressions.text.printing import to_text
 from dofkit.scene.constraints import TYPES, ConstraintBase
 from dofkit.scene.lowering import lower
 from dofkit.scene.reading import loads
+from dofkit.site.gallery import ShownScene, shown
 from dofkit.site.markdown import SitePage, code, fence, folded, page, picture, prose, table
-from dofkit.site.shown_scenes import ShownScene, shown
 
 FOLDER = "reference/types"
 #: The names that an example may mention, by the section that declares them.

@@ -37,7 +37,7 @@ ALLOWED: tuple[Allowed, ...] = (
     Allowed("finite relation", "base/verdicts.py", _KEY),
     Allowed("to first order", "base/verdicts.py", _KEY),
     Allowed("finite relation", "classification/arguments.py", _KEY),
-    Allowed("finite relation", "classification/labels/entry_claims.py", _KEY),
+    Allowed("finite relation", "classification/labels/reasons.py", _KEY),
     Allowed("to first order", "configuration/drawing/at_reference.py", _KEY),
     Allowed("to first order", "configuration/local/criteria.py", _KEY),
     Allowed("as drawn", "benchmark/trials/poses.py", _TRIAL),

@@ -8,29 +8,26 @@ from dataclasses import replace
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.bridged_blocks import bridged_answer
 from dofkit.configuration import distance_geometry
+from dofkit.configuration.at_reference import at_reference
 from dofkit.configuration.components import is_graph, is_irreducible
-from dofkit.configuration.drawing.at_reference import at_reference
-from dofkit.configuration.finite_blocks import finite_answer
-from dofkit.configuration.level_bodies import LEVEL, level_angle
+from dofkit.configuration.finite_blocks import LEVEL, finite_answer, level_angle
 from dofkit.configuration.linear_blocks import confirmed, eliminated
 from dofkit.configuration.measured.equations import is_measured
 from dofkit.configuration.search import find
-from dofkit.configuration.variety import Variety
-from dofkit.configuration.witness import of_real_point, of_reference
+from dofkit.configuration.variety import Variety, of_real_point, of_reference
 from dofkit.exact.errors import NoPointError
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
 from dofkit.exact.zero import BALLS, BOTH, doubt, independent_generators
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.labels_by_balls import ball_labels
-from dofkit.integrability.labels_by_field import field_labels
-from dofkit.integrability.lie_algebra_at_points import SampledSpan, on_the_same_part, span_at
+from dofkit.integrability.lie_algebra import SampledSpan, on_the_same_part, span_at
 from dofkit.integrability.nonlinear_velocities import first_order_beside_bends, set_velocity_freedom
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution, first_order_freedom
 from dofkit.integrability.prolongation import confinements, prolong
 from dofkit.integrability.regular_reference import on_reference, regular_reference
-from dofkit.mobility.frameworks import framework_answer
+from dofkit.integrability.row_labels import ball_labels, field_labels
+from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.setting import Setting

@@ -1,4 +1,4 @@
-"""A block that joints which close no loop hold together: its parts are answered apart (`dofkit.mobility.bridges`)."""
+"""A block held together by joints that close no loop (`dofkit.mobility.joint_tree`): its parts are answered apart."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from dofkit.base.verdicts import VERDICTS, weakest
 from dofkit.configuration.generic_points import field_jacobian, pose_point
-from dofkit.configuration.witness import of_reference
+from dofkit.configuration.variety import of_reference
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.vectors import difference

@@ -19,8 +19,8 @@ from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.block import answer
 from dofkit.configuration.components import explicit_relations
 from dofkit.configuration.finite_blocks import OFF_REFERENCE
-from dofkit.configuration.reality import BALL_COLUMNS
-from dofkit.configuration.witness import Witness, of_real_point
+from dofkit.configuration.generic_dimension import BALL_COLUMNS
+from dofkit.configuration.variety import Witness, of_real_point
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealPoint, RealSearch

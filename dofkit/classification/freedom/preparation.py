@@ -12,7 +12,7 @@ from itertools import chain, count
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import Fault, SceneError, TextError
-from dofkit.configuration.drawing.at_reference import ball_matrix, ball_point
+from dofkit.configuration.at_reference import ball_matrix, ball_point
 from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.errors import NoValueError
@@ -22,8 +22,8 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import Unwritten, kinds_in, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.integrability import accelerations
-from dofkit.mobility.bridges import Bridges, bridges
-from dofkit.mobility.rows_at_drawing import RowsAtDrawing
+from dofkit.mobility.joint_tree import Bridges, bridges
+from dofkit.mobility.placement import RowsAtReference
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart import make_chart
 from dofkit.relations.normal.domain import DomainCondition, arguments_of, holds_at
@@ -74,7 +74,7 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
         bridges=apart.joints,
         afloat=apart.afloat,
-        joint_rows=RowsAtDrawing(system, positive).of if apart.joints else None,
+        joint_rows=RowsAtReference(system, positive).of if apart.joints else None,
     )
     return reduced, setting
 

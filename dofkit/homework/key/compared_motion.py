@@ -24,7 +24,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr
 from dofkit.homework.key.right_motion import POINTS, RightMotion, is_zero, points
-from dofkit.motion.lagrange.rates import by_time
+from dofkit.motion.lagrange.elimination import by_time
 
 #: Systems up to this size are solved by Cramer's rule where points alone may mislead.
 BY_CRAMER = 3

@@ -114,19 +114,19 @@ def meet(world: World, first: Placed, second: Placed, *where: str | int) -> None
     gap = minus(second.reference, first.reference)
     if not world.any_differs(gap):
         return
-    told = f"{figures(first.reference)} and {figures(second.reference)}"
-    message = f"in the reference configuration {first.label} and {second.label} are apart, at {told}"
+    places = f"{figures(first.reference)} and {figures(second.reference)}"
+    message = f"in the reference configuration {first.label} and {second.label} are apart, at {places}"
     hint = "give them the same position, or set `tolerance` if it is measured"
     world.misfit(root(square(gap)), message, *where, hint=hint)
 
 
 def figures(position: Vec | None) -> str:
     """A position in figures."""
-    parts = [approximate(part) for part in position or ()]
-    return "(" + ", ".join("?" if part is None else f"{part:.6g}" for part in parts) + ")"
+    components = [approximate(part) for part in position or ()]
+    return "(" + ", ".join("?" if part is None else f"{part:.6g}" for part in components) + ")"
 
 
 def root(squared: Expr) -> float | None:
     """The square root in figures, where it is a number."""
-    found = approximate(squared)
-    return None if found is None or found < 0 else float(found**0.5)
+    value = approximate(squared)
+    return None if value is None or value < 0 else float(value**0.5)

@@ -94,20 +94,22 @@ class Coupling(ConstraintBase):
     def relations(self, world: World) -> Iterator[Relation]:
         measured = self._measured(world)
         letters = tuple(self.lettered)
-        own = replace(within_member(world.names, letters), coordinates=frozenset(letters))
+        names = replace(within_member(world.names, letters), coordinates=frozenset(letters))
         before = len(world.faults)
-        found = world.relations(self.text, "text", names=own, allow=FINITE)
+        relations = world.relations(self.text, "text", names=names, allow=FINITE)
         if measured is None or len(world.faults) > before:
             return
-        senses = {relation.sense for relation in found}
-        if "=" in senses and len(found) > 1:
+        senses = {relation.sense for relation in relations}
+        if "=" in senses and len(relations) > 1:
             world.fault(
                 "a coupling is either one equation or bounds", "text", hint="write a second coupling for the other one"
             )
             return
-        if "=" not in senses and not self._within_half_turns(world, [relation.expr for relation in found], measured):
+        if "=" not in senses and not self._within_half_turns(
+            world, [relation.expr for relation in relations], measured
+        ):
             return
-        for e, sense, *_ in found:
+        for e, sense, *_ in relations:
             if sense == "=" and not self._fits(world, e, measured):
                 return
             yield Relation(_in_turns(e, measured) or _in_arcs(e, measured), sense)
@@ -117,12 +119,12 @@ class Coupling(ConstraintBase):
 
         Beyond that they would hold nowhere, and a hinge does turn there.
         """
-        told = (
+        message = (
             "an angle in space is measured from the reference configuration, between -pi and pi, and these bounds lie "
             "beyond"
         )
         if any(_most(e, measured) < 0 for e in bounds):
-            world.fault(told, "text", hint="choose a reference configuration nearer to the middle of their ranges")
+            world.fault(message, "text", hint="choose a reference configuration nearer to the middle of their ranges")
             return False
         for letter, joint in measured.items():
             low, high = _bounds_of(letter, bounds) if joint.axis is not None and joint.measure.turns else (-inf, inf)
@@ -132,16 +134,16 @@ class Coupling(ConstraintBase):
             turns = 2 * pi * round((low + high) / (4 * pi)) if isfinite(low + high) else 0.0
             if turns and _told_by_arcs(low - turns, high - turns):
                 hint = f"subtract whole turns: `{low - turns:.6g} <= {letter.args[1]} <= {high - turns:.6g}`"
-            world.fault(told, "text", hint=hint)
+            world.fault(message, "text", hint=hint)
             return False
         return True
 
     def _measured(self, world: World) -> dict[Expr, MeasuredJoint] | None:
         """What every letter stands for; None after a fault, or where a joint itself is at fault."""
         before = len(world.faults)
-        found = {coordinate(letter): self._joint(world, letter, name) for letter, name in self.lettered.items()}
-        known = {letter: joint for letter, joint in found.items() if joint is not None}
-        return known if len(known) == len(found) and len(world.faults) == before else None
+        joints = {coordinate(letter): self._joint(world, letter, name) for letter, name in self.lettered.items()}
+        measured = {letter: joint for letter, joint in joints.items() if joint is not None}
+        return measured if len(measured) == len(joints) and len(world.faults) == before else None
 
     def _joint(self, world: World, letter: str, written: str) -> MeasuredJoint | None:
         why = valid_name(letter)
@@ -156,13 +158,13 @@ class Coupling(ConstraintBase):
             return None
         measures = joint.measures if isinstance(joint, Joint) else {}
         if not isinstance(joint, Axial) or (not what and len(measures) != 1) or (what and what not in measures):
-            told = " or ".join(f"`{name}.{key}`" for key in measures)
-            hint = f"write {told}" if told else "name a revolute, prismatic, cylindrical or screw joint"
+            choices = " or ".join(f"`{name}.{key}`" for key in measures)
+            hint = f"write {choices}" if choices else "name a revolute, prismatic, cylindrical or screw joint"
             world.fault(f"'{written}' is not an angle or a displacement of a joint", "joints", letter, hint=hint)
             return None
         what = what or next(iter(measures))
-        found = self._located(world, letter, joint, measures[what])
-        return None if found is None else found._replace(name=f"{name}.{what}")
+        measured = self._located(world, letter, joint, measures[what])
+        return None if measured is None else measured._replace(name=f"{name}.{what}")
 
     def _located(self, world: World, letter: str, joint: Axial, measure: Measure) -> MeasuredJoint | None:
         """The joint where it is drawn."""
@@ -298,9 +300,9 @@ def _in_turns(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr | None:
     total = ONE, ZERO
     for half, k in zip(halves.values(), factors, strict=True):
         if half is not None:
-            one = half if k > 0 else (half[0], mul(MINUS_ONE, half[1]))
+            factor = half if k > 0 else (half[0], mul(MINUS_ONE, half[1]))
             for _ in range(abs(k)):
-                total = _product(total, one)
+                total = _product(total, factor)
     return total[1]
 
 

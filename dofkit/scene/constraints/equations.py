@@ -47,9 +47,9 @@ class Equation(ConstraintBase):
 
     def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
         """Where it turns at a steady rate: the same at rest."""
-        found = angle_for_turning(self.text, names)
-        if found is not None:
-            text, rate, angle = found
+        resting = angle_for_turning(self.text, names)
+        if resting is not None:
+            text, rate, angle = resting
             yield Replacement("supports", {**self.written(), "text": text}, {angle: "real"}, f"{angle} for {rate} t")
 
     @property
@@ -109,9 +109,9 @@ class On(ConstraintBase):
         letters = LETTERS[: world.dimension]
         names = within_member(world.names, letters)
         read = [
-            found
+            value
             for text, where in self._places()
-            for found in world.relations(text, *where, names=names, allow=FINITE)
+            for value in world.relations(text, *where, names=names, allow=FINITE)
         ]
         for i, member in enumerate(self.members):
             point = world.point(member, "members", i)
@@ -119,12 +119,12 @@ class On(ConstraintBase):
             for j, (e, sense, *_, domain) in enumerate(read):
                 part = f"at {show_point(member)}" + (f", text {j + 1}" if len(read) > 1 else "")
                 try:
-                    found = substitute(e, stands)
+                    value = substitute(e, stands)
                     there = tuple((substitute(u, stands), required) for u, required in domain)
                 except NoValueError:
                     world.fault(f"the text has no value at {show_point(member)}", "members", i)
                     return
-                yield Relation(found, sense, part, domain=there)
+                yield Relation(value, sense, part, domain=there)
 
     def notes(self, world: World) -> Iterator[str]:
         if world.dimension != 3 or self.curve is None:

@@ -107,13 +107,13 @@ class Joint(ConstraintBase):
 
     @property
     def in_words(self) -> str:
-        told = f"{self.kind()} {self.between[0]}-{self.between[1]}"
+        words = f"{self.kind()} {self.between[0]}-{self.between[1]}"
         for key, word in (("at", "at"), ("axis", "along")):
             vector: Vector | None = getattr(self, key, None)
             if vector is not None:
-                told += f" {word} {show_vector(vector)}"
+                words += f" {word} {show_vector(vector)}"
         drive = getattr(self, "drive", None)
-        return told if drive is None else f"{told}, driven by {drive}"
+        return words if drive is None else f"{words}, driven by {drive}"
 
 
 class LocatedJoint(Joint):
@@ -150,8 +150,8 @@ class Driven(Axial):
             yield Replacement("supports", free, {}, "it is not driven")
             return
         rate = names.fresh("omega")
-        told = f"it is driven by {rate} t"
-        yield Replacement("supports", {**written, "drive": f"{rate}*t"}, {rate: "positive"}, told)
+        words = f"it is driven by {rate} t"
+        yield Replacement("supports", {**written, "drive": f"{rate}*t"}, {rate: "positive"}, words)
 
     def laws(self, world: World, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
         if self.drive is not None:

@@ -175,21 +175,21 @@ class Universal(LocatedJoint):
             if self.at is not None:
                 hint = "add `axes: [[1, 0, 0], [0, 1, 0]]`, or leave both out for a joint in general position"
                 world.fault("this universal joint has a position (`at`) but no `axes`", hint=hint)
-            one = world.direction(None)
-            return one, Direction(plus(one.across[0], scaled(world.fresh(), one.across[1])), ())
-        one, other = (world.direction(axis, "axes", i) for i, axis in enumerate(self.axes))
-        cosine = dot(one.vector, other.vector)
+            first = world.direction(None)
+            return first, Direction(plus(first.across[0], scaled(world.fresh(), first.across[1])), ())
+        first, second = (world.direction(axis, "axes", i) for i, axis in enumerate(self.axes))
+        cosine = dot(first.vector, second.vector)
         if world.differs(cosine):
-            size = approximate(fn("abs", cosine / (length(one.vector) * length(other.vector))))
+            size = approximate(fn("abs", cosine / (length(first.vector) * length(second.vector))))
             if not (size is not None and within(size, world.tolerance, 1.0)):
-                shown = f"{show_vector(self.axes[0])} and {show_vector(self.axes[1])}"
-                world.fault(f"the axes {shown} are not perpendicular", "axes", hint="their dot product must be 0")
-        return one, other
+                axes = f"{show_vector(self.axes[0])} and {show_vector(self.axes[1])}"
+                world.fault(f"the axes {axes} are not perpendicular", "axes", hint="their dot product must be 0")
+        return first, second
 
     @property
     def in_words(self) -> str:
-        told = super().in_words
-        return told if self.axes is None else f"{told} along {' and '.join(show_vector(axis) for axis in self.axes)}"
+        words = super().in_words
+        return words if self.axes is None else f"{words} along {' and '.join(show_vector(axis) for axis in self.axes)}"
 
 
 def _spherical_rows(at: Kinematics) -> Iterator[VelocityRow]:

@@ -1,26 +1,40 @@
-"""The glossary (terms, fields, verdicts, arguments, feedback codes) and the theorems, from the package's own tables."""
+"""The pages that the package's own tables generate: the first page, the glossary, the theorems, the commands."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
 from importlib import resources
+from typing import Any
 
+import typer.main
 from pydantic import BaseModel
 
 from dofkit.classification.arguments import TABLE
 from dofkit.homework.key.misconceptions import CODES
+from dofkit.interface.cli import app
 from dofkit.interface.explanations import all_explanations
 from dofkit.interface.show.assurance import VERDICT_MEANS
 from dofkit.report import ConstraintEntry, Report
-from dofkit.site.markdown import SitePage, anchor, code, prose, table
+from dofkit.site.markdown import SitePage, anchor, code, page, prose, table
 
 THEOREMS, GLOSSARY = "about/theorems.md", "reference/glossary.md"
 #: Where the written part of the glossary has the tables of the package.
 TABLES_HERE = "<!-- the tables of the package -->"
-#: The lines of its tables: the two above, and one a theorem.
+#: The lines of its tables: the two of its head, and one for each theorem.
 _HEAD = re.compile(r"^\| key .*\n\|[-| ]+\|\n", re.MULTILINE)
 _ROW = re.compile(r"^\| `(\w+)` \|([^|]+)\|([^|]+)\|(.+)\|([^|]+)\|$", re.MULTILINE)
+
+
+def readme_page(readme: str) -> SitePage:
+    """Return the first page: the README, with its links as the site has them.
+
+    >>> readme_page("[how](dofkit/site/pages/tutorial.md) and [why](dofkit/THEOREMS.md)").text
+    '[how](tutorial.md) and [why](about/theorems.md)'
+    """
+    return SitePage(
+        "index.md", readme.replace("](dofkit/site/pages/", "](").replace("](dofkit/THEOREMS.md)", f"]({THEOREMS})")
+    )
 
 
 def report_pages(written: str) -> Iterator[SitePage]:
@@ -65,7 +79,7 @@ def _arguments() -> str:
 
 
 def theorems(text: str) -> str:
-    """`THEOREMS.md` with its tables as entries, each at a place that others can lead to.
+    """Return `THEOREMS.md` with its tables as entries, each with an anchor.
 
     >>> print(theorems("| `Dini1878` | Dini | 1878 | A graph. | `a.py` |"))
     ### Dini1878 {#dini1878}
@@ -81,3 +95,52 @@ def theorems(text: str) -> str:
 def _theorem(row: re.Match[str]) -> str:
     key, author, year, says, where = (cell.strip() for cell in row.groups())
     return f"### {key} {{#{anchor(key)}}}\n\n**{author}, {year}.** {prose(says)}\n\n<small>Used in {where}</small>\n"
+
+
+def command_pages() -> Iterator[SitePage]:
+    """Yield one page with every command, its arguments and its options."""
+    blocks = [block for path, command in commands() for block in _command(path, command)]
+    lead = "Every command has the option `--help`. The [guide](../guide/commands.md) shows examples."
+    yield SitePage("reference/commands.md", page("Commands", lead, *blocks))
+
+
+def commands() -> Iterator[tuple[str, Any]]:
+    """Yield every command by its words."""
+    yield from _below("dofkit", typer.main.get_command(app))
+
+
+def _below(path: str, command: Any) -> Iterator[tuple[str, Any]]:
+    for name, inner in getattr(command, "commands", {}).items():
+        if getattr(inner, "commands", None) is None or inner.invoke_without_command:
+            yield f"{path} {name}", inner
+        yield from _below(f"{path} {name}", inner)
+
+
+def _command(path: str, command: Any) -> Iterator[str]:
+    arguments = [p for p in command.params if p.param_type_name == "argument"]
+    choices = [p for p in command.params if p.param_type_name == "option"]
+    usage = " ".join([path, *(metavar_of(p) for p in arguments), *(["[OPTIONS]"] if choices else [])])
+    yield f"## {path}"
+    yield prose(command.help or "")
+    yield f"`{usage}`"
+    rows = [(code(metavar_of(p)), prose(p.help or "")) for p in arguments]
+    rows += [(_option(p), prose(p.help or "") + _default(p)) for p in choices]
+    if rows:
+        yield table(("argument or option", "meaning"), rows)
+
+
+def _option(parameter: Any) -> str:
+    words = ", ".join((*parameter.opts, *parameter.secondary_opts))
+    flag = parameter.is_flag or parameter.count
+    return code(words if flag else f"{words} {parameter.metavar or parameter.name.upper()}")
+
+
+def _default(parameter: Any) -> str:
+    default = parameter.default
+    return "" if default in (None, False, (), []) or callable(default) else f" Default: {code(str(default))}."
+
+
+def metavar_of(parameter: Any) -> str:
+    """Return the name of an argument as a usage line shows it, such as ``FILE...``."""
+    name = str(parameter.metavar or parameter.name.upper())
+    return f"{name}..." if parameter.nargs == -1 and not name.endswith(("...", "]")) else name

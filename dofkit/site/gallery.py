@@ -1,11 +1,13 @@
-"""Scenes as the site shows them: text, picture and answer, kept from one build to the next."""
+"""The catalog as a gallery: scenes with their pictures and answers, which are kept from one build to the next."""
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache
+from itertools import groupby
+from operator import attrgetter
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,14 +17,16 @@ from dofkit.pictures.still import draw
 from dofkit.report import Report
 from dofkit.scene.catalog import catalog_folder, catalog_text
 from dofkit.scene.reading import loads
+from dofkit.site.markdown import SitePage, code, fence, folded, page, picture, prose
 
+FOLDER = "gallery"
 #: The width of a picture and of a report: pixels, columns.
 PIXELS, COLUMNS = 440.0, 88
 PACKAGE = Path(__file__).parents[1]
 
 
 class ShownScene(NamedTuple):
-    """A scene, what it looks like, and what is said of it: in a line, and whole."""
+    """A scene with its text, its picture, and its answer in one line and in full."""
 
     name: str
     folder: str
@@ -36,7 +40,7 @@ class ShownScene(NamedTuple):
 
 
 def catalog_scenes(kept: Path) -> Iterator[ShownScene]:
-    """Every scene of the catalog, by folder and name; ``kept``: where those of an earlier build are."""
+    """Yield every scene of the catalog by folder and name; ``kept``: the folder with those of earlier builds."""
     kept.mkdir(parents=True, exist_ok=True)
     for folder in sorted((entry for entry in catalog_folder().iterdir() if entry.is_dir()), key=lambda e: e.name):
         for file in sorted(folder.iterdir(), key=lambda entry: entry.name):
@@ -57,7 +61,7 @@ def _kept_or_shown(name: str, folder: str, written: str, kept: Path) -> ShownSce
 
 @cache
 def _engine() -> str:
-    """A digest of the package: what is kept is of no use to another."""
+    """Return a digest of the package: what was kept by another version is not used."""
     digest = hashlib.sha256()
     for path in sorted(PACKAGE.rglob("*.py")):
         digest.update(path.read_bytes())
@@ -65,7 +69,7 @@ def _engine() -> str:
 
 
 def shown(name: str, folder: str, written: str) -> ShownScene:
-    """A scene with its picture and its answers. Raises SceneError where it cannot be read."""
+    """Return a scene with its picture and its answers. Raises SceneError if it cannot be read."""
     scene = loads(written, name)
     report = classify(scene)
     drawn = draw(scene, report)
@@ -98,3 +102,51 @@ def in_a_line(report: Report) -> str:
     if report.redundant:
         parts.append(f"redundant: {', '.join(report.redundant)}")
     return f"{', '.join(parts)} ({report.verdict})"
+
+
+def gallery_pages(catalog: Sequence[ShownScene], sources: dict[str, str]) -> Iterator[SitePage]:
+    """Yield the pages and pictures; ``sources``: what each folder of the catalog was taken from."""
+    blocks = []
+    for folder, scenes in groupby(catalog, key=attrgetter("folder")):
+        members = list(scenes)
+        source = sources.get(folder, folder)
+        cards = "\n".join(_card(scene) for scene in members)
+        blocks += [
+            f"## {prose(source)}",
+            f"[{len(members)} scenes]({folder}.md)",
+            f'<div class="gallery">\n{cards}\n</div>',
+        ]
+        yield SitePage(f"{FOLDER}/{folder}.md", page(source, *(_entry(scene) for scene in members)))
+        yield from (SitePage(f"{FOLDER}/{scene.name}.svg", scene.svg) for scene in members)
+    yield SitePage(
+        f"{FOLDER}/index.md",
+        page(
+            "Gallery",
+            f"The {len(catalog)} scenes of the catalog, with their answers: f is the number of degrees of freedom. The "
+            "name of a scene can be used wherever a file is expected: `dofkit classify NAME`. Click on a picture to "
+            "see the text of the scene and the full report.",
+            *blocks,
+        ),
+    )
+
+
+def _entry(scene: ShownScene) -> str:
+    return "\n\n".join(
+        (
+            f"## {prose(scene.title)} {{#{scene.name}}}",
+            f"{code(scene.name)}: {prose(scene.answer)}",
+            picture(f"{scene.name}.svg", scene.alternative),
+            folded("The scene", fence("yaml", scene.written)),
+            folded("The report", fence("text", scene.report)),
+        )
+    )
+
+
+def _card(scene: ShownScene) -> str:
+    drawn = picture(f"{scene.name}.svg", scene.alternative)
+    told = f"<strong>{_html(scene.title)}</strong><br>{_html(scene.answer)}"
+    return f'<a class="card" href="{scene.folder}.html#{scene.name}">{drawn}<span>{told}</span></a>'
+
+
+def _html(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
