@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 import typer
 
 from dofkit.base import __version__
-from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.deadline import DEFAULT_SECONDS
 from dofkit.base.errors import ArgumentError
+from dofkit.base.wording import format_of_path, is_folder_path
 from dofkit.interface import options
 from dofkit.interface.assignment_commands import assignment_app, export_app
 from dofkit.interface.output import INTERRUPTED, UNREADABLE, Output, failures_of, print_json

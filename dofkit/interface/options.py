@@ -8,9 +8,8 @@ from typing import Annotated, Any
 
 from typer import Argument, BadParameter, Option
 
-from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.errors import ArgumentError
-from dofkit.base.wording import no_such
+from dofkit.base.wording import format_of_path, is_folder_path, no_such
 from dofkit.interface.output import FAILURES
 
 #: The heading of the options that few people need.

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 from xml.sax.saxutils import escape, quoteattr
 
-from dofkit.base.arguments import format_of_path
 from dofkit.base.display import schemes
 from dofkit.base.errors import DofkitError
+from dofkit.base.wording import format_of_path
 from dofkit.pictures.paper import Mark, Page
 from dofkit.pictures.shapes import ON_DARK
 

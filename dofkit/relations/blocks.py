@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.base.components import components
+from dofkit.base.libraries import components
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import coordinates_in

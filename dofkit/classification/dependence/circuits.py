@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
-from dofkit.base.components import components
+from dofkit.base.libraries import components
 from dofkit.base.verdicts import About, Verdict
 from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets
 from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing

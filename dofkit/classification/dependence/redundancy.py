@@ -8,8 +8,8 @@ from dataclasses import replace
 from functools import partial
 from typing import Literal
 
-from dofkit.base.components import components
 from dofkit.base.deadline import unless_late
+from dofkit.base.libraries import components
 from dofkit.base.verdicts import About
 from dofkit.classification.dependence import block_implication, removal
 from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse, undecided_dependence

@@ -23,8 +23,8 @@ from functools import cached_property
 from itertools import combinations, groupby
 from typing import NamedTuple
 
-from dofkit.base.components import components
 from dofkit.base.deadline import OutOfTimeError, check, limited
+from dofkit.base.libraries import components
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets, is_drawn
 from dofkit.classification.dependence.circuits import Redundancies

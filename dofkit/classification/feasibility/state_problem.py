@@ -19,7 +19,7 @@ from typing import Literal, NamedTuple
 
 from flint import fmpq
 
-from dofkit.base.components import components
+from dofkit.base.libraries import components
 from dofkit.exact.linear_inequalities import LinearCondition, solution
 from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from flint import arb
 
-from dofkit.base.components import components
+from dofkit.base.libraries import components
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.block import answer
 from dofkit.configuration.components import explicit_relations

@@ -7,7 +7,6 @@ from functools import partial
 from typing import Any, TypeVar
 
 from dofkit.base.deadline import limited
-from dofkit.base.display import Companion
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.text.typesetting import typeset
 from dofkit.homework.formats.wording import STATUSES, line, number, points, standing, title
@@ -22,7 +21,7 @@ from dofkit.interface.show.sheet import Column, Fact, Grid, Remark, Sheet, Sheet
 from dofkit.interface.show.terminal import Screen, as_text
 from dofkit.mobility.graph.linkage import Linkage
 from dofkit.motion.lagrange.report import MotionReport
-from dofkit.report import ConstraintEntry, Report
+from dofkit.report import Companion, ConstraintEntry, Report
 from dofkit.scene.scene import Scene
 
 __all__ = ["html_of", "latex_of", "panel_of", "text_of"]

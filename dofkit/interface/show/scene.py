@@ -9,7 +9,7 @@ from dofkit.interface.show.report import MOST_ROWS, names_of, number
 from dofkit.interface.show.sheet import TONES, Column, Content, Fact, Formula, Grid, Remark, Sheet, SheetSection
 from dofkit.mobility.graph.linkage import Linkage
 from dofkit.mobility.graph.links import Link
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.names import coordinate_table
 from dofkit.scene.scene import Scene
 
