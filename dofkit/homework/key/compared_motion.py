@@ -11,7 +11,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
-from itertools import permutations
 from typing import NamedTuple
 
 from flint import nmod_mat
@@ -22,12 +21,9 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
-from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr
-from dofkit.homework.key.right_motion import POINTS, RightMotion, is_zero, points
+from dofkit.expressions.tree import ONE, ZERO, Expr
+from dofkit.homework.key.right_motion import RightMotion, is_zero, points
 from dofkit.motion.lagrange.rates import by_time
-
-#: Systems up to this size are solved by Cramer's rule where points alone may mislead.
-BY_CRAMER = 3
 
 
 def euler(e: Expr, name: str) -> Expr:
@@ -38,7 +34,7 @@ def euler(e: Expr, name: str) -> Expr:
 def same_lagrangian(answer: Expr, right: Expr, known: RightMotion) -> bool | None:
     """Is the difference a total derivative by time? Euler's equation of it is then 0 identically, and only then.
 
-    Beside finite relations it is enough that it gives no other force than the relations do, where they hold.
+    Together with finite relations it may also give the forces of these: then it is undecided.
     """
     gap = answer - right
     if any(s.args[0] == "acceleration" for s in gap.symbols):
@@ -46,49 +42,8 @@ def same_lagrangian(answer: Expr, right: Expr, known: RightMotion) -> bool | Non
     forces = [euler(gap, n) for n in known.names]
     told = [is_zero(e, known.positive) for e in forces]
     if False in told and known.relations:
-        return _spanned(forces, known)
+        return None
     return False if False in told else None if None in told else True
-
-
-def _spanned(forces: Sequence[Expr], known: RightMotion) -> bool | None:
-    """Are forces sums of those of the constraints, at every state and acceleration that these allow?"""
-    columns = [ex.sym("acceleration", n) for n in known.names]
-    lines = [linear(known.on_constraints(e), columns) for e in forces]
-    held = [linear(known.on_constraints(e), columns) for e in known.rows]
-    if None in lines or None in held:
-        return None
-    ring = Ring([e for row in (*lines, *held) for e in row or ()] + [*known.relations], known.positive)
-    nodes = [[[ring.node(e) for e in row or ()] for row in rows] for rows in (lines, held)]
-    told = []
-    for p, at in points(ring, known.relations):
-        own, rows = ([[int(at[i]) for i in row] for row in part] for part in nodes)
-        moving = _accelerations(rows, p)
-        if moving is None:
-            continue
-        force = [(_dot(row[:-1], moving) + row[-1]) % p for row in own]
-        gradients = [row[:-1] for row in rows]
-        told.append(rank_of([*gradients, force], p) == rank_of(gradients, p))
-    if len(told) < POINTS:
-        return None
-    return all(told) if all(told) or independent_generators(ring) else None
-
-
-def _accelerations(rows: Sequence[Sequence[int]], p: int) -> list[int] | None:
-    """Some accelerations that satisfy rows whose last entry is the constant term, random where they are free."""
-    n = len(rows[0]) - 1
-    chosen = [pow(3, 7 + i, p) for i in range(n)]
-    reduced, rank = nmod_mat([list(row) for row in rows], p).rref()
-    for i in range(int(rank)):
-        row = [int(reduced[i, j]) for j in range(n + 1)]
-        pivot = next(j for j, v in enumerate(row) if v)
-        if pivot == n:
-            return None
-        chosen[pivot] = (-row[n] - sum(v * chosen[j] for j, v in enumerate(row[:n]) if j > pivot)) % p
-    for i in range(int(rank) - 1, -1, -1):
-        row = [int(reduced[i, j]) for j in range(n + 1)]
-        pivot = next(j for j, v in enumerate(row) if v)
-        chosen[pivot] = (-row[n] - sum(v * chosen[j] for j, v in enumerate(row[:n]) if j != pivot)) % p
-    return chosen
 
 
 class MotionSameness(Enum):
@@ -165,29 +120,12 @@ class AnsweredMotion:
             return None
         sound = [all(t.sound[i] for t in told) for i in range(len(rows))]
         if not all(sound) and not independent_generators(ring):
-            exact = self._by_cramer()
-            if exact is None:
-                return None
-            sound = exact
+            return None
         n = len(self.columns)
         rank = max(t.rank if all(sound) else t.sound_rank(sound, n) for t in told)
         still = [not any(v for t in told for v in t.rows[i][:n]) for i in range(len(rows))]
         verdicts = [_verdict(s, z) for s, z in zip(sound, still, strict=True)]
         return Followed(verdicts, rank, any(sound) and all(t.contradictory(n) for t in told))
-
-    def _by_cramer(self) -> list[bool] | None:
-        """Which equations the accelerations satisfy, identically: det(M) times the equation, by Cramer's rule."""
-        n = len(self.columns)
-        if self.own or self.known.multipliers or n > BY_CRAMER or self.rows is None:
-            return None
-        matrix = [row[:n] for row in self.right]
-        rest = [row[n] for row in self.right]
-        whole = determinant(matrix)
-        solved = [determinant([[*r[:j], ex.mul(MINUS_ONE, b), *r[j + 1 :]] for r, b in zip(matrix, rest, strict=True)])
-                  for j in range(n)]  # fmt: skip
-        sums = [ex.add(row[n] * whole, *(a * s for a, s in zip(row[:n], solved, strict=True))) for row in self.rows]
-        told = [is_zero(e, self.known.positive) for e in sums]
-        return None if None in told else [t is True for t in told]
 
 
 def _verdict(sound: bool, still: bool) -> MotionSameness:
@@ -279,12 +217,3 @@ def linear(e: Expr, unknown: Sequence[Expr]) -> list[Expr] | None:
     if any(s.args[0] in ("acceleration", "differential", "dt") for s in rest.symbols):
         return None
     return [*row, rest]
-
-
-def determinant(rows: Sequence[Sequence[Expr]]) -> Expr:
-    """By Leibniz's formula, for a few rows."""
-    terms = []
-    for order in permutations(range(len(rows))):
-        swaps = sum(a > b for i, a in enumerate(order) for b in order[i + 1 :])
-        terms.append(ex.mul(MINUS_ONE if swaps % 2 else ONE, *(rows[i][j] for i, j in enumerate(order))))
-    return ex.add(*terms)
