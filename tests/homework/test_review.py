@@ -106,7 +106,7 @@ def saved(rows: list[dict[str, str]], delimiter: str) -> str:
     return stream.getvalue()
 
 
-@pytest.mark.parametrize("module", ["review.queue", "answers.words"])
+@pytest.mark.parametrize("module", ["review", "answers.words"])
 def test_documentation(module: str) -> None:
     outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.{module}"))
     assert outcome.failed == 0

@@ -34,7 +34,7 @@ def euler(e: Expr, name: str) -> Expr:
 def same_lagrangian(answer: Expr, right: Expr, known: RightMotion) -> bool | None:
     """Is the difference a total derivative by time? Euler's equation of it is then 0 identically, and only then.
 
-    Together with finite relations it may also give the forces of these: then it is undecided.
+    Beside finite relations it is enough that it gives no other force than the relations do, where they hold.
     """
     gap = answer - right
     if any(s.args[0] == "acceleration" for s in gap.symbols):
@@ -42,8 +42,49 @@ def same_lagrangian(answer: Expr, right: Expr, known: RightMotion) -> bool | Non
     forces = [euler(gap, n) for n in known.names]
     told = [is_zero(e, known.positive) for e in forces]
     if False in told and known.relations:
-        return None
+        return _spanned(forces, known)
     return False if False in told else None if None in told else True
+
+
+def _spanned(forces: Sequence[Expr], known: RightMotion) -> bool | None:
+    """Are forces sums of those of the constraints, at every state and acceleration that these allow?"""
+    columns = [ex.sym("acceleration", n) for n in known.names]
+    lines = [linear(known.on_constraints(e), columns) for e in forces]
+    held = [linear(known.on_constraints(e), columns) for e in known.rows]
+    if None in lines or None in held:
+        return None
+    ring = Ring([e for row in (*lines, *held) for e in row or ()] + [*known.relations], known.positive)
+    nodes = [[[ring.node(e) for e in row or ()] for row in rows] for rows in (lines, held)]
+    told = []
+    for p, at in points(ring, known.relations):
+        own, rows = ([[int(at[i]) for i in row] for row in part] for part in nodes)
+        moving = _accelerations(rows, p)
+        if moving is None:
+            continue
+        force = [(_dot(row[:-1], moving) + row[-1]) % p for row in own]
+        gradients = [row[:-1] for row in rows]
+        told.append(rank_of([*gradients, force], p) == rank_of(gradients, p))
+    if len(told) < POINTS:
+        return None
+    return all(told) if all(told) or independent_generators(ring) else None
+
+
+def _accelerations(rows: Sequence[Sequence[int]], p: int) -> list[int] | None:
+    """Some accelerations that satisfy rows whose last entry is the constant term, random where they are free."""
+    n = len(rows[0]) - 1
+    chosen = [pow(3, 7 + i, p) for i in range(n)]
+    reduced, rank = nmod_mat([list(row) for row in rows], p).rref()
+    for i in range(int(rank)):
+        row = [int(reduced[i, j]) for j in range(n + 1)]
+        pivot = next(j for j, v in enumerate(row) if v)
+        if pivot == n:
+            return None
+        chosen[pivot] = (-row[n] - sum(v * chosen[j] for j, v in enumerate(row[:n]) if j > pivot)) % p
+    for i in range(int(rank) - 1, -1, -1):
+        row = [int(reduced[i, j]) for j in range(n + 1)]
+        pivot = next(j for j, v in enumerate(row) if v)
+        chosen[pivot] = (-row[n] - sum(v * chosen[j] for j, v in enumerate(row[:n]) if j != pivot)) % p
+    return chosen
 
 
 class MotionSameness(Enum):
