@@ -22,7 +22,7 @@ from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import ONE, ZERO, Expr
-from dofkit.homework.key.right_motion import RightMotion, is_zero, points
+from dofkit.homework.key.right_motion import POINTS, RightMotion, is_zero, points
 from dofkit.motion.lagrange.rates import by_time
 
 
