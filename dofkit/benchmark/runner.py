@@ -23,14 +23,14 @@ from dofkit.benchmark.failures import explained
 from dofkit.benchmark.record import Outcome, TrialLine
 from dofkit.benchmark.statistics import grouped
 from dofkit.benchmark.tasks import TrialTask
-from dofkit.methods.reply import Knobs, MethodReply
+from dofkit.methods.table import Knobs, MethodReply
 
 # In a worker
 
 #: What is shorter, in seconds, is done again, so many times, and the least is taken.
 SHORT, AGAIN = 0.05, 2
 #: What a worker imports before its first job, and who knows the methods, as ``module:function``.
-MODULES, ANSWERING = ("dofkit.benchmark.runner", "dofkit.methods.dispatch", "sympy"), "dofkit.methods.dispatch:answered"
+MODULES, ANSWERING = ("dofkit.benchmark.runner", "dofkit.methods.ask", "sympy"), "dofkit.methods.ask:answered"
 #: A method's first call in a process also loads what it needs: it answers this first, and no clock runs.
 _WARM_SCENE: Mapping[str, Any] = {
     "name": "warm",

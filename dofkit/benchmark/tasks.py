@@ -11,8 +11,7 @@ from typing import Any, NamedTuple, get_args
 from dofkit.benchmark.record import ChartError
 from dofkit.benchmark.statistics import grouped
 from dofkit.benchmark.trials.construction import Trial
-from dofkit.methods.reply import Knobs
-from dofkit.methods.table import METHODS, Question
+from dofkit.methods.table import METHODS, Knobs, Question
 from dofkit.scene.fields import suggestion
 
 #: Trials of each family and question, at most, where nothing is said; and in a quick run.

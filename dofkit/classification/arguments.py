@@ -33,7 +33,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "near the witness the configuration space is a manifold of dimension n - r",
         "ImplicitFunctions",
         "interval Newton certifies a common zero of all r equations, at which their differentials are independent",
-        "dofkit.configuration.reality.with_reality",
+        "dofkit.configuration.generic_dimension.with_reality",
     ),
     "one relation": Argument(
         "the configuration space has dimension n - 1, and no component is larger",
@@ -53,7 +53,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "GrueblerKutzbach",
         "each joint has a reference position and is the only connection between two parts of the system, one "
         "of which can be moved as a rigid body",
-        "dofkit.mobility.bridges.bridges",
+        "dofkit.mobility.joint_tree.bridges",
     ),
     "generic fibre": Argument(
         "for almost all values of the parameters the configuration space is a manifold",
@@ -72,7 +72,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "some coordinates have isolated values; the others are free or determined by them",
         "IsolatedZeros",
         "each equation has one coordinate, is analytic everywhere and not identically zero, with a known common zero",
-        "dofkit.configuration.isolated_zeros.isolated",
+        "dofkit.configuration.search.isolated",
     ),
     "singular values": Argument(
         "the rank of measured geometry",
@@ -84,7 +84,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the rank of generic links",
         "PollaczekGeiringer1927",
         "all constraints are links, each with a length that occurs nowhere else",
-        "dofkit.mobility.frameworks.framework_answer",
+        "dofkit.mobility.general_position.framework_answer",
     ),
     "linear contradiction": Argument(
         "no configuration satisfies the equations",
@@ -139,19 +139,19 @@ _OWN: dict[ArgumentKey, Argument] = {
         "HermannNagano",
         "the Lie brackets are proved to be independent and leave nothing undetermined, or as many rows "
         "integrate on their own",
-        "dofkit.integrability.labels_by_field.certificate",
+        "dofkit.integrability.row_labels.certificate",
     ),
     "Lie algebra at points": Argument(
         "the degrees of freedom are n minus the rank of the largest integrable subsystem",
         "SontagCoron1992",
         "Lie brackets along a random admissible curve over GF(p)",
-        "dofkit.integrability.lie_algebra_at_points.span_at",
+        "dofkit.integrability.lie_algebra.span_at",
     ),
     "Lie algebra with balls": Argument(
         "the degrees of freedom are n minus the rank of the largest integrable subsystem",
         "SontagCoron1992",
         "a value whose tiny enclosure contains zero is zero",
-        "dofkit.integrability.lie_algebra_at_points.ball_span",
+        "dofkit.integrability.lie_algebra.ball_span",
     ),
     "states of motion": Argument(
         "the velocities that nonlinear equations allow",
@@ -182,7 +182,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the constraint is holonomic",
         "Frobenius1877",
         "the constraints leave one direction",
-        "dofkit.integrability.labels_by_field.field_labels",
+        "dofkit.integrability.row_labels.field_labels",
     ),
     "form by itself": Argument(
         "the constraint is holonomic",
@@ -194,13 +194,13 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the constraint is holonomic",
         "HermannNagano",
         "the form annihilates the Lie algebra at random points over GF(p)",
-        "dofkit.integrability.labels_by_field.field_labels",
+        "dofkit.integrability.row_labels.field_labels",
     ),
     "outside the integrable part": Argument(
         "the constraint is not holonomic",
         "HermannNagano",
         "the pairing of the form with a Lie bracket is proved to be nonzero",
-        "dofkit.integrability.labels_by_field.certificate",
+        "dofkit.integrability.row_labels.certificate",
     ),
     "as written": Argument("a label", "", "it is read from the text", "dofkit.integrability.traits.traits"),
     "identity": Argument(
@@ -220,7 +220,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "",
         "the rank over GF(p) is that of all rows, or leaves only rigid motions of the system; otherwise the "
         "rank over the rationals",
-        "dofkit.configuration.drawing.at_reference.at_reference",
+        "dofkit.configuration.at_reference.at_reference",
     ),
     "zero at the reference": Argument(
         "the reference configuration satisfies the equations",
@@ -281,7 +281,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the answer of a single method",
         "",
         "those of the method's own row",
-        "dofkit.methods.single_reports.report_of_method",
+        "dofkit.methods.stages.report_of_method",
     ),
 }
 

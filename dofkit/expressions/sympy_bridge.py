@@ -47,11 +47,11 @@ class Bridge:
     # to SymPy
 
     def velocity(self, name: str, order: int = 1) -> Any:
-        """The ``order``-th derivative of a coordinate by time."""
+        """Return the ``order``-th derivative of a coordinate by time."""
         return self.positions[name].diff(self.time, order)
 
     def sympy(self, e: Expr) -> Any:
-        """``e`` in SymPy. Raises KeyError for coordinates that were not given."""
+        """Return ``e`` in SymPy. Raises KeyError for coordinates that were not given."""
         for node in ex.nodes(e):
             if node not in self._memo:
                 self._memo[node] = self._to_sympy(node)
@@ -101,7 +101,7 @@ class Bridge:
     # and back
 
     def expr(self, e: Any) -> Expr:
-        """A SymPy expression as one of ours. Raises UntranslatableError where that is not possible."""
+        """Return a SymPy expression as one of ours. Raises UntranslatableError where that is not possible."""
         found = self._back.get(e)
         if found is None:
             found = self._back[e] = self._from_sympy(e)
@@ -131,7 +131,7 @@ class Bridge:
         return self._parameters.get(e) or ex.parameter(str(e.name))
 
     def derivative(self, e: Any) -> Expr:
-        """A velocity, an acceleration, or the derivative of an unknown function at its own arguments."""
+        """Return a velocity, an acceleration, or the derivative of an unknown function at its own arguments."""
         base, steps = e.expr, {variable: int(order) for variable, order in e.variable_count}
         if steps == {base: 1}:
             return ex.ONE
@@ -153,7 +153,7 @@ class Bridge:
         return tuple(steps.get(a, 0) for a in base.args)
 
     def substituted(self, e: Any) -> Expr:
-        """A derivative of an unknown function at other arguments than it was taken by."""
+        """Return a derivative of an unknown function at other arguments than it was taken by."""
         inner = e.expr
         if not isinstance(inner, self._sympy.Derivative):
             raise UntranslatableError("a substitution that was not carried out")
@@ -180,21 +180,24 @@ _READ: dict[str, Callable[[Bridge, Any], Expr]] = {
 
 
 def antiderivative_by_sympy(e: Expr, x: Expr, positive: frozenset[Expr]) -> Expr | None:
-    """Return the antiderivative of ``e`` by the symbol ``x`` that Risch's algorithm finds in SymPy, or None.
+    """Return the antiderivative of ``e`` by the symbol ``x`` that SymPy finds, or None.
 
-    It covers rational functions, exponentials and logarithms, and says so quickly where an integrand is none of them.
-    Raises UntranslatableError where the result cannot be written as an expression.
+    Risch's algorithm covers rational functions, exponentials and logarithms, and says quickly where an integrand is
+    none of them; then the rules that a person would use. Raises UntranslatableError where a result cannot be written.
     """
-    from sympy import Integral
+    from sympy import Integral, Piecewise
+    from sympy.integrals.manualintegrate import manualintegrate
     from sympy.integrals.risch import risch_integrate
     from sympy.polys.polyerrors import BasePolynomialError
 
     plain = {s: ex.parameter(f"p{i}") for i, s in enumerate(sorted(e.symbols, key=repr))}
     bridge = Bridge((), frozenset(plain[s] for s in e.symbols & positive))
-    try:
-        integral = risch_integrate(bridge.sympy(substitute(e, plain)), bridge.sympy(plain[x]))
-    except (ArithmeticError, AttributeError, BasePolynomialError, LookupError, RuntimeError, TypeError, ValueError):
-        return None  # NotImplementedError is a RuntimeError
-    if integral.has(Integral):
-        return None
-    return substitute(bridge.expr(integral), {p: s for s, p in plain.items()})
+    integrand, variable = bridge.sympy(substitute(e, plain)), bridge.sympy(plain[x])
+    for integrate in (risch_integrate, manualintegrate):
+        try:
+            integral = integrate(integrand, variable)
+        except (ArithmeticError, AttributeError, BasePolynomialError, LookupError, RuntimeError, TypeError, ValueError):
+            continue  # NotImplementedError is a RuntimeError
+        if not integral.has(Integral, Piecewise):
+            return substitute(bridge.expr(integral), {p: s for s, p in plain.items()})
+    return None

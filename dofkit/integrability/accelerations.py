@@ -25,10 +25,10 @@ from dofkit.expressions.calculus import (
     in_velocities,
     substitute,
 )
-from dofkit.expressions.text import to_text
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, GivenUpError
-from dofkit.integrability.integrals.antiderivative import potential
+from dofkit.integrability.integrals.potentials import potential
 from dofkit.relations.normal.normal_form import linear_form, normalise
 from dofkit.relations.normal.pieces import Normal, Piece
 from dofkit.relations.normal.zero_set import zero_set

@@ -2,30 +2,46 @@
 
 f is a combination of few products of the block's own functions (coordinates, sines, exponentials, parameters) with
 rational coefficients. X f = 0 for every X in D = ker I is linear in the coefficients; it is imposed at random points
-of the configuration space over GF(p), and what is left is read as rationals. Nothing is shown unless it holds
-identically: the bordered minors of df under the rows vanish in the canonical ring (modulo a finite relation that
-is there), or where that grows too large or several finite relations hold, at fresh points modulo fresh primes.
+over GF(p) on the finite relations, and the solutions are read as rationals. An integral is returned only if it holds
+identically: the bordered minors of df under the rows vanish in the canonical ring (modulo a finite relation, if there
+is one), or, where that grows too large or several finite relations hold, at fresh points modulo fresh primes.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from itertools import permutations
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from itertools import combinations_with_replacement, permutations
+from math import isqrt
 
-from dofkit.exact.errors import NoValueError
-from dofkit.exact.points.frames import field_frame
+from flint import nmod, nmod_mat
+
+from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError
+from dofkit.exact.matrices.sparse import rank_of
+from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.frames import field_frame, kernel, pairing
 from dofkit.exact.ring.canonical import Canon, Poly, determinant, polynomials, remainder
+from dofkit.exact.ring.program import Scalar, gradient, values
+from dofkit.exact.triangular import TriangularSolver
+from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.integrals.ansatz import MAX_DEGREE, MAX_PRODUCTS, FormSample, IntegralSearch
 from dofkit.integrability.integrals.normal_shape import arranged, upright
 from dofkit.integrability.pfaffian_system import Codistribution
+from dofkit.relations.chart import free_point
 
+#: Products of up to so many functions, so many products, and so many functions in them at most.
+MAX_DEGREE, MAX_PRODUCTS, MAX_FUNCTIONS = 3, 170, 12
+#: Equations more than unknowns; fresh points at which an integral is checked where the minors are not written out.
+SPARE, CHECKS = 6, 4
 #: Rows of the bordered minors that are written out.
 MAX_ROWS = 5
-#: Integrals that are distributed over the rows, and how bad it is to give one twice.
-MAX_ASSIGNED, UNLIKE = 6, 1000
+#: Integrals that are distributed over the rows, and the cost of assigning one twice.
+MAX_ASSIGNED, TWICE = 6, 1000
+
+Monomial = tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -37,86 +53,231 @@ class FirstIntegral:
 
 
 def first_integrals(forms: Codistribution, number: int, seed: int = 0) -> list[FirstIntegral]:
-    """Up to ``number`` independent f with df in the span of the rows, none of them a consequence of finite relations.
+    """Return up to ``number`` independent f with df in the span of the rows, the simplest first.
 
-    The simplest come first.
+    None of them is a consequence of the finite relations.
     """
     search = IntegralSearch(forms, seed)
-    found: list[FirstIntegral] = []
+    integrals: list[FirstIntegral] = []
     bordered: BorderedMinors | None = None
     for degree in range(1, MAX_DEGREE + 1):
         monomials = search.monomials(degree)
-        if len(monomials) > MAX_PRODUCTS or len(found) >= number:
+        if len(monomials) > MAX_PRODUCTS or len(integrals) >= number:
             break
         for f in search.candidates(monomials):
-            if search.adds(f, [k.expr for k in found]):
+            if search.is_independent(f, [k.expr for k in integrals]):
                 bordered = bordered or BorderedMinors(search.forms, search.points[0])
-                sure = _identically(bordered, f)
-                if sure or (sure is None and search.holds(f)):
-                    found.append(FirstIntegral(readable(f), bool(sure)))
-                if len(found) == number:
-                    return found
-    return found
+                identical = bordered.vanish(f)
+                if identical or (identical is None and search.holds(f)):
+                    integrals.append(FirstIntegral(arranged(upright(f)), bool(identical)))
+                if len(integrals) == number:
+                    return integrals
+    return integrals
 
 
 def is_first_integral(forms: Codistribution, f: Expr) -> bool:
-    """Is df in the span of the rows at random points, modulo several primes?"""
+    """Return whether df is in the span of the rows at random points, modulo several primes."""
     return IntegralSearch(forms, 0).holds(f)
 
 
-def integral_by_row(forms: Codistribution, integrals: Sequence[FirstIntegral]) -> dict[int, FirstIntegral]:
-    """An integral for every row that it can stand for: with the other rows it says what the row says.
+@dataclass(frozen=True)
+class FormSample:
+    """A point over GF(p): the functions' values there, their gradients by column, a basis of D, and the rows."""
 
-    f can stand for a row where df is not in the span of the others; different rows get different ones while they last.
-    """
-    if not integrals:
-        return {}
-    search = IntegralSearch(forms, 0)
-    sample = search.sample()
-    if sample is None:
-        return {}
-    usable: dict[int, list[int]] = {}
-    for row in range(forms.finite, len(forms.rows.entries)):
-        across = sample.across(row)
-        usable[row] = [k for k, f in enumerate(integrals) if across and search.slope(f.expr, sample, across) != 0]
-    chosen = _likest_integral_by_row(forms, integrals, {row: few for row, few in usable.items() if few})
-    return {row: integrals[k] for row, k in chosen.items()}
+    point: FieldPoint
+    at: list[nmod]
+    gradients: list[dict[int, nmod]]
+    basis: list[list[nmod]]
+    matrix: list[list[nmod]]
+    _products: dict[Monomial, tuple[nmod, list[nmod]]] = field(default_factory=dict)
 
+    def product(self, m: Monomial) -> tuple[nmod, list[nmod]]:
+        """Return a product of functions, and its rate along each vector of the basis: (f g)' = f' g + f g'."""
+        known = self._products.get(m)
+        if known is None:
+            last = self.at[m[-1]]
+            rates = [sum((a * v[c] for c, a in self.gradients[m[-1]].items()), last * 0) for v in self.basis]
+            known = last, rates
+            if m[:-1]:
+                before, slopes = self.product(m[:-1])
+                known = before * last, [a * last + before * b for a, b in zip(slopes, rates, strict=True)]
+            self._products[m] = known
+        return known
 
-def _likest_integral_by_row(
-    forms: Codistribution, integrals: Sequence[FirstIntegral], usable: dict[int, list[int]]
-) -> dict[int, int]:
-    """One integral a row, different ones where there are enough, such that they mention what the rows mention."""
-    moving = frozenset(forms.chart.symbols)
-    own = {row: {forms.chart.symbols[c] for c in forms.rows.entries[row]} for row in usable}
-    places = [*range(len(integrals)), *(None for row in usable if len(usable) > len(integrals))][:MAX_ASSIGNED]
-    best: tuple[int, dict[int, int]] | None = None
-    for choice in permutations(places, len(usable)):
-        total, found = 0, {}
-        for row, k in zip(usable, choice, strict=True):
-            found[row] = k if k in usable[row] and k is not None else usable[row][0]
-            unlike = own[row] ^ (integrals[found[row]].expr.symbols & moving)
-            total += UNLIKE if found[row] != k else len(unlike) ** 2
-        if best is None or total < best[0]:
-            best = total, found
-    return best[1] if best is not None else {row: few[0] for row, few in usable.items()}
+    def across(self, row: int) -> list[nmod] | None:
+        """Return a velocity that only ``row`` forbids, or None where the row depends on the others."""
+        others = [r for i, r in enumerate(self.matrix) if i != row]
+        n, one = len(self.matrix[row]), self.point.number(Fraction(1))
+        if others:
+            vectors = kernel(others, field_frame(others, n, self.point.p), one * 0)
+        else:
+            vectors = [[one if i == j else one * 0 for j in range(n)] for i in range(n)]
+        return next((v for v in vectors if pairing(self.matrix[row], [v])[0] != 0), None)
 
 
-def readable(f: Expr) -> Expr:
-    """An integral times the number that makes its coefficients whole, in a fixed order."""
-    return arranged(upright(f))
+class IntegralSearch:
+    """The functions of some forms that are constant along D = ker I, among products of the functions in them."""
+
+    def __init__(self, forms: Codistribution, seed: int) -> None:
+        self.forms, self.seed = _with_all_symbols(forms), seed
+        chart = self.forms.chart
+        self.ring = chart.ring
+        self.functions = [v.index for v in self.ring.vars if v.kind not in ("sign", "pi")][:MAX_FUNCTIONS]
+        self.constant = {i for i in self.functions if not _moves(self.ring.var_expr[i])}
+        self.solver = TriangularSolver(self.ring, list(chart.nodes), seed=seed) if chart.nodes else None
+        self.points: list[FormSample] = []
+        self._drawn = 0
+
+    def monomials(self, degree: int) -> list[Monomial]:
+        """Return products of up to ``degree`` functions, simple ones first; sines occur once (sin^2 = 1 - cos^2)."""
+        monomials: list[Monomial] = []
+        for size in range(1, degree + 1):
+            for m in combinations_with_replacement(self.functions, size):
+                once = all(m.count(i) == 1 for i in set(m) if self.ring.vars[i].kind in ("sin", "root"))
+                if once and any(i not in self.constant for i in m):
+                    monomials.append(m)
+                if len(monomials) > MAX_PRODUCTS:
+                    return monomials
+        return sorted(monomials, key=lambda m: (len(m), sum(self.ring.vars[i].kind != "symbol" for i in m), m))
+
+    def candidates(self, monomials: Sequence[Monomial]) -> Iterator[Expr]:
+        """Yield combinations of products that are constant along D at all points, the simplest first."""
+        equations: list[list[nmod]] = []
+        number = 0
+        while len(equations) < len(monomials) + SPARE:
+            sample = self.sample(number)
+            if sample is None:
+                return
+            columns = [sample.product(m)[1] for m in monomials]
+            equations += [list(row) for row in zip(*columns, strict=True)]
+            number += 1
+        p = self.points[0].point.p
+        for weights in _simplest_first(nmod_mat(equations, p)):
+            f = self._combination(monomials, weights, p)
+            if f is not None:
+                yield f
+
+    def slope(self, f: Expr, sample: FormSample, v: Sequence[nmod]) -> Scalar:
+        """Return df on a vector at a point."""
+        return pairing(self._gradient(f, sample), [v])[0]
+
+    def is_independent(self, f: Expr, known: Sequence[Expr]) -> bool:
+        """Return whether df is independent of the finite relations and of the integrals that are known."""
+        sample = self.points[0]
+        rows = [list(r) for r in sample.matrix[: self.forms.finite]]
+        rows += [self._gradient(e, sample) for e in (*known, f)]
+        return rank_of(rows, sample.point.p) > rank_of(rows[:-1], sample.point.p)
+
+    def sample(self, number: int) -> FormSample | None:
+        """Return one of the points, all modulo one prime, or None where so many are not found."""
+        while len(self.points) <= number:
+            check()
+            self._drawn += 1
+            if self._drawn > 4 * MAX_PRODUCTS:
+                return None
+            sample = _sample_at(self.forms, self._point(3 * (self.seed + self._drawn)))
+            if sample is not None and not sample.basis:
+                return None
+            if sample is not None and (not self.points or sample.point.p == self.points[0].point.p):
+                self.points.append(sample)
+        return self.points[number]
+
+    def holds(self, f: Expr) -> bool:
+        """Return whether X f = 0 for D at fresh points, modulo other primes."""
+        checked = 0
+        for k in range(6 * CHECKS):
+            sample = _sample_at(self.forms, self._point(7000 + k))
+            if sample is None:
+                continue
+            if any(v != 0 for v in pairing(self._gradient(f, sample), sample.basis)):
+                return False
+            checked += 1
+            if checked == CHECKS:
+                return True
+        return False
+
+    def _gradient(self, f: Expr, sample: FormSample) -> list[nmod]:
+        node, one = self.ring.node(f), sample.point.number(Fraction(1))
+        g = gradient(self.ring, values(self.ring, sample.point), sample.point, [(node, one)])
+        return [g.get(c, one * 0) for c in self.forms.chart.columns]
+
+    def _point(self, seed: int) -> FieldPoint | None:
+        return free_point(self.forms.chart, seed) if self.solver is None else self.solver.draw(seed)
+
+    def _combination(self, monomials: Sequence[Monomial], weights: Sequence[nmod], p: int) -> Expr | None:
+        """Return the combination with the small fractions that the weights are modulo p, or None if one is none."""
+        terms = []
+        for m, weight in zip(monomials, weights, strict=True):
+            if weight:
+                c = _rational(int(weight), p)
+                if c is None:
+                    return None
+                terms.append(ex.mul(ex.num(c), *(self.ring.var_expr[i] for i in m)))
+        return ex.add(*terms)
 
 
-def _identically(bordered: BorderedMinors, f: Expr) -> bool | None:
-    """Do the bordered minors of df under the rows vanish identically? None where they are not written out."""
-    if not bordered.short:
+def _with_all_symbols(forms: Codistribution) -> Codistribution:
+    """Return the same forms with a function for every column, also for those that no coefficient mentions."""
+    ring = forms.chart.ring
+    for s in forms.chart.symbols:
+        ring.node(s)
+    columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in forms.chart.symbols)
+    chart = replace(forms.chart, columns=columns)
+    return Codistribution(chart, replace(forms.rows, columns=columns), forms.finite)
+
+
+def _moves(e: Expr) -> bool:
+    return any(s.args[0] in ("coordinate", "time") for s in e.symbols)
+
+
+def _sample_at(forms: Codistribution, point: FieldPoint | None) -> FormSample | None:
+    if point is None:
         return None
+    ring, columns = forms.chart.ring, forms.chart.columns
+    one = point.number(Fraction(1))
     try:
-        if all(minor == 0 for minor in bordered.of(f)):
-            return True
+        at = values(ring, point)
+        matrix = forms.rows.matrix(at, one * 0)
+        frame = field_frame(matrix, len(columns), point.p)
+        basis = kernel(matrix, frame, one * 0) if frame.free else []
+        gradients = []
+        for v, node in zip(ring.vars, ring.var_node, strict=True):
+            g = gradient(ring, at, point, [(node, one)]) if _moves(ring.var_expr[v.index]) else {}
+            gradients.append({place: g[c] for place, c in enumerate(columns) if c in g})
+        return FormSample(point, [at[node] for node in ring.var_node], gradients, basis, matrix)
     except NoValueError:
         return None
-    return None if bordered.chart.nodes else False
+
+
+def _simplest_first(equations: nmod_mat) -> Iterator[list[nmod]]:
+    """Yield a basis of the null space by its last monomial, the simplest first.
+
+    Monomials, which are the columns, run from simple to hard; each that depends on those before it is a vector's last.
+    """
+    reduced, rank = equations.rref()
+    rows, kept = reduced.table()[:rank], list[int]()
+    zero, one = nmod(0, equations.modulus()), nmod(1, equations.modulus())
+    for column in range(equations.ncols()):
+        if len(kept) < rank and rows[len(kept)][column]:
+            kept.append(column)
+            continue
+        weights = [zero] * equations.ncols()
+        weights[column] = one
+        for row, pivot in zip(rows, kept, strict=False):
+            weights[pivot] = -row[column]
+        yield weights
+
+
+def _rational(value: int, p: int) -> Fraction | None:
+    """Return the fraction with small terms that is ``value`` modulo p [Wang1981], or None where there is none."""
+    bound = isqrt(p // 2)
+    r0, r1, t0, t1 = p, value % p, 0, 1
+    while r1 > bound:
+        q = r0 // r1
+        r0, r1, t0, t1 = r1, r0 - q * r1, t1, t0 - q * t1
+    if t1 == 0 or abs(t1) > bound or r1 > 1 << 20 or abs(t1) > 1 << 20:
+        return None
+    return Fraction(r1, t1)
 
 
 class BorderedMinors:
@@ -125,12 +286,23 @@ class BorderedMinors:
     def __init__(self, forms: Codistribution, sample: FormSample) -> None:
         self.forms, self.chart = forms, forms.chart
         self.short = len(self.chart.nodes) <= 1 and len(forms.rows.entries) <= MAX_ROWS
-        self.frame = field_frame(sample.matrix, len(self.chart.symbols), sample.p)
+        self.frame = field_frame(sample.matrix, len(self.chart.symbols), sample.point.p)
         self.canon: Canon | None = None
         self._cofactors: dict[int, dict[int, Poly]] = {}
 
-    def of(self, f: Expr) -> Iterator[Poly]:
-        """Those of df, one for each free column, modulo a finite relation. Raises NoValueError."""
+    def vanish(self, f: Expr) -> bool | None:
+        """Return whether the minors of df vanish identically, or None where they are not written out."""
+        if not self.short:
+            return None
+        try:
+            if all(minor == 0 for minor in self._of(f)):
+                return True
+        except NoValueError:
+            return None
+        return None if self.chart.nodes else False
+
+    def _of(self, f: Expr) -> Iterator[Poly]:
+        """Yield the minors of df, one for each free column, modulo a finite relation. Raises NoValueError."""
         ring, symbols = self.chart.ring, self.chart.symbols
         slopes = {i: ring.node(diff(f, s)) for i, s in enumerate(symbols) if s in f.symbols}
         if self.canon is None or len(self.canon.gens) < len(ring.vars):
@@ -139,23 +311,59 @@ class BorderedMinors:
         relation = canon.quotient(self.chart.nodes[0])[0] if self.chart.nodes else None
         row = polynomials(canon, slopes, len(symbols))
         for j in self.frame.free:
-            minor = canon.one * 0
-            for c, cofactor in self._along(canon, j).items():
-                if row[c] != 0:
-                    minor = minor + canon.reduce(row[c] * cofactor)
-            minor = canon.reduce(minor)
+            terms = (canon.reduce(row[c] * m) for c, m in self._along(canon, j).items() if row[c] != 0)
+            minor = canon.reduce(sum(terms, canon.one * 0))
             yield minor if relation is None or minor == 0 else remainder(minor, relation)
 
     def _along(self, canon: Canon, j: int) -> dict[int, Poly]:
-        """The cofactors of the bordering row in the dependent columns and column ``j``; all functions share them."""
+        """Return the cofactors of the bordering row in the dependent columns and column ``j``."""
         if j not in self._cofactors:
-            n = len(self.chart.symbols)
-            rows = [polynomials(canon, self.forms.rows.entries[r], n) for r in self.frame.rows]
+            rows = [polynomials(canon, self.forms.rows.entries[r], len(self.chart.symbols)) for r in self.frame.rows]
             columns = (*self.frame.dependent, j)
-            found = {}
+            cofactors = {}
             for k, c in enumerate(columns):
                 others = [d for d in columns if d != c]
                 minor = determinant(canon, [[row[d] for d in others] for row in rows]) if rows else canon.one
-                found[c] = -minor if k % 2 else minor
-            self._cofactors[j] = found
+                cofactors[c] = -minor if k % 2 else minor
+            self._cofactors[j] = cofactors
         return self._cofactors[j]
+
+
+# which integral a row stands for
+
+
+def integral_by_row(forms: Codistribution, integrals: Sequence[FirstIntegral]) -> dict[int, FirstIntegral]:
+    """Return an integral for every row that it can stand for: with the other rows it implies the row.
+
+    f can stand for a row where df is not in the span of the others; different rows have different ones while they last.
+    """
+    search = IntegralSearch(forms, 0)
+    sample = search.sample(0) if integrals else None
+    if sample is None:
+        return {}
+    usable: dict[int, list[int]] = {}
+    for row in range(forms.finite, len(forms.rows.entries)):
+        across = sample.across(row)
+        fitting = [k for k, f in enumerate(integrals) if across and search.slope(f.expr, sample, across) != 0]
+        if fitting:
+            usable[row] = fitting
+    return {row: integrals[k] for row, k in _most_alike(forms, integrals, usable).items()}
+
+
+def _most_alike(
+    forms: Codistribution, integrals: Sequence[FirstIntegral], usable: Mapping[int, list[int]]
+) -> dict[int, int]:
+    """Return one integral a row, different ones if there are enough, that mention the symbols of the rows."""
+    moving = frozenset(forms.chart.symbols)
+    mentioned = {row: {forms.chart.symbols[c] for c in forms.rows.entries[row]} for row in usable}
+    places = [*range(len(integrals)), *(None for row in usable if len(usable) > len(integrals))][:MAX_ASSIGNED]
+    best: tuple[int, dict[int, int]] | None = None
+    for choice in permutations(places, len(usable)):
+        total, assigned = 0, {}
+        for row, k in zip(usable, choice, strict=True):
+            assigned[row] = k if k in usable[row] and k is not None else usable[row][0]
+            unlike = mentioned[row] ^ (integrals[assigned[row]].expr.symbols & moving)
+            total += TWICE if assigned[row] != k else len(unlike) ** 2
+        if best is None or total < best[0]:
+            best = total, assigned
+    return best[1] if best is not None else {row: few[0] for row, few in usable.items()}

@@ -28,8 +28,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.lie_algebra import Span
-from dofkit.integrability.lie_algebra_at_points import ball_span, span_at
+from dofkit.integrability.lie_algebra import Span, ball_span, span_at
 from dofkit.integrability.pfaffian_system import Codistribution, codistribution
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, coordinates_of

@@ -11,10 +11,11 @@ from dataclasses import replace
 
 from flint import arb
 
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import weakest
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.configuration.states import States, rows_at, state_relations
-from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 from flint import arb
 
-from dofkit.configuration.drawing.at_reference import CLEAR, ball_matrix, ball_point
+from dofkit.base.errors import NoValueError
+from dofkit.configuration.at_reference import CLEAR, ball_matrix, ball_point
 from dofkit.configuration.generic_points import on_variety, pose_point
-from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.frames import FormRows

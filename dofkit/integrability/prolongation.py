@@ -17,9 +17,9 @@ from typing import Any
 from flint import arb
 
 from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError
 from dofkit.configuration.variety import Variety
 from dofkit.exact.analyticity import is_analytic
-from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.frames import FormRows

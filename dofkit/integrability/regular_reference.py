@@ -12,11 +12,11 @@ from collections.abc import Mapping
 
 from flint import arb, ctx, nmod_mat
 
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict
-from dofkit.configuration.drawing.at_reference import ball_matrix, ball_point
+from dofkit.configuration.at_reference import ball_matrix, ball_point
 from dofkit.configuration.generic_points import SAMPLES, on_variety, pose_point
 from dofkit.configuration.variety import Variety
-from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import precision

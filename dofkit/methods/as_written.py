@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any, Protocol
 
 from dofkit.base.errors import TextError
+from dofkit.exact.ring.program import Point, Scalar, gradient, values
+from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import accelerations_of, cleared, in_velocities
 from dofkit.expressions.tree import Expr
+from dofkit.methods.table import MethodReply
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Pfaffian
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
 from dofkit.system import System
@@ -127,3 +131,227 @@ def labelled(written: Written, holonomic: Mapping[int, bool]) -> dict[str, bool]
     """
     names = [c.name for c in written.system.constraints]
     return {name: holonomic.get(i, True) and i not in written.others for i, name in enumerate(names)}
+
+
+Matrix = list[list[Scalar]]
+
+
+class Decider(Protocol):
+    """What a method decides by."""
+
+    @property
+    def zero(self) -> Scalar: ...
+
+    def rank(self, matrix: Matrix) -> int: ...
+    def kernel(self, matrix: Matrix, columns: int) -> Matrix: ...
+    def vanishes(self, value: Scalar, scale: Sequence[Scalar]) -> bool: ...
+    def points(self, written: Written, rows: WrittenRows, drawn: bool) -> Sequence[Point]: ...
+
+
+class WrittenRows:
+    """The equations of a scene as a program that can be run at points."""
+
+    def __init__(self, written: Written, more: Sequence[Expr] = ()) -> None:
+        self.written = written
+        self.columns = [*written.coordinates, *([ex.TIME] if written.timed else [])]
+        self.n = len(written.coordinates)
+        self.ring = Ring([*written.expressions, *more], written.positive)
+        place = {s: k for k, s in enumerate(self.columns)}
+        self.finite = [(i, self.ring.node(g)) for i, g in written.finite]
+        self.forms = [(i, {place[s]: self.ring.node(a) for s, a in f.items()}) for i, f in written.forms]
+        self.indices = [self.ring.var_index(s) for s in self.columns]
+
+    def at(self, point: Point, zero: Scalar) -> SampledRows:
+        """Everything at one point."""
+        known = values(self.ring, point)
+        slopes = {node: self._slope(known, point, node, zero) for node in self._nodes()}
+        finite = [slopes[node] for _, node in self.finite]
+        forms = [[known[a[c]] if c in a else zero for c in range(len(self.columns))] for _, a in self.forms]
+        curls = [self._curl({c: slopes[node] for c, node in a.items()}, zero) for _, a in self.forms]
+        return SampledRows(finite, forms, curls, [known[node] for _, node in self.finite], known)
+
+    def _nodes(self) -> set[int]:
+        return {node for _, node in self.finite} | {node for _, a in self.forms for node in a.values()}
+
+    def _slope(self, known: Sequence[Scalar], point: Point, node: int, zero: Scalar) -> list[Scalar]:
+        found = gradient(self.ring, known, point, [(node, zero + 1)])
+        return [zero if c is None else found.get(c, zero) for c in self.indices]
+
+    def _curl(self, slopes: dict[int, list[Scalar]], zero: Scalar) -> Matrix:
+        """d omega: the derivatives of a_j by q_i less those of a_i by q_j."""
+        whole = range(len(self.columns))
+        empty = [zero for _ in whole]
+        by = [slopes.get(c, empty) for c in whole]
+        return [[by[j][i] - by[i][j] for j in whole] for i in whole]
+
+
+@dataclass(frozen=True)
+class SampledRows:
+    """Rows of the finite equations and of the forms, their exterior derivatives, and what the finite equations give."""
+
+    finite: Matrix
+    forms: Matrix
+    curls: list[Matrix]
+    residuals: list[Scalar]
+    known: Sequence[Scalar]
+
+    @property
+    def rows(self) -> Matrix:
+        return [*self.finite, *self.forms]
+
+
+@dataclass(frozen=True)
+class SampledPoints:
+    """The points that were found, and which forms pass Frobenius' test at all of them."""
+
+    rows: WrittenRows
+    samples: list[SampledRows]
+    passing: list[bool]
+
+
+def look(written: Written, numbers: Decider) -> SampledPoints | None:
+    """At the drawing where there is one, else at the points that the numbers find; None where they find none."""
+    rows = WrittenRows(written)
+    drawn = written.system.reference is not None
+    samples = [rows.at(p, numbers.zero) for p in numbers.points(written, rows, drawn)]
+    if not samples:
+        return None
+    passing = [True for _ in rows.forms]
+    for s in samples if rows.forms else []:
+        basis = numbers.kernel(s.rows, len(rows.columns))
+        for k, curl in enumerate(s.curls):
+            passing[k] = passing[k] and _flat(curl, basis, numbers)
+    return SampledPoints(rows, samples, passing)
+
+
+def _flat(curl: Matrix, basis: Matrix, numbers: Decider) -> bool:
+    """N^T C N = 0?"""
+    scale = [v for row in curl for v in row]
+    for a, u in enumerate(basis):
+        turned = [sum((u[i] * curl[i][j] for i in range(len(u))), numbers.zero) for j in range(len(u))]
+        for v in basis[:a]:
+            if not numbers.vanishes(sum((x * y for x, y in zip(turned, v, strict=True)), numbers.zero), scale):
+                return False
+    return True
+
+
+def freedom(found: SampledPoints, numbers: Decider) -> int:
+    """Coordinates less the rank of the finite equations and of the forms that pass: the least over the points."""
+    n = found.rows.n
+    kept = [[*s.finite, *(f for f, p in zip(s.forms, found.passing, strict=True) if p)] for s in found.samples]
+    return min(n - numbers.rank([row[:n] for row in rows]) for rows in kept)
+
+
+def labels(found: SampledPoints) -> dict[str, bool]:
+    """Whether each constraint is taken for holonomic."""
+    told: dict[int, bool] = {}
+    for (i, _), passes in zip(found.rows.forms, found.passing, strict=True):
+        told[i] = told.get(i, True) and passes
+    return labelled(found.rows.written, told)
+
+
+def droppable(found: SampledPoints, numbers: Decider) -> list[str]:
+    """Constraints without which the rank stays as it is, the last written first; finite ones are fixed by finite ones.
+
+    Inequalities and what is nonlinear in velocities are left in.
+    """
+    sample, rows = found.samples[0], found.rows
+    owners = [i for i, _ in rows.finite], [i for i, _ in rows.forms]
+    kept = sorted({*owners[0], *owners[1]} - set(rows.written.others))
+    fixed = {*owners[0], *owners[1]} & set(rows.written.others)
+
+    def ranks(of: set[int]) -> tuple[int, int]:
+        finite = [row for i, row in zip(owners[0], sample.finite, strict=True) if i in of]
+        forms = [row for i, row in zip(owners[1], sample.forms, strict=True) if i in of]
+        return numbers.rank(finite), numbers.rank([*finite, *forms])
+
+    whole = ranks({*kept, *fixed})
+    moving = set(owners[1])
+    dropped: set[int] = set()
+    for i in sorted(kept, key=lambda i: (i in moving, i), reverse=True):
+        if ranks(({*kept, *fixed} - dropped) - {i}) == whole:
+            dropped.add(i)
+    names = [c.name for c in rows.written.system.constraints]
+    return sorted(names[i] for i in dropped)
+
+
+def same(question: WrittenAnswer, numbers: Decider) -> MethodReply:
+    """Does each hold where the other does, at the points that are looked at?"""
+    answer, asked, rest = question.answer, question.asked, question.rest
+    if answer.others or asked.others:
+        return MethodReply(
+            None, "inequalities and equations nonlinear in the velocities are not compared at points", True
+        )
+    if bool(answer.forms) != bool(asked.forms) or bool(answer.finite) != bool(asked.finite):
+        return MethodReply(False, "one is about positions, the other about velocities")
+    if asked.forms:
+        return _same_span(answer, asked, rest, numbers)
+    for given, held in ((asked, answer), (answer, asked)):
+        held_there = _holds_on(together(rest, given), held, numbers)
+        if held_there is None:
+            return MethodReply(None, "no point of the constraints was found")
+        if not held_there:
+            return MethodReply(False, "there is a point where one holds and the other does not")
+    return MethodReply(True)
+
+
+def together(first: Written, second: Written) -> Written:
+    """The equations of both."""
+    others = {**first.others, **second.others}
+    return Written(first.system, first.finite + second.finite, first.forms + second.forms, others)
+
+
+def _holds_on(given: Written, held: Written, numbers: Decider) -> bool | None:
+    standing = Written(given.system, given.finite, ())
+    rows = WrittenRows(standing, held.expressions)
+    asked = WrittenRows(together(standing, held))
+    points = numbers.points(standing, rows, False)
+    if not points:
+        return None
+    start = len(standing.finite)
+    for point in points:
+        s = asked.at(point, numbers.zero)
+        for residual, row in zip(s.residuals[start:], s.finite[start:], strict=True):
+            if not numbers.vanishes(residual, [*row, numbers.zero + 1]):
+                return False
+    return True
+
+
+def _same_span(answer: Written, asked: Written, rest: Written, numbers: Decider) -> MethodReply:
+    """At points of the finite equations, the forms of both and of the others span the same."""
+    whole = together(rest, together(asked, answer))
+    standing = Written(whole.system, rest.finite, ())
+    points = numbers.points(standing, WrittenRows(standing, whole.expressions), False)
+    if not points:
+        return MethodReply(None, "no point of the constraints was found")
+    given, wanted, both = (WrittenRows(together(rest, w)) for w in (answer, asked, together(asked, answer)))
+    for point in points:
+        mine, theirs, all_rows = (numbers.rank(_padded(r, whole, point, numbers)) for r in (given, wanted, both))
+        if not mine == theirs == all_rows:
+            return MethodReply(False, "at a point they allow different velocities")
+    return MethodReply(True)
+
+
+def _padded(rows: WrittenRows, whole: Written, point: Point, numbers: Decider) -> Matrix:
+    """The rows over (q, t) even where time does not occur."""
+    more = [numbers.zero] if whole.timed and not rows.written.timed else []
+    return [[*row, *more] for row in rows.at(point, numbers.zero).rows]
+
+
+def drawn_value(value: Expr, point: Any) -> Scalar:
+    """The value of a constant expression, parameters as the point has them."""
+    ring = Ring([value])
+    node = ring.node(value)
+    return values(ring, point)[node]
+
+
+def independent_at_reference(found: SampledPoints, numbers: Decider) -> bool:
+    """Return whether all equations are read, finite, and independent over q at the reference configuration.
+
+    Then the freedom there is the number of coordinates less that of equations [ImplicitFunctions].
+    """
+    written = found.rows.written
+    if written.system.reference is None or written.others or written.forms:
+        return False
+    rows = found.samples[0].rows
+    return numbers.rank([row[: found.rows.n] for row in rows]) == len(rows)

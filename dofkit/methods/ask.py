@@ -6,35 +6,34 @@ What is answered is what `classify` says too.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import ExitStack
 from dataclasses import dataclass
 from typing import Any
 
 from flint import ctx
 
-from dofkit.base.arguments import description_of, require_one_of, seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
 from dofkit.base.errors import ArgumentError
 from dofkit.base.verdicts import Verdict, weakest
-from dofkit.classification.dependence.circuits import OwnedRows, analyse
+from dofkit.base.wording import description_of, require_one_of, seconds_of
 from dofkit.classification.dependence.equivalence import Sameness, compare
 from dofkit.classification.dependence.redundancy import all_needed, redundancies
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.classification.labels.entries import labels_in_system
 from dofkit.classification.study import Study, study
-from dofkit.exact.points.balls import precise_for, precision
-from dofkit.exact.zero import BOTH, Engines
-from dofkit.expressions import tree as ex
-from dofkit.methods.table import QUESTIONS, Question
-from dofkit.mobility.frameworks import unprescribed_links
+from dofkit.exact.points.balls import balls_of, precise_for, precision
+from dofkit.exact.points.field import primes_of
+from dofkit.exact.zero import BALLS, BOTH, FIELD, Engines
+from dofkit.methods.table import METHODS, QUESTIONS, Knobs, MethodName, MethodReply, Question, cannot, function_of
+from dofkit.mobility.general_position import unprescribed_links
 from dofkit.mobility.graph.linkage import linkage
-from dofkit.mobility.rank_at_drawing import drawn_rank
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite, Reduced
 from dofkit.scene.added_equations import read_equations, with_equations
 from dofkit.scene.lowering import lower
 from dofkit.scene.names import names_by_position, vocabulary_of
-from dofkit.scene.reading import SceneLike, scene_or_system
+from dofkit.scene.reading import SceneLike, load, scene_or_system
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
@@ -144,7 +143,7 @@ def answered_by(
 
 def _of_system(system: System, question: Question, engines: Engines) -> Reply:
     if engines == BOTH and question in ("dof", "redundancy"):
-        found = _by_graph(system, question) or _by_drawing(system, question)
+        found = _by_graph(system, question)
         if found is not None:
             return found
     if question == "integrability" and all(map(_is_finite, prepared(system)[0])):
@@ -169,22 +168,6 @@ def _by_graph(system: System, question: Question) -> Reply | None:
         return Reply(len(system.coordinates) - told.rank, sure)
     names = [system.constraints[pairs[k][0]].name for k in told.redundant_places]
     return Reply(names, sure) if len({i for i, _ in pairs}) == len(pairs) else None
-
-
-def _by_drawing(system: System, question: Question) -> Reply | None:
-    """Joints and links whose rows at the drawing prove their freedom. None for any other system."""
-    known = drawn_rank(
-        system, frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
-    )
-    if known is None:
-        return None
-    if question == "dof":
-        return Reply(known.freedom, "proved")
-    gone = list(known.copies)
-    sure: Verdict = "proved" if known.independent else "probable"
-    if not known.independent:
-        gone += analyse([OwnedRows(known.rows, known.owners, [True] * len(known.rows), known.p)]).redundant
-    return Reply([system.constraints[i].name for i in sorted(gone)], sure)
 
 
 def _dof(known: Study) -> Reply:
@@ -244,3 +227,48 @@ _QUESTIONS: Mapping[Question, Callable[[Study], Reply]] = {
     "integrability": _integrability,
     "redundancy": _redundancy,
 }
+
+
+#: What a method may end with where a scene is not what it is for.
+FAILURES = (ArithmeticError, OutOfTimeError, NotImplementedError, ValueError)
+
+
+def answered(
+    scene: Scene | Mapping[str, Any],
+    question: Question,
+    method: MethodName,
+    knobs: Knobs | None = None,
+    answer: Mapping[str, str] | None = None,
+) -> MethodReply:
+    """Return the answer that a reader would believe who trusted this method alone, right or wrong.
+
+    ``answer``: for ``equivalence``, ``{"constraint": NAME, "text": TEXT}``. Where the method cannot or does not
+    answer, ``value`` is None and ``reason`` says why. Raises SceneError where the scene cannot be read.
+    """
+    row, settings = METHODS[method], knobs or Knobs()
+    if question not in row.uses:
+        return cannot(f"{method} has no way to answer this: {row.cannot}")
+    read = scene if isinstance(scene, Scene) else load(scene)
+    try:
+        if row.engines:
+            return _by_engines(row.engines, read, question, settings, answer)
+        work = function_of(method, question)
+        return work(read, settings, answer) if question == "equivalence" else work(read, settings)
+    except OverflowError as error:
+        return MethodReply(None, f"a number that occurs is too large or too small to compute with ({error})")
+    except FAILURES as error:
+        return MethodReply(None, str(error) or type(error).__name__)
+
+
+def _by_engines(
+    engines: Engines, scene: Scene, question: Question, knobs: Knobs, answer: Mapping[str, str] | None
+) -> MethodReply:
+    """Return the answer of dofkit's engines; one alone takes the bits of its primes, or of its balls."""
+    with ExitStack() as precisions:
+        if engines == FIELD:
+            precisions.enter_context(primes_of(knobs.prime_bits))
+        if engines == BALLS:
+            precisions.enter_context(balls_of(knobs.bits))
+        reply = answered_by(scene, question, answer, engines=engines)
+    value = sorted(reply.value) if question == "redundancy" and reply.value is not None else reply.value
+    return MethodReply(value, reply.reason, verdict=reply.verdict)

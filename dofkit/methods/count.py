@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dofkit.base.verdicts import weakest
 from dofkit.integrability.traits import exact
 from dofkit.methods.as_written import Written, as_written, labelled
-from dofkit.methods.reply import Knobs, MethodReply
+from dofkit.methods.table import Knobs, MethodReply
 from dofkit.scene.scene import Scene
 from dofkit.system import GROUND, System
 

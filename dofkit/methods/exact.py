@@ -8,28 +8,31 @@ from fractions import Fraction
 
 from flint import fmpq, fmpq_mat, fmpz
 
+from dofkit.base.errors import NoValueError, PoleError
 from dofkit.base.verdicts import Verdict
-from dofkit.exact.errors import NoValueError, PoleError, raising_no_value
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.ring.program import Scalar, Var, value_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.methods.as_written import Written, as_written, posed
-from dofkit.methods.ask import CONTRADICTORY
-from dofkit.methods.pointwise import (
+from dofkit.methods.as_written import (
     Matrix,
     SampledPoints,
+    Written,
     WrittenRows,
+    as_written,
     drawn_value,
     droppable,
     freedom,
     independent_at_reference,
     labels,
     look,
+    posed,
     same,
 )
-from dofkit.methods.reply import Knobs, MethodReply, cannot
+from dofkit.methods.ask import CONTRADICTORY
+from dofkit.methods.table import Knobs, MethodReply, cannot
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 

@@ -14,21 +14,23 @@ from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import Scalar
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.methods.as_written import Written, as_written, posed
-from dofkit.methods.ask import CONTRADICTORY
-from dofkit.methods.pointwise import (
+from dofkit.methods.as_written import (
     Matrix,
     SampledPoints,
+    Written,
     WrittenRows,
+    as_written,
     drawn_value,
     droppable,
     freedom,
     independent_at_reference,
     labels,
     look,
+    posed,
     same,
 )
-from dofkit.methods.reply import Knobs, MethodReply
+from dofkit.methods.ask import CONTRADICTORY
+from dofkit.methods.table import Knobs, MethodReply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 

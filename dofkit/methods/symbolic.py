@@ -16,7 +16,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import Expr
 from dofkit.methods.as_written import Written, as_written, labelled, posed
-from dofkit.methods.reply import Knobs, MethodReply
+from dofkit.methods.table import Knobs, MethodReply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 

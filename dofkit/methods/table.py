@@ -10,13 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import import_module
-from typing import TYPE_CHECKING, Literal
+from typing import Any, Literal
 
 from dofkit.base.verdicts import Verdict
 from dofkit.exact.zero import BALLS, BOTH, FIELD, Engines
-
-if TYPE_CHECKING:
-    from dofkit.methods.reply import MethodReply
 
 MethodName = Literal["auto", "count", "graph", "field", "balls", "exact", "numeric", "symbolic"]
 Question = Literal["dof", "integrability", "redundancy", "equivalence"]
@@ -175,3 +172,36 @@ METHODS: Mapping[MethodName, Method] = {
         "undecided",
     ),
 }
+
+
+@dataclass(frozen=True)
+class Knobs:
+    """Settings of a method.
+
+    ``tolerance``: singular values and differences below this share of the largest count as 0 (numeric); ``bits``: the
+    precision of balls, None for the ladder that they climb by themselves; ``prime_bits``: the size of a field's primes.
+    """
+
+    tolerance: float = 1e-9
+    bits: int | None = None
+    prime_bits: int = 61
+    seed: int = 0
+
+
+@dataclass(frozen=True)
+class MethodReply:
+    """The answer of a method to a question; ``value`` is None where it gives none, with the reason.
+
+    ``cannot``: it never answers such a question, or one about such a scene. ``verdict``: how certain the value is by
+    the method's own argument; of a mapping of labels, how certain those are that are true.
+    """
+
+    value: Any | None
+    reason: str = ""
+    cannot: bool = False
+    verdict: Verdict = "undecided"
+
+
+def cannot(reason: str) -> MethodReply:
+    """Return a reply without a value."""
+    return MethodReply(None, reason, cannot=True)

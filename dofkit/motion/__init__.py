@@ -1,14 +1,19 @@
 """Motion: the equations of motion of a scene, and configurations along a motion.
 
-`lagrange` derives Lagrange's equations of the second kind. The energies come from masses, springs, gravity or texts;
-linear constraints are eliminated where that is possible, otherwise they have multipliers. It reports generalized
-forces, conserved quantities (cyclic coordinates, the Jacobi integral h = sum p qdot - L), equilibria and small
-motions about them, and hands the equations to SymPy. Every equation can be rechecked by `dofkit.checker`. Its
-result is a `MotionReport`.
+The question: which accelerations do energies, forces and the classified constraints imply, and which configurations
+does a motion pass through? The results are a `MotionReport` and a list of configurations.
 
-`sampled` follows a motion by arclength: a predictor along the tangent space, Newton's method back to the
-configuration space. It is floating point, for pictures and for samples; no verdict rests on it.
+`lagrange`, in the order of a derivation
+    1. `energies` and `forces` read T, V, D and the applied forces of a scene; `joint_motion` gives those of a tree of
+       bodies in the angles and displacements of its joints.
+    2. `elimination` solves finite relations in closed form; `model` has the energies and the constraints that are left.
+    3. `derivation` has Lagrange's equations of the second kind by SymPy, which `tidying` writes as on a board.
+    4. `conserved` has cyclic coordinates and first integrals [Noether1918], `small_motions` equilibria and the
+       linearization about one; `equations` has the entry point `dofkit.lagrange`, `report` its result.
+    Every equation can be rechecked by `dofkit.checker`.
 
-The function `dofkit.lagrange` is the entry point of the package `lagrange`, whose modules follow the derivation:
-energies, rates, elimination, equations, forces, conserved quantities, equilibria, small motions, report.
+`sampled`
+    `configurations` follows a motion by arclength: `continuation` has the predictor along the tangent space and
+    Newton's method back to the configuration space, `poses` the relations in floating point with quaternions for
+    rotations. It is for pictures and samples; no verdict rests on it.
 """

@@ -7,7 +7,7 @@ import operator
 import random
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from functools import partial
 from typing import Any, NamedTuple
 
 from mpmath import mp, mpf
@@ -30,89 +30,46 @@ OPERATORS: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
 }
 
 
-@dataclass(frozen=True)
-class Dual:
-    """A value with its derivatives."""
-
-    value: Number
-    slope: tuple[Number, ...]
-
-    def __add__(self, other: Dual) -> Dual:
-        return Dual(self.value + other.value, tuple(map(operator.add, self.slope, other.slope)))
-
-    def __neg__(self) -> Dual:
-        return Dual(-self.value, tuple(-s for s in self.slope))
-
-    def __sub__(self, other: Dual) -> Dual:
-        return self + (-other)
-
-    def __mul__(self, other: Dual) -> Dual:
-        pairs = zip(self.slope, other.slope, strict=True)
-        return Dual(self.value * other.value, tuple(a * other.value + self.value * b for a, b in pairs))
-
-    def __truediv__(self, other: Dual) -> Dual:
-        pairs = zip(self.slope, other.slope, strict=True)
-        square = other.value * other.value
-        return Dual(self.value / other.value, tuple((a * other.value - self.value * b) / square for a, b in pairs))
-
-    def __pow__(self, other: Dual) -> Dual:
-        if any(other.slope):
-            raise ValueError("no power with a variable exponent")
-        if other.value == int(other.value):
-            n = int(other.value)
-            inner = n * self.value ** (n - 1) if n else self.value * 0
-            return Dual(self.value**n, tuple(inner * s for s in self.slope))
-        return self.through(lambda v: v**other.value, lambda v: other.value * v ** (other.value - 1))
-
-    def through(self, f: Callable[[Number], Number], slope: Callable[[Number], Number]) -> Dual:
-        """f of it, by the chain rule."""
-        inner = slope(self.value)
-        return Dual(f(self.value), tuple(inner * s for s in self.slope))
-
-
-Pair = tuple[Callable[[Number], Number], Callable[[Number], Number]]
-#: Functions with their derivatives; h stands for an unknown one.
-FUNCTIONS: Mapping[str, Pair] = {
-    "sin": (mp.sin, mp.cos),
-    "cos": (mp.cos, lambda v: -mp.sin(v)),
-    "tan": (mp.tan, lambda v: 1 / mp.cos(v) ** 2),
-    "exp": (mp.exp, mp.exp),
-    "log": (mp.log, lambda v: 1 / v),
-    "sqrt": (mp.sqrt, lambda v: 1 / (2 * mp.sqrt(v))),
-    "atan": (mp.atan, lambda v: 1 / (1 + v * v)),
-    "asin": (mp.asin, lambda v: 1 / mp.sqrt(1 - v * v)),
-    "acos": (mp.acos, lambda v: -1 / mp.sqrt(1 - v * v)),
-    "sinh": (mp.sinh, mp.cosh),
-    "cosh": (mp.cosh, mp.sinh),
-    "tanh": (mp.tanh, lambda v: 1 / mp.cosh(v) ** 2),
-    "abs": (abs, mp.sign),
-    "h": (lambda v: mp.sin(v) + v**2 / 3 + v, lambda v: mp.cos(v) + 2 * v / 3 + 1),
-    "f": (lambda v: mp.cos(2 * v) + v**3 / 5 - v, lambda v: -2 * mp.sin(2 * v) + 3 * v**2 / 5 - 1),
+#: Functions by name; h and f stand for unknown ones.
+FUNCTIONS: Mapping[str, Callable[[Number], Number]] = {
+    **{
+        name: getattr(mp, name)
+        for name in ["sin", "cos", "tan", "exp", "log", "sqrt", "atan", "asin", "acos", "sinh", "cosh", "tanh"]
+    },
+    "abs": abs,
+    "h": lambda v: mp.sin(v) + v**2 / 3 + v,
+    "f": lambda v: mp.cos(2 * v) + v**3 / 5 - v,
 }
+#: The step of difference quotients: their error is far below `ZERO`.
+STEP = mpf(10) ** -20
 
 
-def evaluated(text: str, known: Mapping[str, Dual]) -> Dual:
-    """A text in names, numbers, + - * / ^ and calls of `FUNCTIONS`."""
-    none = tuple(0 * s for s in next(iter(known.values())).slope)
+def evaluated(text: str, known: Mapping[str, Number]) -> Number:
+    """Return the value of a text in names, numbers, + - * / ^ and calls of `FUNCTIONS`."""
 
-    def value(node: ast.expr) -> Dual:
+    def value(node: ast.expr) -> Number:
         if isinstance(node, ast.BinOp):
-            found: Dual = OPERATORS[type(node.op)](value(node.left), value(node.right))
-            return found
+            return OPERATORS[type(node.op)](value(node.left), value(node.right))
         if isinstance(node, ast.UnaryOp):
             return -value(node.operand)
         if isinstance(node, ast.Constant):
-            return Dual(mpf(int(str(node.value))), none)
-        if isinstance(node, ast.Name) and node.id == "pi":
-            return Dual(+mp.pi, none)
+            return mpf(int(str(node.value)))
         if isinstance(node, ast.Name):
-            return known[node.id]
+            return +mp.pi if node.id == "pi" else known[node.id]
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-            return value(node.args[0]).through(*FUNCTIONS[node.func.id])
+            return FUNCTIONS[node.func.id](value(node.args[0]))
         raise ValueError(f"not read: {ast.dump(node)}")
 
     exact = DECIMAL.sub(lambda found: f"({int(found[1] + found[2])}/1{'0' * len(found[2])})", text)
     return value(ast.parse(exact.replace("^", "**").strip(), mode="eval").body)
+
+
+def slopes(
+    function: Callable[[Mapping[str, Number]], Number], at: Mapping[str, Number], by: Sequence[str]
+) -> list[Number]:
+    """Return the partial derivatives of a function by some names, as difference quotients."""
+    ends = [[function({**at, name: at[name] + step}) for step in (STEP, -STEP)] for name in by]
+    return [(above - below) / (2 * STEP) for above, below in ends]
 
 
 def sides(text: str) -> str:
@@ -162,22 +119,23 @@ def _confirmed(case: KnownScene, rng: random.Random) -> Confirmation:
     assert case.chart is not None
     chart, names = case.chart, list(case.scene["coordinates"])
     many = max((int(k) + 1 for text in chart.values() for k in re.findall(r"\bp(\d+)\b", text)), default=0)
+    parameters = [f"p{k}" for k in range(many)]
+    symbols = (*parameters, "t", *case.scene.get("parameters", ()))
+    chosen = {name: mpf(rng.randint(20, 60)) / rng.randint(31, 67) for name in symbols}
 
-    def drawn(slope: Sequence[int]) -> Dual:
-        return Dual(mpf(rng.randint(20, 60)) / rng.randint(31, 67), tuple(map(mpf, slope)))
+    def placed(values: Mapping[str, Number]) -> dict[str, Number]:
+        known = dict(values)
+        for name, text in chart.items():
+            known[name] = evaluated(text, known)
+        return known
 
-    known = {f"p{k}": drawn([int(i == k) for i in range(many)]) for k in range(many)}
-    known |= {name: drawn([0] * many) for name in ("t", *case.scene.get("parameters", ()))}
-    for name, text in chart.items():
-        known[name] = evaluated(text, known)
+    known = placed(chosen)
     finite, forms = _split(case)
-    residue = max((abs(evaluated(sides(text), known).value) for text in finite), default=0)
-    values = {name: Dual(dual.value, (mpf(0),) * len(names)) for name, dual in known.items()}
-    units = {c: tuple(mpf(c == other) for other in names) for c in names}
-    values |= {c: Dual(known[c].value, units[c]) for c in names}
-    regular = len(names) - rank([evaluated(sides(text), values).slope for text in finite])
-    dimension = rank([known[c].slope for c in names])
-    pulled = [[_along(text, known, names, k) for k in range(many)] for text in forms]
+    residue = max((abs(evaluated(sides(text), known)) for text in finite), default=0)
+    regular = len(names) - rank([slopes(partial(evaluated, sides(text)), known, names) for text in finite])
+    directions = {c: slopes(lambda values, c=c: placed(values)[c], chosen, parameters) for c in names}
+    dimension = rank(list(directions.values()))
+    pulled = [[_along(text, known, directions, k) for k in range(many)] for text in forms]
     return Confirmation(residue, dimension, dimension - rank(pulled), regular)
 
 
@@ -188,7 +146,7 @@ def _split(case: KnownScene) -> tuple[list[str], list[str]]:
     return [text for text in written if not words(text) & moving], [text for text in written if words(text) & moving]
 
 
-def _along(text: str, known: Mapping[str, Dual], names: Sequence[str], k: int) -> Number:
+def _along(text: str, known: Mapping[str, Number], directions: Mapping[str, Sequence[Number]], k: int) -> Number:
     """A form's value on the chart's k-th direction."""
-    speeds = {word: Dual(known[c].slope[k], known[c].slope) for c in names for word in (f"d{c}", f"{c}dot")}
-    return evaluated(sides(text), {**known, **speeds}).value
+    speeds = {word: row[k] for c, row in directions.items() for word in (f"d{c}", f"{c}dot")}
+    return evaluated(sides(text), {**known, **speeds})

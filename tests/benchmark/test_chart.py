@@ -23,7 +23,7 @@ from dofkit.benchmark.sentences import summary
 from dofkit.benchmark.tasks import Selection
 from dofkit.benchmark.trials.construction import Trial
 from dofkit.interface.cli import app
-from dofkit.methods.reply import Knobs
+from dofkit.methods.table import Knobs
 
 RAN = Ran(
     version="0",

@@ -15,7 +15,7 @@ from dofkit.benchmark.failures import TRAITS
 from dofkit.benchmark.trials import FAMILIES
 from dofkit.benchmark.trials.construction import Trial, kind
 from dofkit.benchmark.trials.frameworks import Framework, dependent
-from dofkit.methods.dispatch import answered
+from dofkit.methods.ask import answered
 
 #: Families meant for cost against size.
 LADDERS = (

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from dofkit.integrability.labels_by_field import _modulo_the_others
+from dofkit.integrability.row_labels import _modulo_the_others
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import pytest
 
 from dofkit.classification.study import study
 from dofkit.integrability.pfaffian_system import codistribution
-from dofkit.integrability.shared_forms import SharedForms, shared_forms
+from dofkit.integrability.single_form import SharedForms, shared_forms
 from dofkit.scene.lowering import lower
 from dofkit.scene.reading import load
 

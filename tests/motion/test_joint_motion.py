@@ -15,8 +15,9 @@ import dofkit
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.text import Names, parse_expression
-from dofkit.motion.lagrange.equations import NoEquationsError
+from dofkit.expressions.text import parse_expression
+from dofkit.expressions.text.names import Names
+from dofkit.motion.lagrange.model import NoEquationsError
 from dofkit.scene.reading import SceneFile
 
 MASS = {"mass": 2, "inertia": [1, 1, 1]}

@@ -11,7 +11,8 @@ from shared.work import counted
 import dofkit
 from dofkit.base.errors import SceneError
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.text import Names, parse_expression
+from dofkit.expressions.text import parse_expression
+from dofkit.expressions.text.names import Names
 from dofkit.expressions.tree import ZERO, Expr, parameter, velocity
 from dofkit.motion.lagrange.model import NoEquationsError
 

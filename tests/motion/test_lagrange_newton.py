@@ -15,7 +15,7 @@ from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.text import parse_expression
 from dofkit.expressions.tree import TIME, Expr, coordinate, num, parameter, sym, velocity
-from dofkit.motion.lagrange.rates import by_time
+from dofkit.motion.lagrange.elimination import by_time
 
 VALUES = {"m": 1.25, "g": 2.0, "l": 1.5, "k": 0.625, "c": 0.375, "w": 0.75, "b": 0.875}
 SPACE = f"{PLANE} + m zdot^2/2"

@@ -17,7 +17,7 @@ import dofkit
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.text import parse_expression
 from dofkit.interface import cli
-from dofkit.motion.lagrange.equations import MotionReport
+from dofkit.motion.lagrange.report import MotionReport
 from dofkit.scene.scene import Scene
 
 # Energy along a run, and what is handed over

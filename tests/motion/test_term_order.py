@@ -6,9 +6,11 @@ import pytest
 
 import dofkit
 from dofkit.exact.ring.canonical import is_identically_zero
-from dofkit.expressions.text import Names, parse_expression, to_text
+from dofkit.expressions.text import parse_expression
+from dofkit.expressions.text.names import Names
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import parameter
-from dofkit.motion.lagrange.term_order import ordered
+from dofkit.motion.lagrange.tidying import ordered
 
 NAMES = Names(
     coordinates=frozenset({"x", "y", "theta"}),

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from dofkit.benchmark.trials.construction import Trial
-from dofkit.methods.reply import Knobs, MethodReply
+from dofkit.methods.table import Knobs, MethodReply
 
 
 def answered(

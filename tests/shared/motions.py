@@ -15,7 +15,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.tree import ZERO, Expr, coordinate, parameter, sym, velocity
-from dofkit.motion.lagrange.equations import MotionReport
+from dofkit.motion.lagrange.report import MotionReport
 from dofkit.scene.names import vocabulary_of
 from dofkit.scene.scene import Scene
 

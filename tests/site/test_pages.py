@@ -15,15 +15,12 @@ from dofkit.classification.arguments import TABLE
 from dofkit.interface.explanations import all_explanations
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES
-from dofkit.site import shown_scenes as room
+from dofkit.site import gallery as room
 from dofkit.site.building import SETTINGS, folders, settings
-from dofkit.site.command_pages import command_pages, commands
 from dofkit.site.constraint_pages import FOLDER, constraint_pages, equations_of, scene_of
-from dofkit.site.gallery_pages import gallery_pages
+from dofkit.site.gallery import ShownScene, catalog_scenes, gallery_pages, in_a_line, shown
 from dofkit.site.markdown import fence, picture, prose, table
-from dofkit.site.readme_pages import readme_page
-from dofkit.site.report_pages import GLOSSARY, THEOREMS, report_pages
-from dofkit.site.shown_scenes import ShownScene, catalog_scenes, in_a_line, shown
+from dofkit.site.reference_pages import GLOSSARY, THEOREMS, command_pages, commands, readme_page, report_pages
 
 DISC = """
 coordinates: [x, y, theta, phi]

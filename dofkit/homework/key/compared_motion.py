@@ -23,7 +23,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import ONE, ZERO, Expr
 from dofkit.homework.key.right_motion import POINTS, RightMotion, is_zero, points
-from dofkit.motion.lagrange.rates import by_time
+from dofkit.motion.lagrange.elimination import by_time
 
 
 def euler(e: Expr, name: str) -> Expr:

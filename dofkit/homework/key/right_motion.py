@@ -17,10 +17,8 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.motion.lagrange.derivation import derive
-from dofkit.motion.lagrange.elimination import ELIMINATIONS
+from dofkit.motion.lagrange.elimination import ELIMINATIONS, by_time, in_velocities
 from dofkit.motion.lagrange.equations import derived_of, read
-from dofkit.motion.lagrange.model import in_velocities
-from dofkit.motion.lagrange.rates import by_time
 from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.scene.scene import Scene
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeVar
 
-from dofkit.exact.errors import NoValueError, TooLargeError, raising_no_value
+from dofkit.base.errors import NoValueError
+from dofkit.exact.errors import TooLargeError, raising_no_value
 from dofkit.exact.ring.canonical import Canon, soon_factored
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex

@@ -7,10 +7,10 @@ from fractions import Fraction
 from math import gcd, lcm
 
 from dofkit.expressions import tree as ex
-from dofkit.expressions.text import to_text
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.algebra import Algebra, size
-from dofkit.integrability.integrals.antiderivative import as_power
+from dofkit.integrability.integrals.potentials import as_power
 
 #: (integral, factor).
 Pair = tuple[Expr, Expr]

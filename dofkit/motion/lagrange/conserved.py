@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dofkit.base.deadline import OutOfTimeError, by_processor, check, left
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
-from dofkit.expressions.text import to_text
+from dofkit.expressions.sympy_bridge import Bridge
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.motion.lagrange.angles import compound
 from dofkit.motion.lagrange.derivation import Derived
 from dofkit.motion.lagrange.elimination import Remaining
 from dofkit.motion.lagrange.report import Conserved
-from dofkit.motion.lagrange.term_order import ordered
-from dofkit.motion.lagrange.tidying import by_rates, length
+from dofkit.motion.lagrange.tidying import Tidier
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 
 #: Seconds for writing the energy shorter.
@@ -59,19 +57,8 @@ def energy_function(derived: Derived) -> tuple[Expr, bool]:
     function = powers - derived.lagrangian
     total = own.kinetic + own.potential
     whole = _zero(derived, function - total)
-    return _shorter(derived, total if whole else function), whole
-
-
-def _shorter(derived: Derived, e: Expr) -> Expr:
-    """The same, sorted by velocities where that is shorter."""
-    try:
-        with by_processor(min(SECONDS, left())):
-            found = by_rates(e, derived.model.positive)
-            found = found if found is None else compound(found)
-    except OutOfTimeError:
-        check()
-        found = None
-    return ordered(e if found is None or length(found) >= length(e) or not _zero(derived, found - e) else found)
+    tidy = Tidier(Bridge(derived.model.names, derived.model.positive), derived.model.positive, SECONDS)
+    return tidy.shorter(total if whole else function), whole
 
 
 def _zero(derived: Derived, e: Expr) -> bool:

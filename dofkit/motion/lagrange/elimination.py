@@ -8,18 +8,42 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from typing import NamedTuple
 
 from dofkit.base.deadline import check
-from dofkit.exact.errors import NoValueError, raising_no_value
-from dofkit.exact.ring.canonical import is_identically_zero
+from dofkit.base.errors import NoValueError
+from dofkit.exact.errors import raising_no_value
+from dofkit.exact.ring.canonical import Canon, divided, is_identically_zero
+from dofkit.exact.ring.ring import Ring
+from dofkit.expressions import calculus
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.enclosures import approximate
-from dofkit.expressions.text import to_text
-from dofkit.expressions.tree import ONE, TWO, ZERO, Expr
-from dofkit.motion.lagrange.term_order import ordered
+from dofkit.expressions.text.printing import to_text
+from dofkit.expressions.tree import HALF, ONE, TWO, ZERO, Expr
+from dofkit.motion.lagrange.tidying import ordered
+from dofkit.relations.normal.normal_form import linear_form
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
+
+
+def by_time(e: Expr) -> Expr:
+    """Return de/dt = sum (de/dq) qdot + (de/dqdot) qddot + de/dt. Raises ValueError for accelerations."""
+    rate = calculus.by_time(e)
+    if rate is None:
+        raise ValueError("the derivative of an acceleration or a differential by time has no meaning here")
+    return rate
+
+
+def motions(solved: Mapping[str, Expr]) -> dict[Expr, Expr]:
+    """Return q = f(q', t), its velocity and its acceleration, for every coordinate that was solved for."""
+    values: dict[Expr, Expr] = {}
+    for name, value in solved.items():
+        velocity = by_time(value)
+        values[ex.coordinate(name)] = value
+        values[ex.velocity(name)] = velocity
+        values[ex.sym("acceleration", name)] = by_time(velocity)
+    return values
 
 
 class Care(NamedTuple):
@@ -213,29 +237,29 @@ def _never_zero(e: Expr, positive: frozenset[Expr]) -> bool:
 def by_potential(
     potential: Expr, reference: Mapping[Expr, Expr] | None
 ) -> Callable[[str, Expr, Expr, Mapping[str, Expr]], tuple[Expr, str]]:
-    """Chooses the root through the reference configuration, else that of lower potential energy, else the first."""
+    """Return a choice of the root through the reference configuration, else of lower potential energy, else the first.
+
+    The choice is of (name, first root, second root, what is solved), and comes with a note.
+    """
 
     def choose(name: str, first: Expr, second: Expr, solved: Mapping[str, Expr]) -> tuple[Expr, str]:
-        taken, why = first, "the other root is the other branch"
-        if reference is not None and ex.coordinate(name) in reference:
-            here = reference[ex.coordinate(name)]
-            start = {**reference, ex.TIME: ZERO}
-            gaps = [_figure(_sampled(substitute(v, start) - here)) for v in (first, second)]
-            if None not in gaps and abs(gaps[0] or 0) != abs(gaps[1] or 0):
-                taken = first if abs(gaps[0] or 0) < abs(gaps[1] or 0) else second
-                why = "the branch through the reference configuration"
-                return taken, _branch_note(name, taken, first if taken is second else second, why)
-        heights = [_figure(_sampled(substitute(potential, _all(name, v, solved)))) for v in (first, second)]
-        if heights[0] is not None and heights[1] is not None and heights[0] != heights[1]:
-            taken = first if heights[0] < heights[1] else second
+        q, start = ex.coordinate(name), {**(reference or {}), ex.TIME: ZERO}
+        figures: list[float | None] = [None, None]
+        why = "the branch through the reference configuration"
+        if q in start:
+            distances = (_figure(_sampled(substitute(v, start) - start[q])) for v in (first, second))
+            figures = [None if d is None else abs(d) for d in distances]
+        if None in figures or figures[0] == figures[1]:
             why = "the branch of lower potential energy"
-        return taken, _branch_note(name, taken, first if taken is second else second, why)
+            figures = [_figure(_sampled(substitute(potential, _all(name, v, solved)))) for v in (first, second)]
+        if None in figures or figures[0] == figures[1]:
+            why = "the other root is the other branch"
+            figures = [0.0, 1.0]
+        taken, other = (first, second) if (figures[0] or 0) < (figures[1] or 0) else (second, first)
+        note = f"{name} = {to_text(taken)} on the chosen branch ({why}); "
+        return taken, f"{note}on the other branch, {name} = {to_text(other)}."
 
     return choose
-
-
-def _branch_note(name: str, taken: Expr, other: Expr, why: str) -> str:
-    return f"{name} = {to_text(taken)} on the chosen branch ({why}); on the other branch, {name} = {to_text(other)}."
 
 
 def _all(name: str, value: Expr, solved: Mapping[str, Expr]) -> dict[Expr, Expr]:
@@ -259,38 +283,70 @@ def _figure(e: Expr) -> float | None:
         return None
 
 
+def in_velocities(piece: Remaining) -> Expr:
+    """Return a relation between velocities as an expression that is zero."""
+    if isinstance(piece, Pfaffian):
+        return ex.add(*(a * ex.velocity(n) for n, a in piece.coefficients.items()), piece.dt)
+    return piece.expr
+
+
 def inserted(piece: Remaining, elimination: Elimination) -> Remaining:
-    """A relation in the coordinates that are left: q = f(q', t) brings dq = sum f_q' dq' + f_t dt."""
-    solved = elimination.solved
-    if not solved:
+    """Return a relation in the coordinates that are left: q = f(q', t) brings qdot = sum f_q' q'dot + f_t."""
+    if not elimination.solved:
         return piece
-    places = {ex.coordinate(n): e for n, e in solved.items()}
+    e = substitute(in_velocities(piece), motions(elimination.solved))
     if isinstance(piece, Finite):
-        return Finite(substitute(piece.expr, places))
-    if isinstance(piece, Nonlinear):
-        rates = {ex.velocity(n): _rate(e) for n, e in solved.items()}
-        return Nonlinear(substitute(piece.expr, {**places, **rates}))
-    coefficients: dict[str, Expr] = {}
-    dt = substitute(piece.dt, places)
-    for name, coefficient in piece.coefficients.items():
-        factor = substitute(coefficient, places)
-        if name not in solved:
-            coefficients[name] = coefficients.get(name, ZERO) + factor
-            continue
-        for s in solved[name].symbols:
-            if s.args[0] == "coordinate":
-                own = str(s.args[1])
-                coefficients[own] = coefficients.get(own, ZERO) + factor * diff(solved[name], s)
-        dt = dt + factor * diff(solved[name], ex.TIME)
-    return replace(piece, coefficients={n: e for n, e in coefficients.items() if not e.is_zero}, dt=dt)
-
-
-def _rate(e: Expr) -> Expr:
-    own = [s for s in e.symbols if s.args[0] == "coordinate"]
-    return ex.add(*(diff(e, s) * ex.velocity(str(s.args[1])) for s in own), diff(e, ex.TIME))
+        return Finite(e)
+    form = linear_form(e) if isinstance(piece, Pfaffian) else None
+    return Nonlinear(e) if form is None else form
 
 
 def vanishes(piece: Remaining, positive: frozenset[Expr]) -> bool:
     """Does a relation hold identically? Proved in the canonical ring."""
     parts = [*piece.coefficients.values(), piece.dt] if isinstance(piece, Pfaffian) else [piece.expr]
     return all(e.is_zero or is_identically_zero(e, positive) is True for e in parts)
+
+
+# roots of squares
+
+
+def without_roots(
+    e: Expr, positive: frozenset[Expr], reference: Mapping[Expr, Expr] | None
+) -> tuple[Expr, tuple[str, ...]]:
+    """Return sqrt(u^2) replaced by u or -u, whichever is positive at the reference, with notes that say so.
+
+    The length of a spring along a guide is such a root. Without a reference, or where u is 0 there, the root stays.
+    """
+    if reference is None:
+        return e, ()
+    notes: list[str] = []
+    memo: dict[Expr, Expr] = {}
+    for node in ex.nodes(e):
+        new = ex.rebuild(node, tuple(memo[child] for child in ex.children(node)))
+        if new.op == "pow" and new.args[1] == HALF and any(s.args[0] == "coordinate" for s in new.symbols):
+            root = _root(new.args[0], positive)
+            here = None if root is None else _figure(substitute(root, {**reference, ex.TIME: ZERO}))
+            if root is not None and here:
+                new = ordered(root if here > 0 else -root)
+                notes.append(f"The equations are valid while {to_text(new)} > 0, as in the reference configuration.")
+        memo[node] = new
+    return memo[e], tuple(dict.fromkeys(notes))
+
+
+def _root(e: Expr, positive: frozenset[Expr]) -> Expr | None:
+    """Return u with u^2 = e identically, a polynomial, or None where there is none."""
+    ring = Ring([e], positive)
+    try:
+        node = ring.node(e)
+        canon = Canon(ring)
+        top, bottom = canon.quotient(node)
+        if top == 0 or not bottom.is_constant():
+            return None
+        factors = canon.factors(top)
+        content = divided(top.factor()[0], bottom.leading_coefficient())
+    except NoValueError:
+        return None
+    number = ex.sqrt(ex.num(Fraction(int(content.p), int(content.q)))) if content > 0 else ZERO
+    if number.op != "num" or number.is_zero or any(k % 2 for _, k in factors):
+        return None
+    return ex.mul(number, *(ex.power(canon.to_expr(f), ex.num(k // 2)) for f, k in factors))

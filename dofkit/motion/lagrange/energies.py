@@ -12,8 +12,7 @@ from dofkit.base.errors import Fault
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import HALF, ZERO, Expr
 from dofkit.expressions.vectors import Vec, square
-from dofkit.motion.lagrange.forces import PARTS, ForceReader, Numbered
-from dofkit.motion.lagrange.quantities import EntryWorlds, mass, masses, moving
+from dofkit.motion.lagrange.forces import PARTS, EntryWorlds, ForceReader, Numbered, mass, masses, moving
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.frames import Frame
 from dofkit.scene.scene import Scene

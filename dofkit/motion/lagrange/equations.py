@@ -9,28 +9,26 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from dofkit.base.arguments import seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, by_processor, check, left, limited
 from dofkit.base.errors import Fault, SceneError
+from dofkit.base.wording import seconds_of
 from dofkit.classification.passes import Examined, studied
-from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.text import Names, to_text
+from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.text.characters import MAX_CHARACTERS
+from dofkit.expressions.text.names import Names
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.motion.lagrange.angles import compound
 from dofkit.motion.lagrange.conserved import conserved, cyclic
-from dofkit.motion.lagrange.derivation import Derived, derive
+from dofkit.motion.lagrange.derivation import SINGULAR, Derived, derive
 from dofkit.motion.lagrange.elimination import ELIMINATIONS, Care
 from dofkit.motion.lagrange.energies import Energy, energy_of
+from dofkit.motion.lagrange.forces import missing
 from dofkit.motion.lagrange.joint_motion import joint_motion, written_length
 from dofkit.motion.lagrange.model import LagrangeModel, NoEquationsError, modelled
-from dofkit.motion.lagrange.quantities import missing
-from dofkit.motion.lagrange.regularity import SINGULAR, degenerate
 from dofkit.motion.lagrange.report import Conserved, Linearized, MotionReport
 from dofkit.motion.lagrange.small_motions import linearized
-from dofkit.motion.lagrange.term_order import ordered
-from dofkit.motion.lagrange.tidying import by_rates, length
+from dofkit.motion.lagrange.tidying import Tidier
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.lowering import survey, system_of
 from dofkit.scene.reading import SceneLike, load
@@ -178,26 +176,13 @@ def _short(lagrangian: Expr) -> bool:
 
 
 def _sorted(model: LagrangeModel) -> LagrangeModel:
-    """The same with kinetic and potential energies sorted by velocities, where that is shorter."""
-    energy = model.energy
-    kinetic, potential = (_shorter(e, model) for e in (energy.kinetic, energy.potential))
-    return replace(model, energy=replace(energy, kinetic=kinetic, potential=potential))
-
-
-def _shorter(e: Expr, model: LagrangeModel) -> Expr:
-    if sum(1 for _ in ex.nodes(e)) > MOST_NODES:
-        return e
-    try:
-        with by_processor(min(SORTING, left())):
-            found = by_rates(e, model.positive)
-            if found is None:
-                return e
-            found = ordered(compound(found))
-            shorter = length(found) < length(e) and is_identically_zero(found - e, model.positive) is True
-            return found if shorter else e
-    except OutOfTimeError:
-        check()
-        return e
+    """Return the same with kinetic and potential energies sorted by velocities, where that is shorter."""
+    tidy = Tidier(Bridge(model.names, model.positive), model.positive, SORTING)
+    kinetic, potential = (
+        e if sum(1 for _ in ex.nodes(e)) > MOST_NODES else tidy.shorter(e)
+        for e in (model.energy.kinetic, model.energy.potential)
+    )
+    return replace(model, energy=replace(model.energy, kinetic=kinetic, potential=potential))
 
 
 def _readable(derived: Derived) -> bool:
@@ -276,7 +261,7 @@ def _small(scene: Scene, derived: Derived) -> tuple[Linearized | None, tuple[str
 
 def _report(derived: Derived, small: Linearized | None, more: tuple[str, ...]) -> MotionReport:
     model = derived.model
-    more = (*((SINGULAR,) if degenerate(derived) else ()), *more)
+    more = (*((SINGULAR,) if derived.is_degenerate() else ()), *more)
     report = MotionReport(
         scene=model.study.system.name,
         coordinates=list(model.names),

@@ -13,7 +13,9 @@ from typing import NamedTuple
 
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
-from dofkit.expressions.text import Names, parse_relations, to_text, valid_name
+from dofkit.expressions.text import parse_relations
+from dofkit.expressions.text.names import Names, valid_name
+from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import HALF, ZERO, Expr
 from dofkit.expressions.vectors import (
     Vec,
@@ -31,8 +33,7 @@ from dofkit.expressions.vectors import (
 )
 from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.motion.lagrange.energies import Energy, spin_energy
-from dofkit.motion.lagrange.forces import gravity_of
-from dofkit.motion.lagrange.quantities import EntryWorlds, masses
+from dofkit.motion.lagrange.forces import EntryWorlds, gravity_of, masses
 from dofkit.scene.constraints.coupling import Coupling
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.frames import Frame, euler

@@ -6,14 +6,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from dofkit.base.errors import DofkitError, Fault, SceneError, TextError
+from dofkit.base.errors import DofkitError, Fault, NoValueError, SceneError, TextError
 from dofkit.classification.freedom.branches import in_time
 from dofkit.classification.passes import Examined
-from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import echelon, without_time
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
-from dofkit.expressions.text import Names, UnknownNameError, parse_relations
+from dofkit.expressions.text import parse_relations
+from dofkit.expressions.text.names import Names, UnknownNameError
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.motion.lagrange.elimination import (
     ELIMINATIONS,
@@ -23,12 +24,13 @@ from dofkit.motion.lagrange.elimination import (
     Eliminator,
     Remaining,
     by_potential,
+    in_velocities,
     inserted,
+    motions,
     vanishes,
+    without_roots,
 )
 from dofkit.motion.lagrange.energies import Energy
-from dofkit.motion.lagrange.rates import motions
-from dofkit.motion.lagrange.roots import without_roots
 from dofkit.relations.blocks import Row, coordinates_of, split
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
@@ -78,13 +80,6 @@ class LagrangeModel:
     def nonholonomic(self) -> list[Expr]:
         """The relations between velocities that keep a multiplier."""
         return [in_velocities(c) for c in self.constraints if not isinstance(c, Finite)]
-
-
-def in_velocities(piece: Remaining) -> Expr:
-    """A relation between velocities as an expression that is zero."""
-    if isinstance(piece, Pfaffian):
-        return ex.add(*(a * ex.velocity(n) for n, a in piece.coefficients.items()), piece.dt)
-    return piece.expr
 
 
 def modelled(study: Examined, energy: Energy, names: Names, care: Care = ELIMINATIONS[0]) -> LagrangeModel:

@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import Field, PrivateAttr
 
-from dofkit.base.display import Companion, DisplayedFormulas, text_of
+from dofkit.base.display import DisplayedFormulas, text_of
 from dofkit.base.verdicts import Verdict
-from dofkit.report import Report, ReportModel
+from dofkit.report import Companion, Report, ReportModel
 
 if TYPE_CHECKING:
-    from dofkit.motion.lagrange.derivation import Derived
-    from dofkit.motion.lagrange.handover import Handover
+    from dofkit.motion.lagrange.derivation import Derived, Handover
 
 #: T, V and L are energies, so that every q p has the dimension of energy times time.
 QP = "action, M L^2 T^-1: each product q*p has the dimension of energy times time, whatever q is"

@@ -1,7 +1,7 @@
-"""Antiderivatives by one variable, and the potential of a closed form. Whoever uses a result differentiates it.
+"""The potential of a closed form, by antiderivatives in one variable. Whoever uses a result differentiates it.
 
-A table gives the antiderivatives of powers, exponentials and trigonometric functions of linear arguments. What it
-does not have is given to SymPy's implementation of Risch's algorithm, and then simplified by a substitution.
+A table gives the antiderivatives of powers, exponentials and trigonometric functions of linear arguments, so that
+ordinary forms need no SymPy; everything else is SymPy's.
 """
 
 from __future__ import annotations
@@ -10,9 +10,9 @@ import time
 from fractions import Fraction
 
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, left
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import NoValueError
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff, replace_nodes, substitute
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.sympy_bridge import UntranslatableError, antiderivative_by_sympy
 from dofkit.expressions.terms import expand
 from dofkit.expressions.tree import Expr
@@ -22,13 +22,8 @@ from dofkit.integrability.integrals.algebra import Algebra, size
 Form = dict[Expr, Expr]
 #: Orders of integration that are tried for a potential.
 MAX_ORDERS = 4
-#: Substitutions and integrations by parts within each other, and substitutions tried for one integrand.
-MAX_DEPTH = 6
-MAX_SUBSTITUTIONS = 6
 #: The largest integrand given to SymPy, in nodes, and the steps of the budget that one takes.
-MAX_RISCH, RISCH_STEPS = 60, 20
-#: The variable of a substitution; no scene declares such a name.
-_NEW = ex.sym("parameter", "new variable")
+MAX_SYMPY, SYMPY_STEPS = 60, 20
 
 
 def potential(work: Algebra, form: Form) -> Expr | None:
@@ -57,26 +52,23 @@ def _potential_in_order(work: Algebra, form: Form, order: list[Expr]) -> Expr | 
     return total
 
 
-def antiderivative(work: Algebra, e: Expr, x: Expr, depth: int = 0) -> Expr | None:
-    """Return F with dF/dx = e, all other symbols constant, or None where no rule applies."""
+def antiderivative(work: Algebra, e: Expr, x: Expr) -> Expr | None:
+    """Return F with dF/dx = e, all other symbols constant, or None where neither the table nor SymPy has one."""
     if x not in e.symbols:
         return e * x
-    if depth > MAX_DEPTH:
-        return None
     for integrand in dict.fromkeys((e, work.tidy(e))):
-        integral = _termwise(work, expand(integrand), x, depth)
+        integral = _termwise(work, expand(integrand), x)
         if integral is not None:
             return integral
-    integral = _by_risch(work, work.tidy(e), x)
-    return _by_substitution(work, work.tidy(e), x, depth) if integral is None else integral
+    return _by_sympy(work, work.tidy(e), x)
 
 
-def _termwise(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None:
+def _termwise(work: Algebra, e: Expr, x: Expr) -> Expr | None:
     integrals = []
     for term in e.args if e.op == "add" else (e,):
         work.tick()
         constant, factors = collected_powers(term, x)
-        integral = _of_product(work, factors, x, depth)
+        integral = x if not factors else _of_factor(factors[0], x) if len(factors) == 1 else None
         if integral is None:
             return None
         integrals.append(constant * integral)
@@ -106,15 +98,6 @@ def _linear(u: Expr, x: Expr) -> Expr | None:
     """Return a where u = a x + b, else None."""
     a = diff(u, x)
     return None if x in a.symbols or a.is_zero else a
-
-
-# -- the table -------------------------------------------------------------------------------------
-
-
-def _of_product(work: Algebra, factors: list[Expr], x: Expr, depth: int) -> Expr | None:
-    if not factors:
-        return x
-    return _of_factor(factors[0], x) if len(factors) == 1 else _by_parts(work, factors, x, depth)
 
 
 def _of_factor(e: Expr, x: Expr) -> Expr | None:
@@ -158,19 +141,15 @@ def _of_power(e: Expr, x: Expr) -> Expr | None:
 
 
 def _of_wave_power(wave: Expr, exponent: Expr, x: Expr) -> Expr | None:
-    """Return the antiderivative of sin or cos of a linear argument to the power -2, -1 or 2."""
+    """Return the antiderivative of sin or cos of a linear argument to the power -2 or -1."""
     name, u = wave.args
     a = _linear(u, x)
-    if a is None or exponent.op != "num":
+    if a is None or exponent.op != "num" or exponent.args[0] not in (-1, -2):
         return None
-    if exponent.args[0] == 2:
-        return x / 2 + (1 if name == "cos" else -1) * ex.fn("sin", 2 * u) / (4 * a)
-    if exponent.args[0] == -1:
+    if exponent == ex.MINUS_ONE:
         integral = _of_function("csc" if name == "sin" else "sec", u)
         return None if integral is None else integral / a
-    if exponent.args[0] == -2:
-        return (ex.fn("tan", u) if name == "cos" else -ex.fn("cos", u) / ex.fn("sin", u)) / a
-    return None
+    return (ex.fn("tan", u) if name == "cos" else -ex.fn("cos", u) / ex.fn("sin", u)) / a
 
 
 def _of_inverse_root(base: Expr, x: Expr) -> Expr | None:
@@ -196,25 +175,11 @@ def _of_unknown_function(e: Expr, x: Expr) -> Expr | None:
     return ex.call(name, arguments, tuple(k - (i == places[0]) for i, k in enumerate(orders))) / a
 
 
-def _by_parts(work: Algebra, factors: list[Expr], x: Expr, depth: int) -> Expr | None:
-    """Return the antiderivative of x^n g, n a natural number: x^n G less that of n x^(n-1) G."""
-    power = next((f for f in factors if as_power(f)[0] == x), None)
-    if power is None or len(factors) != 2 or as_power(power)[1].denominator != 1 or as_power(power)[1] < 0:
-        return None
-    (other,) = (f for f in factors if f is not power)
-    integral = _of_factor(other, x) if other.op == "fn" else None
-    rest = None if integral is None else antiderivative(work, diff(power, x) * integral, x, depth + 1)
-    return None if rest is None or integral is None else power * integral - rest
-
-
-# -- Risch's algorithm, and substitution -----------------------------------------------------------
-
-
-def _by_risch(work: Algebra, e: Expr, x: Expr) -> Expr | None:
+def _by_sympy(work: Algebra, e: Expr, x: Expr) -> Expr | None:
     """Return SymPy's antiderivative, or None where there is none, or none in time."""
-    if size(e) > MAX_RISCH or any(n.op == "call" for n in ex.nodes(e)):
+    if size(e) > MAX_SYMPY or any(n.op == "call" for n in ex.nodes(e)):
         return None
-    work.tick(RISCH_STEPS)
+    work.tick(SYMPY_STEPS)
     start = time.thread_time()
     try:
         with by_processor(min(work.seconds, left())), checked_calls():
@@ -225,23 +190,4 @@ def _by_risch(work: Algebra, e: Expr, x: Expr) -> Expr | None:
         pass
     finally:
         work.seconds -= time.thread_time() - start
-    return None
-
-
-def _by_substitution(work: Algebra, e: Expr, x: Expr, depth: int) -> Expr | None:
-    """Return the antiderivative of g(u) du for a function u, or the radicand u of a root, that occurs in e."""
-    functions = [n for n in ex.nodes(e) if x in n.symbols and n.op in ("fn", "call") and n != e]
-    functions += [ex.fn("sin", n.args[1]) for n in functions if n.op == "fn" and n.args[0] == "cos"]
-    radicands = [as_power(n)[0] for n in ex.nodes(e) if x in n.symbols and as_power(n)[1].denominator != 1]
-    for u in list(dict.fromkeys([*functions, *radicands]))[:MAX_SUBSTITUTIONS]:
-        slope = diff(u, x)
-        if x not in slope.symbols:
-            continue
-        inside = replace_nodes(work.tidy(e / slope), {u: _NEW})
-        if u.op == "fn" and u.args[0] == "sin":
-            inside = replace_nodes(inside, {ex.fn("cos", u.args[1]) ** 2: 1 - _NEW**2})
-        if x not in inside.symbols:
-            integral = antiderivative(work, inside, _NEW, depth + 1)
-            if integral is not None:
-                return substitute(integral, {_NEW: u})
     return None

@@ -1,0 +1,152 @@
+"""The catalog as a gallery: scenes with their pictures and answers, which are kept from one build to the next."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Sequence
+from functools import cache
+from itertools import groupby
+from operator import attrgetter
+from pathlib import Path
+from typing import NamedTuple
+
+from dofkit.methods.classify import classify
+from dofkit.pictures.files import svg_of
+from dofkit.pictures.still import draw
+from dofkit.report import Report
+from dofkit.scene.catalog import catalog_folder, catalog_text
+from dofkit.scene.reading import loads
+from dofkit.site.markdown import SitePage, code, fence, folded, page, picture, prose
+
+FOLDER = "gallery"
+#: The width of a picture and of a report: pixels, columns.
+PIXELS, COLUMNS = 440.0, 88
+PACKAGE = Path(__file__).parents[1]
+
+
+class ShownScene(NamedTuple):
+    """A scene with its text, its picture, and its answer in one line and in full."""
+
+    name: str
+    folder: str
+    title: str
+    written: str
+    types: tuple[str, ...]
+    svg: str
+    alternative: str
+    answer: str
+    report: str
+
+
+def catalog_scenes(kept: Path) -> Iterator[ShownScene]:
+    """Yield every scene of the catalog by folder and name; ``kept``: the folder with those of earlier builds."""
+    kept.mkdir(parents=True, exist_ok=True)
+    for folder in sorted((entry for entry in catalog_folder().iterdir() if entry.is_dir()), key=lambda e: e.name):
+        for file in sorted(folder.iterdir(), key=lambda entry: entry.name):
+            if file.name.endswith(".yaml"):
+                name = file.name.removesuffix(".yaml")
+                yield _kept_or_shown(name, folder.name, catalog_text(name), kept)
+
+
+def _kept_or_shown(name: str, folder: str, written: str, kept: Path) -> ShownScene:
+    file = kept / f"{hashlib.sha256((_engine() + written).encode()).hexdigest()}.json"
+    if file.exists():
+        fields = json.loads(file.read_text(encoding="utf-8"))
+        return ShownScene(**{**fields, "types": tuple(fields["types"])})
+    scene = shown(name, folder, written)
+    file.write_text(json.dumps(scene._asdict()), encoding="utf-8")
+    return scene
+
+
+@cache
+def _engine() -> str:
+    """Return a digest of the package: what was kept by another version is not used."""
+    digest = hashlib.sha256()
+    for path in sorted(PACKAGE.rglob("*.py")):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def shown(name: str, folder: str, written: str) -> ShownScene:
+    """Return a scene with its picture and its answers. Raises SceneError if it cannot be read."""
+    scene = loads(written, name)
+    report = classify(scene)
+    drawn = draw(scene, report)
+    return ShownScene(
+        name=name,
+        folder=folder,
+        title=scene.title or name,
+        written=written,
+        types=tuple(dict.fromkeys(entry.type for entry in report.constraints)),
+        svg=svg_of(drawn.page, PIXELS),
+        alternative=drawn.alternative,
+        answer=in_a_line(report),
+        report=report.text(COLUMNS),
+    )
+
+
+def in_a_line(report: Report) -> str:
+    """Return the freedom, the velocity freedom, the labels of the system and the verdict, in one line."""
+    if report.consistent is False:
+        return f"inconsistent: {', '.join(report.conflicting or ())} ({report.verdict})"
+    labels = [f"f = {'undecided' if report.dof is None else report.dof}"]
+    if report.velocity_dof is not None and report.velocity_dof != report.dof:
+        labels.append(f"velocity freedom {report.velocity_dof}")
+    for value, yes, no in (
+        (report.holonomic, "holonomic", "non-holonomic"),
+        (report.scleronomic, "scleronomic", "rheonomic"),
+    ):
+        if value is not None and report.constraints:
+            labels.append(yes if value else no)
+    if report.redundant:
+        labels.append(f"redundant: {', '.join(report.redundant)}")
+    return f"{', '.join(labels)} ({report.verdict})"
+
+
+def gallery_pages(catalog: Sequence[ShownScene], sources: dict[str, str]) -> Iterator[SitePage]:
+    """Yield the pages and pictures; ``sources``: what each folder of the catalog was taken from."""
+    blocks = []
+    for folder, scenes in groupby(catalog, key=attrgetter("folder")):
+        members = list(scenes)
+        source = sources.get(folder, folder)
+        cards = "\n".join(_card(scene) for scene in members)
+        blocks += [
+            f"## {prose(source)}",
+            f"[{len(members)} scenes]({folder}.md)",
+            f'<div class="gallery">\n{cards}\n</div>',
+        ]
+        yield SitePage(f"{FOLDER}/{folder}.md", page(source, *(_entry(scene) for scene in members)))
+        yield from (SitePage(f"{FOLDER}/{scene.name}.svg", scene.svg) for scene in members)
+    yield SitePage(
+        f"{FOLDER}/index.md",
+        page(
+            "Gallery",
+            f"The {len(catalog)} scenes of the catalog, with their answers: f is the number of degrees of freedom. The "
+            "name of a scene can be used wherever a file is expected: `dofkit classify NAME`. Click on a picture to "
+            "see the text of the scene and the full report.",
+            *blocks,
+        ),
+    )
+
+
+def _entry(scene: ShownScene) -> str:
+    return "\n\n".join(
+        (
+            f"## {prose(scene.title)} {{#{scene.name}}}",
+            f"{code(scene.name)}: {prose(scene.answer)}",
+            picture(f"{scene.name}.svg", scene.alternative),
+            folded("The scene", fence("yaml", scene.written)),
+            folded("The report", fence("text", scene.report)),
+        )
+    )
+
+
+def _card(scene: ShownScene) -> str:
+    drawn = picture(f"{scene.name}.svg", scene.alternative)
+    value = f"<strong>{_html(scene.title)}</strong><br>{_html(scene.answer)}"
+    return f'<a class="card" href="{scene.folder}.html#{scene.name}">{drawn}<span>{value}</span></a>'
+
+
+def _html(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

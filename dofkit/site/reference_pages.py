@@ -1,0 +1,162 @@
+"""The pages that the package's own tables generate: the first page, the glossary, the theorems, the commands."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import typer.main
+from pydantic import BaseModel
+
+from dofkit.classification.arguments import TABLE
+from dofkit.homework.key.misconceptions import CODES
+from dofkit.interface.cli import app
+from dofkit.interface.explanations import all_explanations
+from dofkit.interface.show.assurance import VERDICT_MEANS
+from dofkit.report import ConstraintEntry, Report
+from dofkit.site.markdown import SitePage, anchor, code, fence, page, prose, table
+
+THEOREMS, GLOSSARY, ROOMS = "about/theorems.md", "reference/glossary.md", "about/rooms.md"
+PACKAGE = Path(__file__).parents[1]
+#: Where the written part of the glossary has the tables of the package.
+TABLES_HERE = "<!-- the tables of the package -->"
+#: The lines of its tables: the two of its head, and one for each theorem.
+_HEAD = re.compile(r"^\| key .*\n\|[-| ]+\|\n", re.MULTILINE)
+_ROW = re.compile(r"^\| `(\w+)` \|([^|]+)\|([^|]+)\|(.+)\|([^|]+)\|$", re.MULTILINE)
+
+
+def readme_page(readme: str) -> SitePage:
+    """Return the first page: the README, with its links as the site has them.
+
+    >>> readme_page("[how](dofkit/site/pages/tutorial.md) and [why](dofkit/THEOREMS.md)").text
+    '[how](tutorial.md) and [why](about/theorems.md)'
+    """
+    return SitePage(
+        "index.md", readme.replace("](dofkit/site/pages/", "](").replace("](dofkit/THEOREMS.md)", f"]({THEOREMS})")
+    )
+
+
+def rooms_page() -> SitePage:
+    """Return the page of the packages: the question of each, its types and its mechanisms, from its docstring."""
+    blocks = []
+    for path in sorted(PACKAGE.glob("*/__init__.py")):
+        docstring = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+        question, _, mechanisms = docstring.partition("\n")
+        blocks += [f"## {path.parent.name}", prose(question), fence("text", mechanisms)]
+    lead = "Each package says at its beginning which question it answers, with which types, and by which mechanisms."
+    return SitePage(
+        ROOMS, page("The packages", f"{lead} The [architecture](architecture.md) shows how they relate.", *blocks)
+    )
+
+
+def report_pages(written: str) -> Iterator[SitePage]:
+    """Return the glossary, which completes its ``written`` part by the package's own tables, and the theorems."""
+    before, after = written.split(TABLES_HERE)
+    yield SitePage(GLOSSARY, before + "\n\n".join(_tables()) + after)
+    yield SitePage(THEOREMS, theorems((resources.files("dofkit") / "THEOREMS.md").read_text(encoding="utf-8")))
+
+
+def _tables() -> Iterator[str]:
+    yield "## Terms"
+    words = sorted(((w.word, w.meaning) for w in all_explanations() if w.kind == "term"), key=lambda row: row[0])
+    yield table(("term", "meaning"), [(prose(word), prose(meaning)) for word, meaning in words])
+    yield "## Fields of a report"
+    yield "`report.NAME` in Python, the keys of `dofkit classify --json`, and what `dofkit explain NAME` prints."
+    yield _fields(Report)
+    yield "## Fields of a constraint"
+    yield "Each entry of `constraints` in a report has these fields."
+    yield _fields(ConstraintEntry)
+    yield "## Verdicts"
+    yield "From the most to the least certain; the verdict of a report is the weakest in it."
+    yield table(("verdict", "meaning"), [(code(name), prose(meaning)) for name, meaning in VERDICT_MEANS.items()])
+    yield "## Arguments"
+    yield "Every answer that is not undecided names the argument that it rests on (`verdicts.FIELD.argument`)."
+    yield _arguments()
+    yield "## Feedback codes"
+    yield "Every mistake in homework that dofkit recognizes has a code, so that it can be counted over a class."
+    yield table(("code", "meaning"), [(code(name), prose(meaning)) for name, meaning in CODES.items()])
+
+
+def _fields(model: type[BaseModel]) -> str:
+    rows = [(code(name), prose(field.description or "")) for name, field in model.model_fields.items()]
+    return table(("field", "meaning"), rows)
+
+
+def _arguments() -> str:
+    rows = []
+    for key, row in TABLE.items():
+        theorem = f"[{row.theorem}](../{THEOREMS}#{anchor(row.theorem)})" if row.theorem else ""
+        rows.append((prose(key), prose(row.claims), prose(row.hypotheses), theorem))
+    return table(("argument", "what it shows", "hypotheses", "theorem"), rows)
+
+
+def theorems(text: str) -> str:
+    """Return `THEOREMS.md` with its tables as entries, each with an anchor.
+
+    >>> print(theorems("| `Dini1878` | Dini | 1878 | A graph. | `a.py` |"))
+    ### Dini1878 {#dini1878}
+    <BLANKLINE>
+    **Dini, 1878.** A graph.
+    <BLANKLINE>
+    <small>Used in `a.py`</small>
+    <BLANKLINE>
+    """
+    return _ROW.sub(_theorem, _HEAD.sub("", text))
+
+
+def _theorem(row: re.Match[str]) -> str:
+    key, author, year, says, where = (cell.strip() for cell in row.groups())
+    return f"### {key} {{#{anchor(key)}}}\n\n**{author}, {year}.** {prose(says)}\n\n<small>Used in {where}</small>\n"
+
+
+def command_pages() -> Iterator[SitePage]:
+    """Yield one page with every command, its arguments and its options."""
+    blocks = [block for path, command in commands() for block in _command(path, command)]
+    lead = "Every command has the option `--help`. The [guide](../guide/commands.md) shows examples."
+    yield SitePage("reference/commands.md", page("Commands", lead, *blocks))
+
+
+def commands() -> Iterator[tuple[str, Any]]:
+    """Yield every command by its words."""
+    yield from _below("dofkit", typer.main.get_command(app))
+
+
+def _below(path: str, command: Any) -> Iterator[tuple[str, Any]]:
+    for name, inner in getattr(command, "commands", {}).items():
+        if getattr(inner, "commands", None) is None or inner.invoke_without_command:
+            yield f"{path} {name}", inner
+        yield from _below(f"{path} {name}", inner)
+
+
+def _command(path: str, command: Any) -> Iterator[str]:
+    arguments = [p for p in command.params if p.param_type_name == "argument"]
+    choices = [p for p in command.params if p.param_type_name == "option"]
+    usage = " ".join([path, *(metavar_of(p) for p in arguments), *(["[OPTIONS]"] if choices else [])])
+    yield f"## {path}"
+    yield prose(command.help or "")
+    yield f"`{usage}`"
+    rows = [(code(metavar_of(p)), prose(p.help or "")) for p in arguments]
+    rows += [(_option(p), prose(p.help or "") + _default(p)) for p in choices]
+    if rows:
+        yield table(("argument or option", "meaning"), rows)
+
+
+def _option(parameter: Any) -> str:
+    words = ", ".join((*parameter.opts, *parameter.secondary_opts))
+    flag = parameter.is_flag or parameter.count
+    return code(words if flag else f"{words} {parameter.metavar or parameter.name.upper()}")
+
+
+def _default(parameter: Any) -> str:
+    default = parameter.default
+    return "" if default in (None, False, (), []) or callable(default) else f" Default: {code(str(default))}."
+
+
+def metavar_of(parameter: Any) -> str:
+    """Return the name of an argument as a usage line shows it, such as ``FILE...``."""
+    name = str(parameter.metavar or parameter.name.upper())
+    return f"{name}..." if parameter.nargs == -1 and not name.endswith(("...", "]")) else name
