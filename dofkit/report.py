@@ -294,7 +294,7 @@ class Report(Displayed, ReportModel):
         "the constraints in order, each with its labels, its verdict and the reason"
     )
     forces: list[ForceEntry] = meaning("the forces, and why they are no constraints")
-    special_cases: list[SpecialCase] = meaning("configurations and parameter values at which the answer is another one")
+    special_cases: list[SpecialCase] = meaning("configurations and branches where the answer is another one")
     verdict: Verdict = meaning("how certain the report is: the weakest of all its verdicts")
     verdicts: dict[str, FieldVerdict] = meaning(
         "how certain each field is, with the argument, the bound, and the points that the claim is about", default={}

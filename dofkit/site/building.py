@@ -22,7 +22,7 @@ from dofkit.site.constraint_pages import constraint_pages
 from dofkit.site.gallery import FOLDER as GALLERY
 from dofkit.site.gallery import ShownScene, catalog_scenes, gallery_pages
 from dofkit.site.markdown import SitePage
-from dofkit.site.reference_pages import GLOSSARY, command_pages, readme_page, report_pages
+from dofkit.site.reference_pages import GLOSSARY, command_pages, readme_page, report_pages, rooms_page
 
 ROOT = Path(__file__).parents[2]
 WRITTEN = Path(__file__).parent / "pages"
@@ -68,6 +68,7 @@ def sources(folder: Path, kept: Path) -> None:
 def generated(catalog: Sequence[ShownScene]) -> Iterator[SitePage]:
     """Return every page and picture that is generated from the package."""
     yield readme_page((ROOT / "README.md").read_text(encoding="utf-8"))
+    yield rooms_page()
     yield from constraint_pages(catalog)
     yield from report_pages((WRITTEN / GLOSSARY).read_text(encoding="utf-8"))
     yield from command_pages()
