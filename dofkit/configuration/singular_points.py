@@ -24,7 +24,9 @@ from dofkit.relations.chart import Chart
 #: Working precision, and the radius given to the result.
 BITS, RADIUS_BITS = 1400, 200
 #: Steps at the most; relations are smaller than this at a singular point that was reached, and not near a small gap.
-STEPS, RESIDUAL_BITS = 600, 450
+STEPS, RESIDUAL_BITS = 800, 600
+#: A combination of dependent rows is smaller than this there: surfaces that meet by 10^-64 are no longer tangent.
+DEPENDENT_BITS = 280
 #: Added to the diagonal of a Gram matrix, so that it has an inverse.
 SHIFT = arb(2) ** (-BITS // 2)
 #: Relations that are brought to high precision at the most; an entry of a Jacobian that is taken for 0.
@@ -97,11 +99,19 @@ def _system(chart: Chart, symbols: Mapping[Any, arb], moved: Sequence[Expr]) -> 
 
 
 def _is_singular(j: Sequence[Sequence[arb]]) -> bool:
-    """Return whether the rows are dependent, as far as floating point tells."""
+    """Return whether rows are dependent: in floating point, and then to high precision."""
     matrix = np.array([[float(v) for v in row] for row in j])
     if not np.isfinite(matrix).all():
         return False
-    return bool(independent_part(np.where(abs(matrix) < TINY, 0.0, matrix))[0] < len(matrix))
+    rank, _, rows, pivots = independent_part(np.where(abs(matrix) < TINY, 0.0, matrix))
+    others = [row for r, row in enumerate(j) if r not in rows]
+    if rank == 0 or not others:
+        sums = others
+    else:
+        basis = arb_mat([[j[r][c] for c in pivots] for r in rows])
+        weights = arb_mat([[row[c] for c in pivots] for row in others]) * basis.inv()
+        sums = (arb_mat(others) - weights * arb_mat([list(j[r]) for r in rows])).tolist()
+    return bool(others) and all(abs(v.mid()) < arb(2) ** -DEPENDENT_BITS for row in sums for v in row)
 
 
 def _minimal_step(j: Sequence[Sequence[arb]], f: Sequence[arb]) -> list[arb]:
