@@ -35,9 +35,9 @@ class Bug(NamedTuple):
 
 BUGS: Mapping[str, Bug] = {
     "rank": Bug(
-        "exact/points/frames.py",
-        "return int(nmod_mat([[int(v) for v in row] for row in rows], p).rank())",
-        "return int(nmod_mat([[int(v) for v in row] for row in rows[1:]], p).rank())",
+        "exact/matrices/sparse.py",
+        "return int(nmod_mat([[int(v) for v in row] for row in matrix], p).rank())",
+        "return int(nmod_mat([[int(v) for v in row] for row in matrix[1:]], p).rank())",
         "tests/scenes/textbook/gear-pair.yaml",
     ),
     "rank of sparse rows": Bug(

@@ -19,8 +19,8 @@ from itertools import product as cartesian
 from math import prod
 from typing import NamedTuple
 
-from dofkit.base.components import components
 from dofkit.base.deadline import check
+from dofkit.base.libraries import components
 from dofkit.base.verdicts import ArgumentKey, weakest
 from dofkit.configuration import cases as all_cases
 from dofkit.configuration.generic_dimension import most_near

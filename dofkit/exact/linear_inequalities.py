@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import count
 from typing import Literal
 
 from flint import fmpq, fmpq_mat
@@ -17,12 +16,7 @@ from dofkit.base.deadline import check
 #: Entries of a matrix of equations that is eliminated, and of a tableau that is worked through.
 MAX_EQUATIONS, MAX_TABLEAU = 1_000_000, 250_000
 
-#: Steps by the least cost, for each row of the tableau.
-GREEDY = 4
-
 Vector = tuple[fmpq, ...]
-#: Entries that are not 0.
-Row = dict[int, fmpq]
 ZERO, ONE = fmpq(0), fmpq(1)
 
 
@@ -119,52 +113,27 @@ def _alternative(conditions: Sequence[LinearCondition], n: int) -> Vector | Lite
 
 
 def _phase_one(columns: Sequence[Vector], rows: int) -> tuple[list[fmpq], list[fmpq] | None]:
-    """Non-negative weights of the columns with the sum (0, ..., 0, 1).
+    """Return non-negative weights of the columns with the sum (0, ..., 0, 1).
 
-    Where there are none, also a linear function that is at most 0 on every column and positive on that sum. The column
-    of least cost enters first; past a number of steps the first of negative cost, which ends [Bland1977].
+    Where there are none, also a linear function that is at most 0 on every column and positive on that sum. The first
+    column of negative cost enters, and of equals the first leaves, which ends [Bland1977].
     """
-    total = len(columns)
-    right = total + rows
-    table = [{j: c[r] for j, c in enumerate(columns) if c[r] != 0} | {total + r: ONE} for r in range(rows)]
-    table[-1][right] = ONE
-    costs: Row = {}
-    for row in table:
-        _add(costs, -ONE, {j: v for j, v in row.items() if j < total or j == right})
-    basis = list(range(total, right))
-    for step in count():
+    number = len(columns)
+    units = [tuple(ONE if i == k else ZERO for i in range(rows)) for k in range(rows)]
+    every, basis = [*columns, *units], list(range(number, number + rows))
+    while True:
         check()
-        below = [j for j, v in costs.items() if v < 0 and j < total]
-        if not below:
+        inverse = fmpq_mat([[every[j][r] for j in basis] for r in range(rows)]).inv()
+        lines = [[inverse[r, k] for k in range(rows)] for r in range(rows)]
+        artificial = [r for r in range(rows) if basis[r] >= number]
+        prices = [sum((lines[r][k] for r in artificial), ZERO) for k in range(rows)]
+        entering = next((j for j, column in enumerate(columns) if _dot(prices, column) > 0), None)
+        if entering is None:
             break
-        entering = min(below) if step > GREEDY * rows else min(below, key=lambda j: (costs[j], j))
-        allowed = [r for r in range(rows) if table[r].get(entering, ZERO) > 0]
-        leaving = min(allowed, key=lambda r: (table[r].get(right, ZERO) / table[r][entering], basis[r]))
-        _pivot(table, costs, leaving, entering)
-        basis[leaving] = entering
-    weights = [ZERO] * right
+        slopes = [_dot(line, columns[entering]) for line in lines]
+        basis[min((lines[r][-1] / v, basis[r], r) for r, v in enumerate(slopes) if v > 0)[2]] = entering
+    weights = [ZERO] * number
     for r, j in enumerate(basis):
-        weights[j] = table[r].get(right, ZERO)
-    unmet = any(w != 0 for w in weights[total:])
-    return weights[:total], [ONE - costs.get(c, ZERO) for c in range(total, right)] if unmet else None
-
-
-def _pivot(table: list[Row], costs: Row, r: int, c: int) -> None:
-    """Make the column ``c`` a unit vector."""
-    below = table[r][c]
-    table[r] = {j: v / below for j, v in table[r].items()}
-    for k, row in enumerate(table):
-        if k != r and c in row:
-            _add(row, -row[c], table[r])
-    if c in costs:
-        _add(costs, -costs[c], table[r])
-
-
-def _add(row: Row, factor: fmpq, other: Row) -> None:
-    """Add a multiple of another row."""
-    for j, v in other.items():
-        total = row.get(j, ZERO) + factor * v
-        if total == 0:
-            row.pop(j, None)
-        else:
-            row[j] = total
+        if j < number:
+            weights[j] = lines[r][-1]
+    return weights, prices if any(lines[r][-1] != 0 for r in artificial) else None

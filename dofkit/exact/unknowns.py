@@ -83,12 +83,12 @@ def unit_of(ring: Ring, index: int) -> Unit:
 
 def units_in(ring: Ring, node: int) -> frozenset[Unit]:
     """The unknowns of a relation."""
-    found = set()
+    units = set()
     for i in reachable(ring, [node], through_generators=False):
         op, payload = ring.code[i]
         if op == VAR and ring.vars[payload].kind != "sign" and not stands_for_number(ring, payload):
-            found.add(unit_of(ring, payload))
-    return frozenset(found)
+            units.add(unit_of(ring, payload))
+    return frozenset(units)
 
 
 def stands_for_number(ring: Ring, index: int) -> bool:
@@ -101,7 +101,7 @@ def stands_for_number(ring: Ring, index: int) -> bool:
 
 def root_relations(ring: Ring, relations: list[int]) -> list[int]:
     """root^d - radicand for every root that the relations reach."""
-    found, seen = [], set()
+    equations, seen = [], set()
     pending = list(relations)
     while pending:
         for i in reachable(ring, [pending.pop()], through_generators=False):
@@ -112,9 +112,9 @@ def root_relations(ring: Ring, relations: list[int]) -> list[int]:
             var = ring.vars[payload]
             if var.kind == "root" and not stands_for_number(ring, payload):
                 relation = ring.emit(ADD, (ring.power_node(i, var.degree), ring.negative(var.args[0])))
-                found.append(relation)
+                equations.append(relation)
                 pending.append(relation)
-    return found
+    return equations
 
 
 @raising_no_value
@@ -169,9 +169,9 @@ def _step(ring: Ring, i: int, values: dict[int, Any], pair: dict[int, Rational],
 def _independent(ring: Ring, index: int, point: FieldPoint) -> Any:
     """A generator's value where its argument is not looked at."""
     var = ring.vars[index]
-    found = point.given.get((var.kind, var.key))
-    if found is not None:
-        return found
+    value = point.given.get((var.kind, var.key))
+    if value is not None:
+        return value
     if not stands_for_number(ring, index):
         return point.whatever(var)
     return point.generator(var, [value_along(ring, a, {}, point) for a in var.args])

@@ -27,10 +27,12 @@ def _substituted(node: Expr, mapping: Mapping[Expr, Expr], memo: dict[Expr, Expr
         return node
     if node.op == "sym":
         return mapping[node]
-    found = memo.get(node)
-    if found is None:
-        found = memo[node] = rebuild(node, tuple([_substituted(child, mapping, memo) for child in children(node)]))
-    return found
+    substituted = memo.get(node)
+    if substituted is None:
+        substituted = memo[node] = rebuild(
+            node, tuple([_substituted(child, mapping, memo) for child in children(node)])
+        )
+    return substituted
 
 
 def replace_nodes(e: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
@@ -39,10 +41,10 @@ def replace_nodes(e: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
 
 
 def _replaced(node: Expr, memo: dict[Expr, Expr]) -> Expr:
-    found = memo.get(node)
-    if found is None:
-        found = memo[node] = rebuild(node, tuple([_replaced(child, memo) for child in children(node)]))
-    return found
+    replaced = memo.get(node)
+    if replaced is None:
+        replaced = memo[node] = rebuild(node, tuple([_replaced(child, memo) for child in children(node)]))
+    return replaced
 
 
 _DERIVATIVES: dict[str, Callable[[Expr], Expr]] = {
@@ -74,10 +76,10 @@ def _diff(node: Expr, symbol: Expr, memo: dict[Expr, Expr]) -> Expr:
         return ONE
     if symbol not in node.symbols:
         return ZERO
-    found = memo.get(node)
-    if found is None:
-        found = memo[node] = _diff_node(node, partial(_diff, symbol=symbol, memo=memo))
-    return found
+    derivative = memo.get(node)
+    if derivative is None:
+        derivative = memo[node] = _diff_node(node, partial(_diff, symbol=symbol, memo=memo))
+    return derivative
 
 
 def _diff_node(node: Expr, go: Callable[[Expr], Expr]) -> Expr:

@@ -109,24 +109,24 @@ class Expr:
             if self.op == "sym":
                 self._symbols = frozenset((self,))
             else:
-                found: frozenset[Expr] = _NO_SYMBOLS
+                symbols: frozenset[Expr] = _NO_SYMBOLS
                 for child in children(self):
                     own = child.symbols
-                    if own and not own <= found:
-                        found = own if found <= own else found | own
-                self._symbols = found
+                    if own and not own <= symbols:
+                        symbols = own if symbols <= own else symbols | own
+                self._symbols = symbols
         return self._symbols
 
     @property
     def functions(self) -> frozenset[str]:
         """The names of the functions that occur; ``pow`` for powers but whole ones, ``call`` for unknown functions."""
         if self._functions is None:
-            found = _NO_NAMES if self.op in ("num", "sym", "const", "add", "mul") else _function_of(self)
+            functions = _NO_NAMES if self.op in ("num", "sym", "const", "add", "mul") else _function_of(self)
             for child in children(self):
                 own = child.functions
-                if own and not own <= found:
-                    found = found | own
-            self._functions = found
+                if own and not own <= functions:
+                    functions = functions | own
+            self._functions = functions
         return self._functions
 
     @property

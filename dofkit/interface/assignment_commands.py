@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from dofkit.base.arguments import format_of_path
+from dofkit.base.wording import format_of_path
 from dofkit.interface import options
 from dofkit.interface.output import failures_of
 

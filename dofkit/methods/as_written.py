@@ -15,7 +15,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.methods.table import MethodReply
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Pfaffian
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
 from dofkit.system import System

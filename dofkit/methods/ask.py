@@ -12,10 +12,10 @@ from typing import Any
 
 from flint import ctx
 
-from dofkit.base.arguments import description_of, require_one_of, seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
 from dofkit.base.errors import ArgumentError
 from dofkit.base.verdicts import Verdict, weakest
+from dofkit.base.wording import description_of, require_one_of, seconds_of
 from dofkit.classification.dependence.equivalence import Sameness, compare
 from dofkit.classification.dependence.redundancy import all_needed, redundancies
 from dofkit.classification.freedom.branches import Outcome

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import Comparison, Names, UnknownNameError, parse_relations, to_text
 from dofkit.expressions.tree import parameter
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.scene import Scene
 
 #: Names that an answer may bring with it as constants of integration.

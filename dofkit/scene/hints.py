@@ -14,7 +14,7 @@ from dofkit.base.errors import Fault
 from dofkit.base.wording import nearest
 from dofkit.expressions.text.characters import LETTERS_OF_NAMES
 from dofkit.scene.constraints import TYPES
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.fields import meant_key
 from dofkit.scene.synonyms import Path, dimension_of, other_keys
 

@@ -12,7 +12,7 @@ from typing import Any
 from pydantic import TypeAdapter
 
 from dofkit.scene.constraints import TYPES
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import other_keys, synonyms
 

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from dofkit.expressions.text.characters import GREEK_LETTERS, SUBSCRIPTS, without_latex
 from dofkit.scene.constraints import TYPES
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 
 Path = tuple[str | int, ...]
 

@@ -15,13 +15,12 @@ from hypothesis import strategies as st
 
 import dofkit
 from dofkit.base.errors import TextError
-from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.exact.errors import PoleError
 from dofkit.exact.matrices.certified import independent_part
-from dofkit.exact.matrices.sparse import sparse
+from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import PRECISION, BallPoint
 from dofkit.exact.points.field import field_point
-from dofkit.exact.points.frames import FormRows, Pivots, certified_rank, field_frame, field_rank
+from dofkit.exact.points.frames import FormRows, Pivots, certified_rank, field_frame
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.points.series import Series, SeriesPoint, series_values
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
@@ -36,7 +35,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.integrability.growth_vector import growth
 from dofkit.integrability.lie_algebra import lie_span
 from dofkit.relations.normal.normal_form import normalise
-from dofkit.relations.normal.pieces import Finite, Nonlinear, Normal, Pfaffian
+from dofkit.relations.normal.pieces import Normal, Pfaffian
 from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.normal.zero_set import never_vanishes, zero_set
 from dofkit.report import Report
@@ -247,7 +246,7 @@ def test_ranks_agree_with_sympy(matrix: list[list[Fraction]], weights: list[Frac
     last = [sum((w * row[c] for w, row in zip(weights, matrix, strict=False)), Fraction(0)) for c in range(4)]
     rows = [*matrix, last]
     true = sympy.Matrix([[sympy.Rational(v.numerator, v.denominator) for v in row] for row in rows]).rank()
-    assert field_rank([[nmod(v.numerator, P) / nmod(v.denominator, P) for v in row] for row in rows], P) == true
+    assert rank_of([[nmod(v.numerator, P) / nmod(v.denominator, P) for v in row] for row in rows], P) == true
     assert certified_rank([[arb(v.numerator) / arb(v.denominator) for v in row] for row in rows]) <= true
     exact = [[arb(int(v * 1728**2)) for v in row] for row in matrix]
     assert certified_rank(exact) <= true
@@ -286,15 +285,6 @@ def test_canonical_forms_reduce() -> None:
     top, bottom = canon.quotient(node)
     assert bottom == canon.one
     assert is_identically_zero(canon.to_expr(top) - read("x + y + 3")) is True
-
-
-def test_factors_with_multiplicity() -> None:
-    f = read("(x - y)^3 (x + 1) (x^2 + 1)")
-    ring = Ring([f])
-    node = ring.node(f)
-    canon = Canon(ring)
-    found = sorted((k, to_text(canon.to_expr(factor))) for factor, k in canon.factors(canon.quotient(node)[0]))
-    assert [k for k, _ in found] == [1, 1, 3]
 
 
 # Points on a variety
@@ -445,36 +435,6 @@ def test_growth_of_the_disc_the_car_and_engel() -> None:
     assert span_of((X, Y, Z, v, w), cartan) == ((2, 3, 5), 5)
 
 
-# Redundancy
-
-
-def test_the_last_written_is_redundant() -> None:
-    rows = [[1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [2, 0, 0]]
-    found = analyse([OwnedRows(sparse(rows), [0, 1, 2, 3, 4], [True] * 5, 101)])
-    assert found.redundant == [2, 4]
-    assert found.groups == [(2, [0, 1, 2, 4])]
-    assert found.circuits == {2: [0, 1], 4: [0]}
-    assert found.independent == {0: 1, 1: 1, 2: 0, 3: 1, 4: 0}
-
-
-def test_a_differential_form_goes_before_a_finite_relation() -> None:
-    found = analyse([OwnedRows(sparse([[1, 2], [2, 4]]), [0, 1], [False, True], 101)])
-    assert (found.redundant, found.circuits) == ([0], {0: [1]})
-
-
-def test_constraints_of_several_equations() -> None:
-    rows = [[1, 0, 0], [0, 1, 0], [1, 0, 0], [0, 0, 1]]
-    found = analyse([OwnedRows(sparse(rows), [0, 0, 1, 1], [True] * 4, 101)])
-    assert found.redundant == []
-    assert found.groups == [(1, [0, 1])]
-    assert found.independent == {0: 2, 1: 1}
-
-
-def test_nothing_is_redundant_where_all_is_independent() -> None:
-    found = analyse([OwnedRows(sparse([[1, 0], [0, 1]]), [0, 1], [True, True], 101)])
-    assert (found.redundant, found.groups) == ([], [])
-
-
 # Real zeros
 
 
@@ -591,10 +551,3 @@ def test_what_is_no_constraint(text: str) -> None:
     (relation,) = parse_relations(text, names)
     with pytest.raises(TextError):
         normalise(relation.left - relation.right, frozenset(), True)
-
-
-def test_pieces_are_of_four_kinds() -> None:
-    assert {type(piece) for text in ("x = 1", "xdot^2 + ydot^2 = 1") for piece in normal(text).pieces} == {
-        Finite,
-        Nonlinear,
-    }

@@ -59,15 +59,15 @@ def answer(block: Block, setting: Setting) -> Answer:
     bridged = bridged_answer(block, setting, answer) if setting.bridges else None
     if bridged is not None:
         return bridged
-    found = _engines(block, setting)
-    level = None if found.dof is None or setting.reference is not None else level_angle(block, setting)
+    result = _engines(block, setting)
+    level = None if result.dof is None or setting.reference is not None else level_angle(block, setting)
     if level is not None:
-        reasons = [*found.reasons, LEVEL.format(level)]
-        found = replace(found, dof=None, velocity_dof=None, growth=None, verdict="undecided", reasons=reasons)
+        reasons = [*result.reasons, LEVEL.format(level)]
+        result = replace(result, dof=None, velocity_dof=None, growth=None, verdict="undecided", reasons=reasons)
     differential = bool(block.forms or block.nonlinear)
     tested = differential or "closed" not in setting.reductions
     own = Size(len(block.coordinates), len(block.finite), len(block.rows) if tested else 0)
-    return replace(found, size=own)
+    return replace(result, size=own)
 
 
 def _engines(block: Block, setting: Setting) -> Answer:
@@ -82,15 +82,15 @@ def _engines(block: Block, setting: Setting) -> Answer:
             return unmet
     alone = replace(setting, engines=BALLS, grows=False, flag=False)
     try:
-        found = _answer(block, setting)
+        result = _answer(block, setting)
     except NoPointError:
         if setting.engines != BOTH:
             raise
         balls = _answer(block, alone)
         return replace(balls, verdict=weakest(balls.verdict, "numeric"), growth=None, derived=None)
-    if found.doubt and setting.engines == BOTH and setting.tolerance is None:
-        return _confirmed_by_balls(found, _answer(block, alone))
-    return found
+    if result.doubt and setting.engines == BOTH and setting.tolerance is None:
+        return _confirmed_by_balls(result, _answer(block, alone))
+    return result
 
 
 def _confirmed_by_balls(field: Answer, balls: Answer) -> Answer:
@@ -148,10 +148,10 @@ def _mixed_answer(block: Block, setting: Setting) -> Answer:
     result = _prolonged(block, setting, Answer())
     if setting.reference is not None:
         if block.nonlinear:
-            told = first_order_beside_bends(block, setting, result)
+            answers = first_order_beside_bends(block, setting, result)
         else:
-            told = first_order_freedom(block, setting, setting.reference)
-        result.instantaneous, result.first_order_sure = told
+            answers = first_order_freedom(block, setting, setting.reference)
+        result.instantaneous, result.first_order_sure = answers
         result.verdict = weakest(result.verdict, "numeric" if is_measured(block, setting) else "proved")
     return result
 
@@ -195,8 +195,8 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
     """Points to look at the forms: of the reference's part where one is given, else generic ones."""
     alike = is_irreducible(forms.chart) if setting.reference is None else is_graph(forms.chart)
     if setting.reference is None or alike:
-        found = find(forms.chart, setting.pose)
-        return found if alike else replace(found, about="component")
+        result = find(forms.chart, setting.pose)
+        return result if alike else replace(result, about="component")
     if "field" not in forms.chart.engines:
         return Variety(None, None, "undecided", reasons=[IRREGULAR])
     drawn = on_reference(forms, setting.reference)

@@ -38,20 +38,20 @@ class SmoothFunction(NamedTuple):
         ``numbers`` turns a fraction into the numbers of the arguments; ``sine``, ``half_pi``: theirs.
         """
         total = sum(orders)
-        found = numbers(Fraction(0))
+        total_value = numbers(Fraction(0))
         if total == 0:
-            found = found + numbers(self.start)
+            total_value = total_value + numbers(self.start)
             for slope, u in zip(self.slopes, args, strict=True):
-                found = found + numbers(slope) * u
+                total_value = total_value + numbers(slope) * u
         elif total == 1:
-            found = found + numbers(self.slopes[list(orders).index(1)])
+            total_value = total_value + numbers(self.slopes[list(orders).index(1)])
         for height, widths, phase in self.waves:
             factor, angle = height, numbers(phase) + half_pi * total
             for width, order, u in zip(widths, orders, args, strict=True):
                 factor *= width**order
                 angle = angle + numbers(width) * u
-            found = found + numbers(factor) * sine(angle)
-        return found
+            total_value = total_value + numbers(factor) * sine(angle)
+        return total_value
 
 
 @lru_cache(maxsize=256)

@@ -170,12 +170,12 @@ def circle_order(rings: Iterable[Ring]) -> int:
 
 def number_roots(rings: Iterable[Ring]) -> tuple[tuple[int, int], ...]:
     """(integer, degree) of every root of a number."""
-    found = set()
+    roots = set()
     for ring in rings:
         for var in ring.vars:
             if var.kind == "root" and isinstance(var.key[0], ex.Expr):
-                found.add((int(var.key[0].args[0]), var.degree))
-    return tuple(sorted(found))
+                roots.add((int(var.key[0].args[0]), var.degree))
+    return tuple(sorted(roots))
 
 
 def prime_for(order: int, roots: tuple[tuple[int, int], ...], seed: int | str) -> int:
@@ -242,13 +242,13 @@ class FieldPoint:
 
     def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar:
         name = (var.kind, var.key)
-        found = self.given.get(name)
-        if found is None:
-            found = self.given[name] = self._draw(var, args)
+        value = self.given.get(name)
+        if value is None:
+            value = self.given[name] = self._draw(var, args)
         elif args and name not in self._agreed:
             self._agreed.add(name)
-            self._agree(var, args, found)
-        return found
+            self._agree(var, args, value)
+        return value
 
     def whatever(self, var: Var) -> Scalar:
         """A generator's value where its argument is not known yet: that is drawn later, or found to agree."""

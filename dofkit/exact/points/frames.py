@@ -11,7 +11,7 @@ from flint import arb, arb_mat, nmod, nmod_mat
 from dofkit.base.deadline import check
 from dofkit.exact.errors import PoleError, raising_no_value
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns
+from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns, rank_of
 from dofkit.exact.points.series import Series
 from dofkit.exact.ring.program import Scalar
 from dofkit.exact.ring.ring import Ring
@@ -65,20 +65,13 @@ def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Pivots:
 def pivots(matrix: nmod_mat) -> list[int]:
     """The pivot columns of a matrix over GF(p)."""
     reduced, rank = matrix.rref()
-    found, column = [], 0
+    columns, column = [], 0
     for r in range(rank):
         while not reduced[r, column]:
             column += 1
-        found.append(column)
+        columns.append(column)
         column += 1
-    return found
-
-
-def field_rank(rows: Sequence[Sequence[Any]], p: int) -> int:
-    """The rank of a matrix over GF(p)."""
-    if not rows or not rows[0]:
-        return 0
-    return int(nmod_mat([[int(v) for v in row] for row in rows], p).rank())
+    return columns
 
 
 def certified_rank(rows: Sequence[Sequence[arb]]) -> int:
@@ -91,14 +84,14 @@ def kernel(matrix: list[list[Scalar]], frame: Pivots, zero: Scalar) -> list[list
     n, r = len(frame.dependent) + len(frame.free), len(frame.rows)
     solved = solve([[matrix[a][c] for c in frame.dependent] for a in frame.rows],
                    [[-matrix[a][c] for c in frame.free] for a in frame.rows])  # fmt: skip
-    found = []
+    vectors = []
     for j, f in enumerate(frame.free):
         vector = [zero] * n
         vector[f] = zero + 1
         for i in range(r):
             vector[frame.dependent[i]] = solved[i][j]
-        found.append(vector)
-    return found
+        vectors.append(vector)
+    return vectors
 
 
 @raising_no_value
@@ -108,8 +101,8 @@ def solve(a: list[list[Scalar]], b: list[list[Scalar]]) -> list[list[Scalar]]:
     if n and isinstance(a[0][0], nmod) and b[0]:
         p = a[0][0].modulus()
         left, right = (nmod_mat([[int(v) for v in row] for row in side], p) for side in (a, b))
-        found = left.solve(right)
-        return [[found[i, j] for j in range(len(b[0]))] for i in range(n)]
+        solution = left.solve(right)
+        return [[solution[i, j] for j in range(len(b[0]))] for i in range(n)]
     if n and isinstance(a[0][0], arb) and b[0]:
         balls = arb_mat(a).solve(arb_mat(b))
         return [[balls[i, j] for j in range(len(b[0]))] for i in range(n)]
@@ -142,16 +135,16 @@ def rank_over(vectors: Sequence[Sequence[Scalar]], sample: Scalar) -> int:
     if not vectors:
         return 0
     if isinstance(sample, nmod):
-        return field_rank(vectors, sample.modulus())
+        return rank_of(vectors, sample.modulus())
     return certified_rank(vectors)
 
 
 def pairing(row: Sequence[Scalar], vectors: Sequence[Sequence[Scalar]]) -> list[Scalar]:
     """The values of a form on vectors."""
-    found = []
+    values = []
     for vector in vectors:
         total = row[0] * vector[0] if row else 0
         for a, v in zip(row[1:], vector[1:], strict=True):
             total = total + a * v
-        found.append(total)
-    return found
+        values.append(total)
+    return values

@@ -110,12 +110,12 @@ class Canon:
     @cached_property
     def _divisors(self) -> list[tuple[int, int, Poly]]:
         """The relations with their leading generators' places and degrees."""
-        found = []
+        divisors = []
         for relation in self.relations:
             leading = relation.monomial(0)
             place = next(i for i, k in enumerate(leading) if k)
-            found.append((place, int(leading[place]), relation))
-        return found
+            divisors.append((place, int(leading[place]), relation))
+        return divisors
 
     @property
     @raising_no_value
@@ -123,19 +123,19 @@ class Canon:
         """cos^2 + sin^2 - 1, root^d - radicand, sign^2 - 1; later generators first."""
         if self._relations is None:
             self._relations = []
-            found = []
+            relations = []
             for var in reversed(self.ring.vars):
                 g = self.gens[var.index]
                 if var.kind == "sin":
-                    found.append(g**2 + self.gens[var.partner] ** 2 - 1)
+                    relations.append(g**2 + self.gens[var.partner] ** 2 - 1)
                 elif var.kind == "sign":
-                    found.append(g**2 - 1)
+                    relations.append(g**2 - 1)
                 elif var.kind == "root":
                     top, bottom = self.quotient(var.args[0])
                     if not bottom.is_constant():
                         continue
-                    found.append(g**var.degree - top / bottom.leading_coefficient())
-            self._relations = found
+                    relations.append(g**var.degree - top / bottom.leading_coefficient())
+            self._relations = relations
         return self._relations
 
     def is_zero(self, node: int) -> bool:

@@ -80,18 +80,18 @@ class Instructions(ABC):
     def emit(self, op: int, payload: Any) -> int:
         """The number of an instruction."""
         key = (op, payload)
-        found = self._interned.get(key)
-        if found is None:
-            found = self._interned[key] = len(self.code)
+        number = self._interned.get(key)
+        if number is None:
+            number = self._interned[key] = len(self.code)
             self.code.append(key)
-        return found
+        return number
 
     def order(self, roots: tuple[int, ...]) -> list[int]:
         """Every instruction that the roots depend on, the last first: worked out once, for gradients at many points."""
-        found = self._orders.get(roots)
-        if found is None:
-            found = self._orders[roots] = reachable(self, roots)
-        return found
+        instructions = self._orders.get(roots)
+        if instructions is None:
+            instructions = self._orders[roots] = reachable(self, roots)
+        return instructions
 
     def negative(self, node: int) -> int:
         """The node of minus a node."""
@@ -112,14 +112,14 @@ class Instructions(ABC):
 
     def generator(self, kind: str, key: Any, shown: Expr, args: tuple[int, ...] = (), degree: int = 1) -> int:
         """The node of a generator, made at first use; ``shown`` is it as an expression."""
-        found = self._var_of.get((kind, key))
-        if found is None:
-            found = len(self.vars)
-            self._var_of[kind, key] = found
-            self.vars.append(Var(found, kind, key, args, -1, degree))
+        index = self._var_of.get((kind, key))
+        if index is None:
+            index = len(self.vars)
+            self._var_of[kind, key] = index
+            self.vars.append(Var(index, kind, key, args, -1, degree))
             self.var_expr.append(shown)
-            self.var_node.append(self.emit(VAR, found))
-        return self.var_node[found]
+            self.var_node.append(self.emit(VAR, index))
+        return self.var_node[index]
 
     def symbol(self, e: Expr) -> int:
         """The node of a symbol."""
@@ -277,7 +277,7 @@ def gradient(
     adjoint: dict[int, Scalar] = {}
     for node, seed in seeds:
         adjoint[node] = adjoint[node] + seed if node in adjoint else seed
-    found: dict[int, Scalar] = {}
+    slopes: dict[int, Scalar] = {}
     for node in ring.order(tuple(adjoint)):
         bar = adjoint.pop(node, None)
         if bar is None:
@@ -295,11 +295,11 @@ def gradient(
         elif op == VAR:
             var = ring.vars[payload]
             if var.kind == "symbol":
-                found[payload] = bar
+                slopes[payload] = bar
             for i, factor in partials(ring, var, at, point):
                 part = bar * factor
                 adjoint[i] = adjoint[i] + part if i in adjoint else part
-    return found
+    return slopes
 
 
 def _product_rule(payload: tuple[int, ...], at: Sequence[Scalar], bar: Scalar, adjoint: dict[int, Scalar]) -> None:
@@ -309,8 +309,3 @@ def _product_rule(payload: tuple[int, ...], at: Sequence[Scalar], bar: Scalar, a
             if other != place:
                 part = part * at[j]
         adjoint[i] = adjoint[i] + part if i in adjoint else part
-
-
-def polynomial_nodes(ring: Instructions) -> bool:
-    """True where the program divides by nothing."""
-    return all(op != POW or payload[1] > 0 for op, payload in ring.code)

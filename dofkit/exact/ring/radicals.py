@@ -13,8 +13,6 @@ from dofkit.expressions.enclosures import interval_of, is_constant
 from dofkit.expressions.terms import content, sorted_sum
 from dofkit.expressions.tree import Expr
 
-#: Sums of more terms than this are not looked at for a square.
-MAX_SQUARE = 40
 Key = tuple[Any, int]
 
 

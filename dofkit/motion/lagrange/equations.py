@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from dofkit.base.arguments import seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, by_processor, check, left, limited
 from dofkit.base.errors import Fault, SceneError
+from dofkit.base.wording import seconds_of
 from dofkit.classification.passes import Examined, studied
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge

@@ -16,8 +16,10 @@ from dofkit.scene.constraints.joints import (
     SLIDE,
     Axial,
     Driven,
+    JointGeometry,
     LocatedJoint,
     Measure,
+    Mentions,
     aligned,
     angle_law,
     angle_of,
@@ -30,7 +32,6 @@ from dofkit.scene.constraints.joints import (
 )
 from dofkit.scene.fields import Value, Vector, as_written
 from dofkit.scene.frames import Frame, relative
-from dofkit.scene.joint_geometry import JointGeometry, Mentions
 from dofkit.scene.parts import show_vector
 from dofkit.scene.symbols import RING, Stroke, Symbol, arc, axle, cylinder, helix, plate, prism
 from dofkit.scene.variation import TypeVariation
