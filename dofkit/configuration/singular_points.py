@@ -104,7 +104,7 @@ def _is_singular(j: Sequence[Sequence[arb]]) -> bool:
     if not np.isfinite(matrix).all():
         return False
     rank, _, rows, pivots = independent_part(np.where(abs(matrix) < TINY, 0.0, matrix))
-    others = [row for r, row in enumerate(j) if r not in rows]
+    others = [list(row) for r, row in enumerate(j) if r not in rows]
     if rank == 0 or not others:
         sums = others
     else:
