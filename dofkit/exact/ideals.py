@@ -80,7 +80,7 @@ def _integer_polynomials(
 
 
 def _unknowns(ring: Ring, used: Sequence[int], moving: Sequence[int]) -> list[int] | None:
-    """The generators that are unknown: coordinates, cosines and sines of angles; None where there are others."""
+    """Return the generators that are unknown: coordinates, cosines and sines of angles; None where there are others."""
     kept: set[int] = set()
     for i in used:
         var = ring.vars[i]
@@ -111,12 +111,12 @@ def _constants(ring: Ring, others: Sequence[int], rng: random.Random) -> dict[in
 
 
 def _angle(ring: Ring, index: int) -> int | None:
-    """The coordinate of which a generator is the cosine or sine."""
+    """Return the coordinate of which a generator is the cosine or sine."""
     return ring.var_index(ring.vars[index].key[0])
 
 
 def _table(p: Poly, count: int, place: Mapping[int, int], values: Mapping[int, Fraction]) -> Table:
-    """The terms of a polynomial of the canonical ring in the unknowns, with numbers for the rest."""
+    """Return the terms of a polynomial of the canonical ring in the unknowns, with numbers for the rest."""
     table: Table = {}
     for exponents, c in p.to_dict().items():
         number = Fraction(int(c.p), int(c.q))
@@ -138,7 +138,7 @@ def _whole(table: Table) -> dict[tuple[int, ...], int]:
 
 
 def _basis(polynomials: Sequence[Poly]) -> list[Poly] | None:
-    """A Groebner basis in degree reverse lexicographic order; None where it would be too large."""
+    """Return a Groebner basis in degree reverse lexicographic order; None where it would be too large."""
     given = [p for p in polynomials if p != 0]
     if not given:
         return []

@@ -29,7 +29,7 @@ class LinearCondition:
     sense: Literal["=", ">=", ">"]
 
     def holds(self, x: Sequence[fmpq]) -> bool:
-        """Does it hold at a point?"""
+        """Return whether the condition is satisfied at a point."""
         value = _dot(self.coefficients, x) + self.constant
         return bool(value == 0 if self.sense == "=" else value > 0 if self.sense == ">" else value >= 0)
 
@@ -39,7 +39,7 @@ def _dot(a: Sequence[fmpq], b: Sequence[fmpq]) -> fmpq:
 
 
 def solution(conditions: Sequence[LinearCondition]) -> Vector | Literal[False] | None:
-    """A point at which all conditions hold, False where there is none (proved), None where they are too many."""
+    """Return a point at which all conditions hold, False where there is none (proved), None where they are too many."""
     n = len(conditions[0].coefficients) if conditions else 0
     equations = [c for c in conditions if c.sense == "="]
     if len(equations) * (n + 1) > MAX_EQUATIONS:
@@ -66,14 +66,14 @@ class _Graph:
     n: int
 
     def point(self, at: Vector) -> Vector:
-        """All coordinates from the free ones."""
+        """Return all coordinates from the free ones."""
         known = dict(zip(self.free, at, strict=True))
         known |= {c: _dot(row[:-1], at) + row[-1] for c, row in self.rows.items()}
         return tuple(known[c] for c in range(self.n))
 
 
 def _graph(equations: Sequence[LinearCondition], n: int) -> _Graph | None:
-    """The solutions of the equations; None where there are none (Gauss)."""
+    """Return the solutions of the equations; None where there are none (Gauss)."""
     if not equations:
         return _Graph(tuple(range(n)), {}, n)
     reduced, rank = fmpq_mat([[*e.coefficients, e.constant] for e in equations]).rref()
@@ -86,7 +86,7 @@ def _graph(equations: Sequence[LinearCondition], n: int) -> _Graph | None:
 
 
 def _restricted(c: LinearCondition, graph: _Graph) -> LinearCondition:
-    """The condition in the free coordinates."""
+    """Return the condition in the free coordinates."""
     total = [*(c.coefficients[j] for j in graph.free), c.constant]
     for p, row in graph.rows.items():
         if c.coefficients[p] != 0:
@@ -95,7 +95,7 @@ def _restricted(c: LinearCondition, graph: _Graph) -> LinearCondition:
 
 
 def _alternative(conditions: Sequence[LinearCondition], n: int) -> Vector | Literal[False] | None:
-    """The theorem of alternatives for a_i . x + b_i >= 0, some of them > 0 [Motzkin1936].
+    """Return a solution of a_i . x + b_i >= 0, some of them > 0, or False where there is none [Motzkin1936].
 
     Either there are l_i >= 0 and s >= 0 with sum l_i a_i = 0, sum l_i b_i + s = 0 and s + (the strict l_i) = 1, which
     no x allows; or a linear function (y, u, v) is at most 0 on all columns (a_i, b_i, [i strict]) and on (0, 1, 1) and

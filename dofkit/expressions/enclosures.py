@@ -16,17 +16,17 @@ BITS = 256
 
 
 def is_constant(e: Expr) -> bool:
-    """True where no symbol and no unknown function occurs."""
+    """Return whether no symbol and no unknown function occurs."""
     return not e.symbols and not has_call(e)
 
 
 def has_call(e: Expr) -> bool:
-    """True where an unknown function occurs."""
+    """Return whether an unknown function occurs."""
     return "call" in e.functions
 
 
 def interval_of(e: Expr, values: Mapping[Expr, Fraction | arb] | None = None, bits: int = BITS) -> arb | None:
-    """A ball that holds the real value of ``e``, symbols replaced by ``values``; None where there is none."""
+    """Return a ball that holds the real value of ``e``, symbols replaced by ``values``; None where there is none."""
 
     def go(node: Expr) -> arb:
         if node not in known:
@@ -50,7 +50,7 @@ def _ball(value: Fraction) -> arb:
 
 
 def _combined(node: Expr, parts: Sequence[arb]) -> arb:
-    """The value of a node from those of its parts. Raises KeyError where it has none."""
+    """Return the value of a node from those of its parts. Raises KeyError where it has none."""
     if node.op == "num":
         return _ball(node.args[0])
     if node.op == "const":
@@ -68,7 +68,7 @@ def _combined(node: Expr, parts: Sequence[arb]) -> arb:
 
 
 def differs_from_zero(e: Expr) -> bool:
-    """True where ``e`` is certainly not 0, at random positive values of its parameters; False else."""
+    """Return whether ``e`` is certainly not 0, at random positive values of its parameters; False else."""
     if e.op == "num":
         return bool(e.args[0])
     if has_call(e):
@@ -80,7 +80,7 @@ def differs_from_zero(e: Expr) -> bool:
 
 
 def approximate(e: Expr) -> float | None:
-    """A constant expression as a float."""
+    """Return a constant expression as a float."""
     if e.op == "num":
         try:
             return float(e.args[0])

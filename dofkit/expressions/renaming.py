@@ -54,20 +54,20 @@ class ExpressionShape(NamedTuple):
 
 
 def order_of(names: Sequence[str], kept: Sequence[str] = ()) -> tuple[int | str, ...]:
-    """The numbers of some names, sorted by these, among others that are kept."""
+    """Return the numbers of some names, sorted by these, among others that are kept."""
     places: dict[str, int | str] = {name: name for name in kept}
     places.update((name, k) for k, name in enumerate(names))
     return tuple(places[name] for name in sorted(places))
 
 
 def is_name(symbol: Expr) -> bool:
-    """Is a symbol called by a name that may be another: of a coordinate, or of geometry that was left out?"""
+    """Return whether a symbol has a name that may be another: of a coordinate, or of geometry left out."""
     kind, name = symbol.args
     return kind in MOVING or (kind == "parameter" and name[0] == "_")
 
 
 def shape_of(e: Expr) -> ExpressionShape:
-    """An expression without its names; worked out once."""
+    """Return an expression without its names; worked out once."""
     shape: ExpressionShape | None = e.shape
     if shape is None:
         places: dict[str, str] = {}
@@ -84,12 +84,12 @@ def shape_of(e: Expr) -> ExpressionShape:
 
 
 def kinds_in(e: Expr) -> frozenset[str]:
-    """The kinds of the symbols that occur."""
+    """Return the kinds of the symbols that occur."""
     return frozenset([s.args[0] for s in e.symbols]) if e.shape is None else e.shape.occurring.kinds
 
 
 def coordinates_in(e: Expr) -> frozenset[str]:
-    """The coordinates of which the value or the velocity occurs.
+    """Return the coordinates of which the value or the velocity occurs.
 
     >>> from dofkit.expressions.tree import coordinate, velocity
     >>> sorted(coordinates_in(coordinate("y") * velocity("x")))
@@ -103,7 +103,7 @@ def coordinates_in(e: Expr) -> frozenset[str]:
 
 
 def _symbols_in_order(e: Expr) -> list[Expr]:
-    """The symbols, each where it first occurs."""
+    """Return the symbols, each where it first occurs."""
     symbols: dict[Expr, None] = {}
     stack, seen = [e], set[int]()
     while stack:
@@ -117,7 +117,7 @@ def _symbols_in_order(e: Expr) -> list[Expr]:
 
 
 def renamed(e: Expr, names: Mapping[str, str]) -> Expr:
-    """An expression in other names, which have to be as many: nothing is folded again.
+    """Return an expression in other names, which have to be as many: nothing is folded again.
 
     >>> from dofkit.expressions.tree import coordinate
     >>> renamed(coordinate("x") + 1, {"x": "y"}) == coordinate("y") + 1
@@ -135,7 +135,7 @@ class Renaming:
         self._known: dict[int, tuple[Expr, Expr]] = {}
 
     def of(self, e: Expr) -> Expr:
-        """An expression in the other names; its shape is known where it was."""
+        """Return an expression in the other names; its shape is known where it was."""
         op, args = e.op, e.args
         if op == "sym":
             return self._symbol(e)
@@ -209,7 +209,7 @@ class Template:
         self._root = places[e]
 
     def of(self, names: Sequence[str]) -> Expr:
-        """The expression in other names, all different, in the order of its own; its shape is known."""
+        """Return the expression in other names, all different, in the order of its own; its shape is known."""
         return self.with_symbols([sym(kind, names[k]) for kind, k in self._called])
 
     def with_symbols(self, symbols: Sequence[Expr]) -> Expr:

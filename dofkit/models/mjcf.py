@@ -52,7 +52,7 @@ _NOISE = re.compile(r"^(?:XML )?Error: (?:Error: )?|,? ?line \d+\s*$|\bElement n
 
 
 def read(file: ModelFile) -> ModelDocument:
-    """The scene of an MJCF file. Raises SceneError for what the compiler does not take."""
+    """Return the scene of an MJCF file. Raises SceneError for what the compiler does not take."""
     model = compiled(file)
     if not model.content["closed"]:
         hint = "give a pose that satisfies them, or switch them off: active='false'"
@@ -64,7 +64,7 @@ def read(file: ModelFile) -> ModelDocument:
 
 @dataclass
 class _MjcfScene:
-    """The scene as it grows: ``stands`` is the scene's body of each of MuJoCo's, ``names`` the joint of each.
+    """The scene while it is written: ``stands`` has the body of each body of MuJoCo, ``names`` that of each joint.
 
     ``loops``: more than joints holds bodies together. Without that no place is special, whatever the digits.
     """
@@ -84,7 +84,7 @@ class _MjcfScene:
             self.line.setdefault((kind, element.get("name")), element.line)
 
     def document(self) -> ModelDocument:
-        """Everything, in the order of the model."""
+        """Return the scene, its entries in the order of the model."""
         used = {body for e in self.content["equalities"] for body, _ in e.get("ends", ())}
         used |= {step["end"][0] for t in self.content["tendons"] for step in t["path"] if step["end"]}
         parents = {b["parent"] for b in self.content["bodies"]}
@@ -175,7 +175,7 @@ class _MjcfScene:
         return JointSum(((self.names[index], 1.0),), joint["drawn"] - joint["zero"])
 
     def _fixed_tendon(self, index: int) -> JointSum | None:
-        """What a tendon that is a sum of joints is longer by than in MuJoCo's zero; None for one that is not."""
+        """Return the elongation of a tendon that is a sum of joints, from MuJoCo's zero; None for any other."""
         tendon = self.content["tendons"][index]
         if any(step["kind"] != "joint" for step in tendon["path"]):
             return None
@@ -183,7 +183,7 @@ class _MjcfScene:
         return JointSum(terms, tendon["length"] - tendon["zero"])
 
     def _string(self, name: str, index: int, more: float, line: int | None) -> bool:
-        """Write a tendon of a given length from site to site as a string; whether it is one."""
+        """Write a tendon of a given length from site to site as a string; return whether it is one."""
         tendon = self.content["tendons"][index]
         if any(step["kind"] != "site" for step in tendon["path"]):
             return False
@@ -195,7 +195,7 @@ class _MjcfScene:
         return True
 
     def _ranges(self) -> None:
-        """Ranges of joints and tendons: inequalities where they are asked for, else told."""
+        """Add ranges of joints and tendons: as inequalities where they are asked for, else as left out."""
         ranged = {
             name: self.content["joints"][i] for i, name in self.names.items() if self.content["joints"][i]["range"]
         }
@@ -229,7 +229,7 @@ class _MjcfScene:
                 self.draft.constraint(f"{name} range", "coupling", None, **fields)
 
     def _rest(self) -> None:
-        """What enters the motion without being a constraint, and what became of the model."""
+        """Add what enters the motion without being a constraint, and what was changed in the model."""
         entry = self.content
         if any(entry["gravity"]) and self.draft.bodies:
             self.draft.forces.append({"type": "gravity", "acceleration": vector(entry["gravity"])})
@@ -266,7 +266,7 @@ class _MjcfScene:
 
 
 def _runs_around(tendon: Mapping[str, Any]) -> bool:
-    """Is its length neither a sum of joints nor that of straight pieces?"""
+    """Return whether the length of a tendon is neither a sum of joints nor that of straight pieces."""
     return any(step["kind"] not in ("joint", "site") for step in tendon["path"])
 
 
@@ -279,7 +279,7 @@ class CompiledModel(NamedTuple):
 
 
 def compiled(file: ModelFile) -> CompiledModel:
-    """The model compiled. Raises SceneError for what the compiler does not take."""
+    """Return the compiled model. Raises SceneError for what the compiler does not take."""
     root = read_markup(file.data, file.name)
     included = tuple(_included(root, file))
     faults = [*_not_finite(root), *(fault for part in included for fault in _not_finite(part))]
@@ -293,7 +293,7 @@ def compiled(file: ModelFile) -> CompiledModel:
 
 
 def _not_finite(root: Element) -> Iterator[Fault]:
-    """Numbers that are none, of which the compiler makes places that are none."""
+    """Yield a fault for every number that is not finite: the compiler would make positions of them."""
     for part in root.every():
         for key in _MEASURES:
             odd = [word for word in part.get(key).split() if _NO_NUMBER.fullmatch(word)]
@@ -303,7 +303,7 @@ def _not_finite(root: Element) -> Iterator[Fault]:
 
 
 def _fault(reason: str, error: str) -> Fault:
-    """What the compiler says, in its line."""
+    """Return the fault that the compiler reports, in its line."""
     if not error:
         return Fault(f"MuJoCo's compiler was stopped: {reason}", hint="make the model smaller, or split it")
     said = reason.removeprefix(f"{error}: ")
@@ -316,7 +316,7 @@ def _fault(reason: str, error: str) -> Fault:
 
 
 def _included(root: Element, file: ModelFile) -> Iterator[Element]:
-    """The roots of the files that are included; those that cannot be read the compiler tells of."""
+    """Yield the roots of the files that are included; the compiler reports those that are missing."""
     if file.path is None:
         return
     top, seen = file.path.parent, {file.path.resolve()}

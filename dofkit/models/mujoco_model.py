@@ -1,6 +1,6 @@
-"""What MuJoCo's own compiler makes of a model: bodies, joints, equalities and tendons where they are drawn.
+"""What MuJoCo's own compiler makes of a model: bodies, joints, equalities and tendons in the reference configuration.
 
-This runs in a worker, which alone imports `mujoco`: a compiler in C may crash, hang or take all memory.
+Only a worker imports this module: a compiler in C may crash, hang or take all memory.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import os
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
+import mujoco
 import numpy as np
 
 #: Elements of a model that change nothing about how it moves, and may name files that are missing.
@@ -22,7 +23,7 @@ _TORQUE = 10
 
 
 class Compiled(NamedTuple):
-    """A model with its state at the drawing, and notes on what became of it."""
+    """A model with its state in the reference configuration, and notes on what was changed."""
 
     model: Any
     data: Any
@@ -30,9 +31,7 @@ class Compiled(NamedTuple):
 
 
 def described_model(source: Mapping[str, Any]) -> dict[str, Any]:
-    """What a model holds, as json can write it. ``given``: its ``path``, or its ``text`` where it has none."""
-    import mujoco
-
+    """Return the content of a model as json can write it. ``source``: its ``path``, or else its ``text``."""
     mujoco.set_mju_user_warning(lambda message: None)
     path = source["path"]
     notes: list[str] = []
@@ -71,7 +70,7 @@ def described_model(source: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _without_files(spec: Any, folder: str) -> Iterator[str]:
-    """Take out meshes and height fields whose files are missing, with the shapes made of them."""
+    """Remove meshes and height fields whose files are missing, with the shapes made of them; yield what is lost."""
     lost: dict[str, str] = {}
     below = spec.compiler.meshdir
     for asset in [*spec.meshes, *spec.hfields]:
@@ -89,7 +88,7 @@ def _without_files(spec: Any, folder: str) -> Iterator[str]:
 
 
 def _without_looks(spec: Any) -> None:
-    """Take out what is only seen or measured, and bounds on memory that steps of a simulation would need."""
+    """Remove what is only seen or measured, and bounds on memory that steps of a simulation would need."""
     spec.memory = -1
     for material in spec.materials:
         material.textures = [""] * len(material.textures)
@@ -99,9 +98,7 @@ def _without_looks(spec: Any) -> None:
 
 
 def _draw(compiled: Compiled) -> bool:
-    """Make the state that of the drawing: as written, or moved from there until the equalities hold. Do they?"""
-    import mujoco
-
+    """Set the reference configuration: as written, or moved until the equalities hold; return whether they do."""
     model, data = compiled.model, compiled.data
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_LIMIT
     _place(compiled)
@@ -127,18 +124,14 @@ def _draw(compiled: Compiled) -> bool:
 
 
 def _place(compiled: Compiled) -> None:
-    """Where everything stands, and how far every equality is from holding; no dynamics."""
-    import mujoco
-
+    """Compute all positions and the residual of every equality; no dynamics."""
     for step in (mujoco.mj_kinematics, mujoco.mj_comPos, mujoco.mj_tendon):
         step(compiled.model, compiled.data)
     mujoco.mj_makeConstraint(compiled.model, compiled.data)
 
 
 def _equality_rows(compiled: Compiled) -> tuple[Any, Any]:
-    """The equality rows of the Jacobian, and how far each is from being satisfied."""
-    import mujoco
-
+    """Return the equality rows of the Jacobian, and their residuals."""
     data, nv = compiled.data, compiled.model.nv
     is_equality = data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY
     dense = np.zeros((data.nefc, nv))
@@ -151,15 +144,13 @@ def _equality_rows(compiled: Compiled) -> tuple[Any, Any]:
 
 
 def _left(compiled: Compiled) -> int:
-    """MuJoCo's own count at the drawing: nv less the rank of the active equality rows."""
+    """Return MuJoCo's own count of the freedom: nv less the rank of the active equality rows."""
     rows, _ = _equality_rows(compiled)
     return int(compiled.model.nv - (np.linalg.matrix_rank(rows, tol=1e-8) if rows.size else 0))
 
 
 def _off(model: Any, *flags: str) -> bool:
-    """Is one of these switched off for the whole model?"""
-    import mujoco
-
+    """Return whether one of these is switched off for the whole model."""
     return any(model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{flag}") for flag in flags)
 
 
@@ -168,8 +159,6 @@ def _list(values: Any) -> list[float]:
 
 
 def _name(model: Any, kind: str, index: int) -> str:
-    import mujoco
-
     return mujoco.mj_id2name(model, getattr(mujoco.mjtObj, f"mjOBJ_{kind}"), index) or ""
 
 
@@ -206,9 +195,7 @@ def _joints(compiled: Compiled) -> Iterator[dict[str, Any]]:
 
 
 def _ends(compiled: Compiled, index: int) -> list[tuple[int, list[float]]]:
-    """The two points of a connect, or the anchors of a weld: (body, place in the world)."""
-    import mujoco
-
+    """Return the two points of a connect, or the anchors of a weld: (body, position in the world)."""
     model, data = compiled.model, compiled.data
     first, second = int(model.eq_obj1id[index]), int(model.eq_obj2id[index])
     if model.eq_objtype[index] == mujoco.mjtObj.mjOBJ_SITE:
@@ -223,8 +210,6 @@ def _ends(compiled: Compiled, index: int) -> list[tuple[int, list[float]]]:
 
 
 def _equalities(compiled: Compiled) -> Iterator[dict[str, Any]]:
-    import mujoco
-
     model = compiled.model
     for i in range(model.neq):
         kind = mujoco.mjtEq(model.eq_type[i]).name.removeprefix("mjEQ_").lower()
@@ -243,8 +228,6 @@ def _equalities(compiled: Compiled) -> Iterator[dict[str, Any]]:
 
 
 def _tendons(compiled: Compiled) -> Iterator[dict[str, Any]]:
-    import mujoco
-
     model, data = compiled.model, compiled.data
     kinds = {int(kind): kind.name.removeprefix("mjWRAP_").lower() for kind in mujoco.mjtWrap.__members__.values()}
     for i in range(model.ntendon):

@@ -57,7 +57,7 @@ _BALLS = ("ball", "spherical")
 
 
 def read(file: ModelFile) -> ModelDocument:
-    """The scene of a URDF file. Raises SceneError with all that is at fault, each in its line."""
+    """Return the scene of a URDF file. Raises SceneError with all its faults, each in its line."""
     robot = read_robot(file)
     poses = robot.poses()
     places = [at.at for at in poses.pose.values()]
@@ -71,9 +71,9 @@ def read(file: ModelFile) -> ModelDocument:
 
 @dataclass
 class _UrdfScene:
-    """The scene as it grows: ``stands`` is the scene's body of each link, ``names`` the constraint of each joint.
+    """The scene while it is written: ``stands`` has the body of each link, ``names`` the constraint of each joint.
 
-    ``drawn``: how far joints have moved in the drawing.
+    ``drawn``: the joint values of the reference configuration.
     """
 
     robot: Robot
@@ -85,7 +85,7 @@ class _UrdfScene:
     names: dict[str, str] = field(default_factory=dict)
 
     def document(self, tolerance: float) -> ModelDocument:
-        """Everything, in the order of the tree."""
+        """Return the scene, its entries in the order of the tree."""
         robot, poses = self.robot, self.poses
         parents = {joint.parent for joint in robot.joints} | {end for loop in robot.loops for end, _ in loop.ends}
         markers = []
@@ -137,7 +137,7 @@ class _UrdfScene:
         self.names[joint.name] = self.draft.constraint(joint.name, kind, joint.line, **fields)
 
     def _loop(self, loop: LoopJoint, pose: Mapping[str, Transform]) -> None:
-        """A joint that closes a loop, its place by the first link, its point by both."""
+        """Add a joint that closes a loop, its place by the first link, its point by both."""
         (first_link, first), (other, second) = loop.ends
         frames = [pose[link].after(at) for link, at in ((first_link, first), (other, second))]
         ends = [{"on": self.stands[link], "at": vector(f.at)} for (link, _), f in zip(loop.ends, frames, strict=True)]
@@ -154,7 +154,7 @@ class _UrdfScene:
         self.draft.constraint(loop.name, kind, loop.line, **fields)
 
     def _mimics(self) -> None:
-        """What joints mimic; one that does not move leaves nothing free."""
+        """Add what joints mimic; a leader that does not move leaves nothing free."""
         kinds = {joint.name: joint.kind for joint in self.robot.joints}
         for joint in self.robot.joints:
             if joint.mimic is None or joint.kind == FIXED:
@@ -202,15 +202,15 @@ def _rounded_angles(robot: Robot) -> Iterator[str]:
 
 
 def _written(robot: Robot) -> Iterator[str]:
-    """All that places something, as it is written."""
+    """Yield all positions and orientations as they are written."""
     for element in robot.root.every():
         yield from (element.attributes[key] for key in ("xyz", "rpy") if key in element.attributes)
 
 
 class Closure(NamedTuple):
-    """A joint that closes a loop, by its frames in the drawing as its two ends carry them; the axis is in the first.
+    """A joint that closes a loop, by its frames in the reference configuration; the axis is in the first.
 
-    ``turned``: the second frame is told with its axes; else only its place is.
+    ``turned``: the second frame has axes, and not only a position.
     """
 
     name: str
@@ -222,7 +222,7 @@ class Closure(NamedTuple):
     line: int
 
     def moved(self, size: float, tolerance: float) -> float | None:
-        """How far the joint has moved where it is drawn, 0 where no one number tells; None where it cannot be there.
+        """Return the joint value in the reference configuration, 0 for several; None where the ends do not meet.
 
         The drawing is right to within ``tolerance``, a fraction of its ``size``: lengths and angles to the last digit
         that is written, and places to what such angles move them by.
@@ -240,14 +240,14 @@ class Closure(NamedTuple):
         return along if self.kind == "prismatic" else 0.0
 
     def _twist(self, turn: Array, axis: Array) -> float:
-        """What the turn of one end against the other has that the joint does not allow."""
+        """Return the size of the relative rotation that the joint does not allow."""
         if self.kind in _BALLS:
             return 0.0
         return float(np.linalg.norm(turn @ axis - axis if self.kind in _TURNING else turn - np.eye(3)))
 
 
 def closures(robot: Robot, poses: Poses) -> Iterator[Closure]:
-    """The joints that close loops: those whose child hangs on another one, and those of extensions."""
+    """Yield the joints that close loops: those whose child another joint carries, and those of extensions."""
     for joint in poses.closing:
         if joint.kind != "floating":
             frame, child = poses.frame[joint.name], poses.pose[joint.child]
@@ -261,9 +261,9 @@ def closures(robot: Robot, poses: Poses) -> Iterator[Closure]:
 
 
 def drawn_joints(robot: Robot, poses: Poses, size: float, tolerance: float) -> tuple[dict[str, float], list[Fault]]:
-    """The angle or displacement of every joint in the drawing that is not 0, and what is at fault there.
+    """Return the joint values of the reference configuration that are not 0, and the faults there.
 
-    That are links which stand nowhere, and loops that are open.
+    The faults are links that no root carries, and loops that are open.
     """
     adrift = [name for name in robot.links if name not in poses.pose]
     if adrift:
@@ -288,7 +288,7 @@ def _short(values: Array) -> list[float | int]:
 
 
 def _open_mimics(robot: Robot, poses: Poses, drawn: Mapping[str, float], gap: float) -> Iterator[Fault]:
-    """Joints that close loops and stand elsewhere than where what they mimic, or what mimics them, lets them."""
+    """Yield a fault for each joint that closes a loop where what it mimics, or what mimics it, does not allow it."""
     closing = {joint.name for joint in poses.closing}
     for joint in robot.joints:
         mimic = joint.mimic
@@ -305,6 +305,6 @@ def _open_mimics(robot: Robot, poses: Poses, drawn: Mapping[str, float], gap: fl
 
 
 def _angle_about(turn: Array, axis: Array) -> float:
-    """The angle of a turn about the axis, right-handed."""
+    """Return the angle of a rotation about the axis, right-handed."""
     sine = float(axis @ np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])) / 2
     return math.atan2(sine, (float(np.trace(turn)) - 1) / 2)

@@ -34,7 +34,7 @@ class Read:
 
 
 def read_equations(answer: str | Sequence[str], names: Names, constants: bool) -> Read:
-    """The equations of an answer, one text each; ``constants``: undeclared names may be constants of integration.
+    """Return the equations of an answer, one text each; ``constants``: undeclared names may be constants.
 
     Raises TextError, its column counted within the answer (of several, within the one at fault).
     """
@@ -81,7 +81,7 @@ def _read(
 
 
 def _may_be_constant(name: str, names: Names) -> bool:
-    """Is it a short name of the student's own? ``x_A`` is none where x is declared: it is meant for a coordinate."""
+    """Return whether it is a short name of the student's own: ``x_A`` is none where x is declared."""
     stem, _, index = name.partition("_")
     declared = stem in names.coordinates or stem in names.parameters
     return bool(_CONSTANT.fullmatch(name)) and not (declared and index and not index.isdigit())
@@ -93,12 +93,12 @@ def _moved(error: TextError, before: int) -> TextError:
 
 
 def as_text(c: Comparison) -> str:
-    """A relation in the grammar of scenes."""
+    """Return a relation in the grammar of scenes."""
     return f"{to_text(c.left)} {c.relation} {to_text(c.right)}"
 
 
 def with_equations(scene: Scene, read: Read, called: str) -> Scene:
-    """The scene with the equations after its constraints; their names are ``called`` and a number from 1 on."""
+    """Return the scene with the equations after its constraints; their names are ``called`` and a number from 1 on."""
     more = tuple(Equation(name=f"{called} {i + 1}", text=text) for i, text in enumerate(read.texts))
     parameters = {**scene.parameters, **dict.fromkeys(read.constants, "real")}
     changes = {"constraints": (*scene.constraints, *more), "parameters": parameters, "expect": {}}

@@ -77,7 +77,7 @@ def meant_key(word: object, known: tuple[str, ...]) -> str | None:
 
 
 def suggestion(word: object, known: Sequence[str], what: str) -> str:
-    """A sentence that names the nearest of ``known``, or lists them."""
+    """Return a sentence that names the nearest of ``known``, or lists them."""
     near = meant_key(word, tuple(known)) if what == "keys" else nearest(word, known)
     if near is not None:
         return f"did you mean '{near}'?"
@@ -88,13 +88,13 @@ def suggestion(word: object, known: Sequence[str], what: str) -> str:
 
 
 def fault_error(message: str, hint: str | None = None, **context: Any) -> PydanticCustomError:
-    """An error for a validator to raise; ``hint`` travels in its context."""
+    """Return an error for a validator to raise; ``hint`` travels in its context."""
     details = {"message": message, **({"hint": hint} if hint else {}), **context}
     return PydanticCustomError(_OURS, "{message}", details)
 
 
 def faults_of(error: ValidationError) -> tuple[Fault, ...]:
-    """The faults of a validation error, each with its path as written."""
+    """Return the faults of a validation error, each with its path as written."""
     return tuple(
         Fault(
             detail["msg"],
@@ -169,7 +169,7 @@ def _text(value: object) -> str:
 
 
 def as_written(value: Fraction | str) -> str:
-    """A value as text: ``1/3``, but ``0.25`` where the decimals end.
+    """Return a value as text: ``1/3``, but ``0.25`` where the decimals end.
 
     >>> as_written(Fraction(-1, 4)), as_written(Fraction(1, 3))
     ('-0.25', '1/3')
@@ -189,7 +189,7 @@ def as_written(value: Fraction | str) -> str:
 
 
 def _number_out(value: Fraction | str) -> int | str:
-    """An integer stays one; other numbers are texts such as ``1/2``, which read back exactly."""
+    """Return an integer as it is, and any other number as a text such as ``1/2``, which reads back exactly."""
     if isinstance(value, str):
         return value
     return int(value) if value.denominator == 1 else str(value)
@@ -218,12 +218,12 @@ Vector = tuple[Value, ...]
 
 
 def listed(value: object) -> object:
-    """An empty YAML value (``particles:`` and nothing after it) as an empty list."""
+    """Return an empty YAML value (``particles:`` and nothing after it) as an empty list."""
     return () if value is None else value
 
 
 def named(value: object) -> object:
-    """A plain name as ``{name: ...}``."""
+    """Return a plain name as ``{name: ...}``."""
     return {"name": value} if isinstance(value, str) else value
 
 
@@ -259,7 +259,7 @@ _AS = {"a particle": "a name or a mapping", "a body": "a name or a mapping"}
 
 
 def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tuple[str, str | None]:
-    """One fault of Pydantic's in words for the person who wrote the scene, with a hint."""
+    """Return one fault of Pydantic's in words for the person who wrote the scene, with a hint."""
     kind, place = detail["type"], detail["loc"]
     context = detail.get("ctx") or {}
     if kind == "extra_forbidden":
@@ -288,7 +288,7 @@ def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tup
 
 
 def fault_at(place: tuple[int | str, ...], message: str, hint: str | None = None) -> ValidationError:
-    """An error for a validator to raise about something inside what it was given."""
+    """Return an error for a validator to raise about something inside what it was given."""
     detail = InitErrorDetails(type=fault_error(message, hint), loc=place, input=None)
     return ValidationError.from_exception_data("scene", [detail])
 
@@ -299,7 +299,7 @@ def retold(
     known: Sequence[str],
     place: Callable[[tuple[int | str, ...]], tuple[int | str, ...]] = lambda loc: loc,
 ) -> ValidationError:
-    """The same faults in our words, those that are already ours left as they are; ``place`` maps each path."""
+    """Return the same faults in our words, those that are already ours left as they are; ``place`` maps each path."""
     details = []
     for detail in error.errors(include_url=False):
         context = dict(detail.get("ctx") or {})
@@ -337,7 +337,7 @@ class WrittenModel(BaseModel):
 
     @classmethod
     def called(cls) -> str:
-        """What a message calls it: ``a particle``."""
+        """Return what a message calls it: ``a particle``."""
         name = cls.__name__.lower()
         return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
 
@@ -362,7 +362,7 @@ class TaggedUnion:
     advise: Callable[[object, Mapping[str, Any]], str | None] = lambda word, entry: None
 
     def validated(self, value: object, handler: ValidatorFunctionWrapHandler) -> Any:
-        """A member, its faults at paths free of the key. Raises as Pydantic's validators do."""
+        """Return a member, its faults at paths free of the key. Raises as Pydantic's validators do."""
         if isinstance(value, (dict, Mapping)):
             word = value.get(self.key)
             if word is not None and not isinstance(word, str):

@@ -217,7 +217,7 @@ def _in_form(key: str, part: Any) -> Any:
 
 
 def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
-    """A fault that says which field it is about, and what to do; ``value``: the document that it is about."""
+    """Return a fault that says which field it is about, and what to do; ``value``: the document that it is about."""
     message, keys = (
         re.sub(r"^Input should be (.*)", r"\1 is needed", fault.message),
         [key for key in fault.where if isinstance(key, str)],
@@ -270,7 +270,7 @@ def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
 
 
 def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:
-    """What to do about a key of a constraint that is another word for one which is given too."""
+    """Return what to do about a key of a constraint that is another word for one which is given too."""
     key = fault.where[-1] if fault.where and fault.message.startswith(UNKNOWN_KEY) else ""
     kind = _type_at(value, fault.where[1]) if fault.where[:1] == ("constraints",) and len(fault.where) == 3 else None
     meant = other_keys(kind).get(str(key)) if kind is not None else None
@@ -278,7 +278,7 @@ def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:
 
 
 def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
-    """What a direction is, where something else is given for one."""
+    """Return what a direction is, where something else is given for one."""
     if fault.where[-1:] != ("axis",) or "a list is needed" not in fault.message:
         return None
     letters = ("x", "x or y", "x, y or z")[dimension_of(value) - 1]
@@ -286,7 +286,7 @@ def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
 
 
 def _line(fault: Fault, hint: str, value: Mapping[str, Any]) -> str | None:
-    """A line that would work in the place of a fault: of a constraint, or of a key."""
+    """Return a line that would work in the place of a fault: of a constraint, or of a key."""
     where, d = fault.where, dimension_of(value)
     suggested = _SUGGESTED.fullmatch(hint)
     unknown = len(where) == 1 and fault.message.startswith(UNKNOWN_KEY) and not suggested
@@ -312,7 +312,7 @@ def _line(fault: Fault, hint: str, value: Mapping[str, Any]) -> str | None:
 
 
 def _likely(entry: Any, dimension: int) -> str:
-    """The first type of a dimension that has all the keys of an entry; an equation where none has."""
+    """Return the first type of a dimension that has all the keys of an entry; an equation where none has."""
     keys = set(entry) - {"type"} if isinstance(entry, Mapping) else set()
     able = [(kind, cls.model_fields.keys()) for kind, cls in TYPES.items() if dimension in cls.dimensions]
     named = (kind for kind, fields in able if keys and keys <= fields)
@@ -326,7 +326,7 @@ def _entry_at(value: Mapping[str, Any], index: object) -> Any:
 
 
 def _type_at(value: Mapping[str, Any], index: object) -> str | None:
-    """The type of a constraint of a document, where it is one."""
+    """Return the type of a constraint of a document, where it is one."""
     entry = _entry_at(value, index)
     kind = entry.get("type") if isinstance(entry, Mapping) else None
     return kind if isinstance(kind, str) and kind in TYPES else None

@@ -103,14 +103,14 @@ class Vocabulary:
 
 
 def vocabulary_of(scene: Declarations) -> Vocabulary:
-    """The names of a scene, read from what it declares."""
+    """Return the names of a scene, read from what it declares."""
     table = coordinate_table(scene)
     parameters, signs, faults = _parameters(scene)
     return Vocabulary(table, parameters, signs, ParsedTexts(_declared_names(scene, table, parameters)), faults)
 
 
 def _parameters(scene: Declarations) -> tuple[dict[str, Expr], dict[str, Sign], tuple[Fault, ...]]:
-    """What every parameter stands for, the signs of those that stay symbols, and the faults of their values.
+    """Return what every parameter stands for, the signs of those that stay symbols, and the faults of their values.
 
     A value may mention the parameters declared before it.
     """
@@ -149,7 +149,7 @@ def _declared_names(scene: Declarations, table: NameTable, parameters: Mapping[s
 
 
 def within_member(names: Names, letters: tuple[str, ...]) -> Names:
-    """The same names with ``letters`` standing for a member's coordinates, whatever else they may be."""
+    """Return the same names with ``letters`` standing for a member's coordinates, whatever else they may be."""
     own_names = frozenset(letters)
     return Names(
         coordinates=names.coordinates | own_names,
@@ -164,7 +164,7 @@ Entry = tuple[str, str, tuple[str | int, ...]]
 
 
 def name_faults(scene: Declarations, table: NameTable) -> tuple[Fault, ...]:
-    """A fault for every name that is reserved, cannot be read in a text, is repeated or clashes."""
+    """Return a fault for every name that is reserved, cannot be read in a text, is repeated or clashes."""
     ledger = Ledger()
     _check_owners(scene, ledger)
     entries = [*_owned(scene, table), *_further(scene)]
@@ -270,7 +270,7 @@ def _check_derived(entries: list[Entry], seen: Mapping[str, str], ledger: Ledger
 
 
 def _rates(name: str) -> Iterator[tuple[str, str]]:
-    """What a name is the differential, the velocity or the acceleration of."""
+    """Yield what a name is the differential, the velocity or the acceleration of."""
     if name.startswith("d"):
         yield name[1:], "differential"
     if name.endswith("dot"):

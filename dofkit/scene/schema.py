@@ -23,12 +23,12 @@ _CONSTRAINT = "Constraint"
 
 
 def identified(schema: Mapping[str, Any], name: str) -> dict[str, Any]:
-    """A schema that says which dialect of JSON Schema it is in, and which schema it is."""
+    """Return a schema that says which dialect of JSON Schema it is in, and which schema it is."""
     return {"$schema": DIALECT, "$id": f"urn:dofkit:schema:{name}", **schema}
 
 
 def scene_schema() -> dict[str, Any]:
-    """The schema of a scene's file, with the other words that are read."""
+    """Return the schema of a scene's file, with the other words that are read."""
     schema = Scene.model_json_schema()
     definitions = schema["$defs"]
     for cls in TYPES.values():
@@ -43,7 +43,7 @@ def scene_schema() -> dict[str, Any]:
 
 
 def told_by_type(schema: Any) -> Any:
-    """A schema in which every union is told apart by the kind of JSON value."""
+    """Return a schema in which every union is told apart by the kind of JSON value."""
     if isinstance(schema, list):
         return [told_by_type(part) for part in schema]
     if not isinstance(schema, dict):
@@ -54,7 +54,7 @@ def told_by_type(schema: Any) -> Any:
 
 
 def _union(branches: list[dict[str, Any]]) -> dict[str, Any]:
-    """One schema for several, of which each takes another kind of JSON values."""
+    """Return one schema for several, of which each takes another kind of JSON values."""
     kinds = [_kinds(branch) for branch in branches]
     if len({kind for group in kinds for kind in group}) < sum(map(len, kinds)):
         return {"anyOf": branches}
@@ -70,13 +70,13 @@ def _union(branches: list[dict[str, Any]]) -> dict[str, Any]:
 
 
 def _kinds(branch: Mapping[str, Any]) -> list[str]:
-    """The kinds of JSON values that a schema takes; what it refers to is an object."""
+    """Return the kinds of JSON values that a schema takes; what it refers to is an object."""
     kinds = branch.get("type", "object" if "$ref" in branch else "any")
     return [kinds] if isinstance(kinds, str) else list(kinds)
 
 
 def _any_constraint() -> dict[str, Any]:
-    """A text, or a mapping of which its `type` says the keys."""
+    """Return a text, or a mapping of which its `type` says the keys."""
     words: dict[str, list[str]] = {kind: [kind] for kind in TYPES}
     for word, kind in synonyms().items():
         words[kind].append(word)
@@ -106,7 +106,7 @@ def _any_constraint() -> dict[str, Any]:
 
 
 def _with_other_words(schema: dict[str, Any], kind: str) -> dict[str, Any]:
-    """The schema of a type with the other words for it and for its keys."""
+    """Return the schema of a type with the other words for it and for its keys."""
     properties = dict(schema["properties"])
     words = [kind, *(word for word, meant in synonyms().items() if meant == kind)]
     properties["type"] = {key: part for key, part in properties["type"].items() if key != "const"} | {"enum": words}
@@ -133,5 +133,5 @@ def _moved(schema: Mapping[str, Any], others: Mapping[str, str]) -> Iterator[tup
 
 
 def _with_letters(vector: Mapping[str, Any]) -> dict[str, Any]:
-    """The schema of a direction that may also be a letter, such as ``-z``."""
+    """Return the schema of a direction that may also be a letter, such as ``-z``."""
     return {**vector, "anyOf": [*vector["anyOf"], _AXIS]}

@@ -39,7 +39,7 @@ class StandardWords(NamedTuple):
     places: Mapping[Path, Path]
 
     def written(self, where: Path) -> Path:
-        """A path in the standard words as a path of what was written."""
+        """Return a path in the standard words as a path of what was written."""
         for size in range(len(where), 0, -1) if self.places else ():
             origin = self.places.get(where[:size])
             if origin is not None:
@@ -48,7 +48,7 @@ class StandardWords(NamedTuple):
 
 
 def standard_words(value: Mapping[str, Any]) -> StandardWords:
-    """A scene's document with the words that people use replaced by the standard ones; nothing given is changed.
+    """Return a scene's document with the words that people use replaced by the standard ones; nothing given is changed.
 
     >>> standard_words({"joints": [{"type": "pin", "between": ["ground", "a"], "axis": "z"}]}).value
     {'constraints': [{'type': 'revolute', 'between': ['ground', 'a'], 'axis': [0, 0, 1]}]}
@@ -70,7 +70,7 @@ def standard_words(value: Mapping[str, Any]) -> StandardWords:
 
 
 def dimension_of(value: Mapping[str, Any]) -> int:
-    """The dimension that a document gives, 3 where it gives none that is one."""
+    """Return the dimension that a document gives, 3 where it gives none that is one."""
     dimension = value.get("dimension", 3)
     return int(dimension) if not isinstance(dimension, str) and dimension in (1, 2, 3) else 3
 
@@ -210,5 +210,5 @@ def standard_name(name: str) -> str:
 
 
 def with_plain_subscripts(text: str) -> str:
-    """A text with its subscript digits as ``_1``."""
+    """Return a text with its subscript digits as ``_1``."""
     return _BELOW.sub(lambda match: "_" + "".join(SUBSCRIPTS[digit] for digit in match[1]), text)

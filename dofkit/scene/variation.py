@@ -49,7 +49,7 @@ class Replacement(NamedTuple):
 
 
 def length_in_motion(written: Mapping[str, Any], names: NamesAtHand) -> Replacement | None:
-    """The same constraint with its `length` drawn in at a steady speed, or at rest where it was so."""
+    """Return the same constraint with its `length` drawn in at a steady speed, or at rest where it was so."""
     length = written.get("length")
     if length is None:
         return None
@@ -64,7 +64,7 @@ def length_in_motion(written: Mapping[str, Any], names: NamesAtHand) -> Replacem
 
 
 def angle_for_turning(text: str, names: NamesAtHand) -> tuple[str, str, str] | None:
-    """A text with `omega t`: (with an angle instead, the rate, the angle); None where time enters otherwise."""
+    """Return a text with `omega t`: (with an angle instead, the rate, the angle); None where time enters otherwise."""
     rates_in_text = re.findall(r"\b([^\W\d]\w*)\s*\*?\s*\bt\b", text)
     rates = set(rates_in_text) & set(names.parameters)
     if len(rates) != 1 or len(rates_in_text) != len(re.findall(r"\bt\b", text)):

@@ -23,7 +23,7 @@ LinearRow = dict[int, Any]
 
 
 def combined(parts: Iterable[tuple[Any, Mapping[int, Any]]]) -> LinearRow:
-    """The sum of numbers times rows."""
+    """Return the sum of numbers times rows."""
     total: LinearRow = {}
     for factor, row in parts:
         for c, v in row.items():
@@ -32,12 +32,12 @@ def combined(parts: Iterable[tuple[Any, Mapping[int, Any]]]) -> LinearRow:
 
 
 def along(direction: Numbers, rows: Sequence[LinearRow]) -> LinearRow:
-    """The component along a direction of a vector of rows."""
+    """Return the component along a direction of a vector of rows."""
     return combined(zip(direction, rows, strict=True))
 
 
 def across(direction: Numbers, rows: Sequence[LinearRow]) -> Iterator[LinearRow]:
-    """The d - 1 components across a direction of a vector of rows."""
+    """Return the d - 1 components across a direction of a vector of rows."""
     return (along(u, rows) for u in spanning(direction))
 
 
@@ -82,7 +82,7 @@ def sparse(rows: Iterable[Sequence[Any]]) -> list[SparseRow]:
 
 
 def transposed(rows: Sequence[Mapping[int, int]], columns: int) -> list[SparseRow]:
-    """The columns as rows."""
+    """Return the columns as rows."""
     columns_as_rows: list[SparseRow] = [{} for _ in range(columns)]
     for i, row in enumerate(rows):
         for c, v in row.items():
@@ -106,7 +106,7 @@ class Echelon:
 
 
 def echelon(rows: Sequence[Mapping[int, int]], p: int, supports: bool = False) -> Echelon:
-    """The greedy basis of the rows over GF(p)."""
+    """Return the greedy basis of the rows over GF(p)."""
     weight = Counter(c for row in rows for c in row)
     alone = private(rows)
     reduction = _Reduction(p, weight)
@@ -203,7 +203,7 @@ def vector_in_kernel(rows: Sequence[Mapping[int, int]], p: int, rng: random.Rand
 
 
 def rank_of_rows(rows: Sequence[Mapping[int, int]], p: int) -> int:
-    """The rank over GF(p)."""
+    """Return the rank over GF(p)."""
     return echelon(rows, p).rank
 
 
@@ -247,7 +247,7 @@ class _Reduction:
         self._of: dict[int, int] = {}
 
     def reduced(self, row: Mapping[int, int]) -> tuple[SparseRow, SparseRow]:
-        """What is left of a row, and the multiples of pivot rows that were taken from it."""
+        """Return what is left of a row, and the multiples of pivot rows that were taken from it."""
         p, of, work, used = self.p, self._of, dict(row), SparseRow()
         pending = [of[c] for c in work if c in of]
         heapify(pending)
@@ -284,7 +284,7 @@ class _Reduction:
         self._sources.append((row, inverse, used))
 
     def solved(self, right: Sequence[int]) -> list[int]:
-        """The solution of as many equations as there are columns, all of them pivots, with this right side."""
+        """Return the solution of as many equations as there are columns, all of them pivots, with this right side."""
         p, reduced = self.p, list[int]()
         for row, inverse, used in self._sources:
             taken = sum(factor * reduced[k] for k, factor in used.items())
@@ -340,7 +340,7 @@ class FactoredMatrix:
             self._found.add(i, rest, used)
 
     def solve(self, right: Sequence[int]) -> list[int]:
-        """The x with A x = ``right``: what was done to the rows is done to it, then the pivots backwards."""
+        """Return the x with A x = ``right``: what was done to the rows is done to it, then the pivots backwards."""
         return self._found.solved(right)
 
 
@@ -353,5 +353,5 @@ def rank_of(matrix: Sequence[Sequence[Any]], p: int) -> int:
 
 
 def without_time(rows: Sequence[SparseRow], n: int) -> list[SparseRow]:
-    """The first n columns."""
+    """Return the first n columns."""
     return [{c: v for c, v in row.items() if c < n} for row in rows]

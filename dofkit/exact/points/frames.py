@@ -30,7 +30,7 @@ class FormRows:
     columns: tuple[int, ...]
 
     def matrix(self, at: Sequence[Scalar], zero: Scalar) -> list[list[Scalar]]:
-        """The coefficients at a point, rows x columns."""
+        """Return the coefficients at a point, rows x columns."""
         n = len(self.columns)
         return [[at[row[c]] if c in row else zero for c in range(n)] for row in self.entries]
 
@@ -45,7 +45,7 @@ class Pivots:
 
 
 def field_frame(matrix: list[list[nmod]], n: int, p: int) -> Pivots:
-    """The first independent rows in order, and columns solved for (the last ones where there is a choice)."""
+    """Return the first independent rows in order, and columns solved for (the last ones where there is a choice)."""
     if not matrix or not n:
         return Pivots((), (), tuple(range(n)))
     rows = pivots(nmod_mat([[int(v) for v in column] for column in zip(*matrix, strict=True)], p))
@@ -55,7 +55,7 @@ def field_frame(matrix: list[list[nmod]], n: int, p: int) -> Pivots:
 
 
 def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Pivots:
-    """The same for rows without their zeros."""
+    """Return the same for rows without their zeros."""
     kept = echelon(rows, p).independent
     dependent = last_columns([rows[i] for i in kept], n, p)
     solved = set(dependent)
@@ -63,7 +63,7 @@ def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Pivots:
 
 
 def pivots(matrix: nmod_mat) -> list[int]:
-    """The pivot columns of a matrix over GF(p)."""
+    """Return the pivot columns of a matrix over GF(p)."""
     reduced, rank = matrix.rref()
     columns, column = [], 0
     for r in range(rank):
@@ -75,7 +75,7 @@ def pivots(matrix: nmod_mat) -> list[int]:
 
 
 def certified_rank(rows: Sequence[Sequence[arb]]) -> int:
-    """A lower bound of a ball matrix's rank that is proved: elimination with pivots whose balls exclude 0."""
+    """Return a lower bound of a ball matrix's rank that is proved: elimination with pivots whose balls exclude 0."""
     return ball_part(rows).rank
 
 
@@ -131,7 +131,7 @@ def _invertible(value: Any) -> bool:
 
 
 def rank_over(vectors: Sequence[Sequence[Scalar]], sample: Scalar) -> int:
-    """The rank over GF(p), or a certified lower bound with balls, by the kind of ``sample``."""
+    """Return the rank over GF(p), or a certified lower bound with balls, by the kind of ``sample``."""
     if not vectors:
         return 0
     if isinstance(sample, nmod):
@@ -140,7 +140,7 @@ def rank_over(vectors: Sequence[Sequence[Scalar]], sample: Scalar) -> int:
 
 
 def pairing(row: Sequence[Scalar], vectors: Sequence[Sequence[Scalar]]) -> list[Scalar]:
-    """The values of a form on vectors."""
+    """Return the values of a form on vectors."""
     values = []
     for vector in vectors:
         total = row[0] * vector[0] if row else 0

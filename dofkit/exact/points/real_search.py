@@ -104,7 +104,7 @@ class RealSearch:
         starts: int = STARTS,
         steps: int = ITERATIONS,
     ) -> RealPoint | None:
-        """The first certified point found, else any; ``given`` values of symbols are where the search begins."""
+        """Return the first certified point found, else any; ``given`` values of symbols are where the search begins."""
         singular: RealPoint | None = None
         tries = 0
         for attempt in range(starts):
@@ -197,7 +197,7 @@ class RealSearch:
         return other if other is not None and other.certified and other.consistent else refined
 
     def _part_at(self, symbols: Mapping[Expr, float], seed: int) -> PivotedPart | None:
-        """A regular part of the Jacobian exactly at a point near the zero set; None for large ones."""
+        """Return a regular part of the Jacobian exactly at a point near the zero set; None for large ones."""
         if len(self.nodes) ** 2 * len(self.columns) > ORDERED:
             return None
         point = BallPoint({s: arb(v) for s, v in symbols.items()}, seed)
@@ -265,7 +265,7 @@ class RealSearch:
 
 
 def at_another_time(search: RealSearch, seed: int = 0) -> RealPoint | None:
-    """A certified point at a moment that is looked for with it, early or late.
+    """Return a certified point at a moment that is looked for with it, early or late.
 
     x^2 + y^2 = t, x y = sin(t) have none before t = 1.9.
     """

@@ -56,7 +56,7 @@ class Series:
         return total
 
     def inverse(self) -> Series:
-        """1/self; raises PoleError where the constant term is 0."""
+        """Return 1/self; raises PoleError where the constant term is 0."""
         if not self.invertible:
             raise PoleError("a series without constant term has no inverse")
         if isinstance(self.poly, nmod_poly):
@@ -92,7 +92,7 @@ class Series:
         return Series(self.poly.derivative(), self.order)
 
     def integral(self, constant: Scalar) -> Series:
-        """The antiderivative with the given constant term, to the same order."""
+        """Return the antiderivative with the given constant term, to the same order."""
         poly = self.poly.integral()
         return Series(_truncate(poly, self.order) + constant, self.order)
 
@@ -225,17 +225,17 @@ def _multi_indices(n: int, total: int) -> list[tuple[int, ...]]:
 
 
 def series_values(ring: Ring, point: SeriesPoint) -> list[Series]:
-    """Every instruction of the program as a series."""
+    """Return every instruction of the program as a series."""
     return values(ring, point)
 
 
 def zero_poly(base: Point, sample: Scalar) -> Any:
-    """The zero polynomial over the numbers that ``sample`` belongs to."""
+    """Return the zero polynomial over the numbers that ``sample`` belongs to."""
     return nmod_poly([0], sample.modulus()) if isinstance(sample, nmod) else arb_poly([])
 
 
 def monomial(like: Any) -> Any:
-    """The polynomial s, of the kind of ``like``."""
+    """Return the polynomial s, of the kind of ``like``."""
     return nmod_poly([0, 1], like.modulus()) if isinstance(like, nmod_poly) else arb_poly([0, 1])
 
 
@@ -255,7 +255,7 @@ class RandomCurve(SeriesPoint):
         self._drawn: dict[tuple[str, object], Series] = {}
 
     def generator(self, var: Var, args: Sequence[Series]) -> Series:
-        """The series of a generator; the first time it is drawn."""
+        """Return the series of a generator; the first time it is drawn."""
         name = (var.kind, var.key)
         series = self._drawn.get(name)
         if series is None:

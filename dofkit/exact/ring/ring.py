@@ -87,7 +87,7 @@ _COSINES = tuple(
 
 
 def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) -> dict[tuple[str, Expr], int]:
-    """For every basic angle or exponent, the common denominator of its multiples."""
+    """Return for every basic angle or exponent, the common denominator of its multiples."""
     denominators: dict[tuple[str, Expr], int] = {}
     for node in _with_functions(expressions):
         family = _family(node) if node.op in ("fn", "pow") else None
@@ -102,7 +102,7 @@ def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) ->
 
 
 def _with_functions(expressions: Iterable[Expr]) -> set[Expr]:
-    """Every node in which a function occurs."""
+    """Return every node in which a function occurs."""
     nodes: set[Expr] = set()
     left = [e for e in expressions if e.functions]
     while left:
@@ -150,7 +150,7 @@ class Ring(Instructions):
         return made
 
     def node(self, e: Expr) -> int:
-        """The number of the instruction that computes ``e``; raises PoleError where it divides by 0."""
+        """Return the number of the instruction that computes ``e``; raises PoleError where it divides by 0."""
         number = self._memo.get(e)
         if number is None:
             op = e.op
@@ -223,13 +223,13 @@ class Ring(Instructions):
 
     @property
     def related(self) -> bool:
-        """Are there functions of one argument and of so large a multiple of it that neither is told by the other?"""
+        """True where a function occurs of an argument and of a large multiple of it, as generators apart."""
         arguments = {(v.kind, v.key[0]) for v in self.vars if v.kind in ("exp", "cos")}
         bases = [(kind, self._bases.get(rest, rest)) for kind, rest in arguments]
         return len(set(bases)) < len(bases)
 
     def _large_multiple(self, rest: Expr, size: Fraction) -> Expr:
-        """A multiple that is an argument of its own."""
+        """Return a multiple that is an argument of its own."""
         multiple = Expr("mul", (ex.num(size), rest))
         self._bases[multiple] = rest
         return multiple
@@ -251,7 +251,7 @@ class Ring(Instructions):
         return self.product(*parts) if parts else self.number(1)
 
     def _cis(self, u: Expr) -> tuple[int, int]:
-        """(cos u, sin u) as polynomials in those of the basic angles."""
+        """Return (cos u, sin u) as polynomials in those of the basic angles."""
         turn = self._turns.get(u)
         if turn is None:
             turn = self._turns[u] = self._turn(u)

@@ -106,7 +106,7 @@ _MEMORY = 20_000
 
 
 def unmarked(name: str) -> str:
-    """``name`` spelled out, in small letters and without `_`."""
+    """Return ``name`` spelled out, in small letters and without `_`."""
     return spelled(name).replace("_", "").lower()
 
 
@@ -191,7 +191,7 @@ class Lookup:
         return self._time_derivative(match[1] + (match[3] or ""), 1 if match[2] == "dot" else 2)
 
     def _time_derivative(self, word: str, order: int) -> Meaning | None:
-        """The ``order``-th derivative by time of the declared ``word``; -1 for its differential."""
+        """Return the ``order``-th derivative by time of the declared ``word``; -1 for its differential."""
         base = self._declared.get(word)
         if base is None:
             return None
@@ -205,7 +205,7 @@ class Lookup:
 
 
 def derivative(name: str, order: int) -> Expr | None:
-    """The coordinate ``name``, its velocity or acceleration, or (-1) its differential."""
+    """Return the coordinate ``name``, its velocity or acceleration, or (-1) its differential."""
     if order == -1:
         return differential(name)
     if order == 0:
@@ -283,7 +283,7 @@ class Pattern(NamedTuple):
 
 
 def pattern_of(text: str, lookup: Lookup) -> Pattern | None:
-    """The pattern of a text; None where it has to be read by itself."""
+    """Return the pattern of a text; None where it has to be read by itself."""
     if len(text) > LONGEST or _UNUSUAL.search(text):
         return None
     parts: list[Hashable] = list(_WORDS.split(text))
@@ -303,7 +303,7 @@ def pattern_of(text: str, lookup: Lookup) -> Pattern | None:
 
 
 def _moving(meaning: Meaning) -> tuple[str, str] | None:
-    """The kind of a symbol that is called by a coordinate, and that name; None of another meaning."""
+    """Return the kind of a symbol that is called by a coordinate, and that name; None of another meaning."""
     e = meaning.expr
     if e is None or e.op != "sym" or e.args[0] not in MOVING:
         return None

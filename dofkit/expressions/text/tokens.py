@@ -109,7 +109,7 @@ _WRONG: dict[str, tuple[str, str]] = {
 
 
 def tokenize(text: str, lookup: Lookup) -> Tokens:
-    """The tokens of ``text``; TextError at the first thing that is none."""
+    """Return the tokens of ``text``; TextError at the first thing that is none."""
     if not isinstance(text, str):
         raise TextError(f"a text is needed, not {type(text).__name__}", 1, "put it in quotes")
     if (size := len(text)) > MAX_CHARACTERS:
@@ -189,7 +189,7 @@ def _motion(word: str, text: str, start: int, lookup: Lookup, columns: Sequence[
 
 
 def _in_degrees(tokens: list[Token], start: int, end: int, columns: Sequence[int]) -> Token:
-    """The number that stands before a sign of degrees, times pi/180."""
+    """Return the number that stands before a sign of degrees, times pi/180."""
     before = tokens[-1] if tokens else None
     if before is None or before.kind != "number" or before.expr is None or before.expr.op != "num":
         hint = "write `60°`; write anything else than a number as `theta*pi/180`"
@@ -210,7 +210,7 @@ def _check_size(tokens: list[Token], columns: Sequence[int]) -> None:
 
 
 def _other(match: re.Match[str], columns: Sequence[int], text: str, lookup: Lookup) -> Token:
-    """A number, primes, superscript digits, or the end."""
+    """Return a number, primes, superscript digits, or the end."""
     kind = match.lastgroup or ""
     written, (start, end) = match[kind], match.span(kind)
     column = columns[start]
@@ -251,7 +251,7 @@ def _check_number(digits: str, text: str, end: int, column: int, lookup: Lookup)
 
 
 def _number(digits: str, column: int) -> Fraction:
-    """The exact value of a decimal."""
+    """Return the exact value of a decimal."""
     whole, rest, power = _PARTS.findall(digits)[0]
     if (size := len(whole) + len(rest)) > MAX_DIGITS:
         hint = "write fewer digits, or a fraction"

@@ -52,7 +52,7 @@ class ConstraintBase(WrittenModel):
 
     @classmethod
     def kind(cls) -> str:
-        """Its ``type``, as written."""
+        """Return its ``type``, as written."""
         return _kind(cls)
 
     @classmethod
@@ -61,11 +61,11 @@ class ConstraintBase(WrittenModel):
 
     @classmethod
     def example(cls, dimension: int) -> str:
-        """One line that would work in a scene of that dimension, or in another where it works in none of this."""
+        """Return one line that would work in a scene of that dimension, or else in another."""
         return cls.examples.get(dimension) or cls.examples[max(cls.examples)]
 
     def relations(self, world: World) -> Iterable[Relation]:
-        """Its scalar relations; faults go to the world."""
+        """Yield its scalar relations; faults go to the world."""
         raise NotImplementedError
 
     def notes(self, world: World) -> Iterator[str]:
@@ -74,11 +74,11 @@ class ConstraintBase(WrittenModel):
         yield from ()
 
     def texts(self) -> Iterator[str]:
-        """Its texts that may mention coordinates."""
+        """Yield its texts that may mention coordinates."""
         yield from ()
 
     def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
-        """What may stand in its place on another student's sheet."""
+        """Yield what may stand in its place on another student's sheet."""
         del names
         yield from ()
 
@@ -94,7 +94,7 @@ class ConstraintBase(WrittenModel):
         return dict(entry)
 
     def written(self) -> dict[str, Any]:
-        """Its fields as they are written."""
+        """Return its fields as they are written."""
         return self.model_dump(mode="json", exclude_none=True)
 
     @property
@@ -109,7 +109,7 @@ def _kind(cls: type[ConstraintBase]) -> str:
 
 
 def component_relations(vector: Vec, label: str = "{}", about: Vec = ()) -> Iterator[Relation]:
-    """One relation a component, named ``x``, ``y``, ``z`` within ``label``."""
+    """Yield one relation a component, named ``x``, ``y``, ``z`` within ``label``."""
     for letter, part in zip("xyz", vector, strict=False):
         yield Relation(part, part=label.format(letter), vector=about)
 
@@ -128,13 +128,13 @@ def meet(world: World, first: Placed, second: Placed, *where: str | int) -> None
 
 
 def figures(position: Vec | None) -> str:
-    """A position in figures."""
+    """Return a position in figures."""
     components = [approximate(part) for part in position or ()]
     return "(" + ", ".join("?" if part is None else f"{part:.6g}" for part in components) + ")"
 
 
 def root(squared: Expr) -> float | None:
-    """The square root in figures, where it is a number."""
+    """Return the square root in figures, where it is a number."""
     value = approximate(squared)
     return None if value is None or value < 0 else float(value**0.5)
 
@@ -161,7 +161,7 @@ class Equation(ConstraintBase):
         yield self.text
 
     def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
-        """Where it turns at a steady rate: the same at rest."""
+        """Yield the same at rest, where it turns at a steady rate."""
         resting = angle_for_turning(self.text, names)
         if resting is not None:
             text, rate, angle = resting
@@ -173,7 +173,7 @@ class Equation(ConstraintBase):
 
 
 def as_equation(value: object) -> object:
-    """A constraint as it may be written; a plain text is an equation."""
+    """Return a constraint as a mapping where it is a plain text, which is an equation."""
     return {"type": Equation.kind(), "text": value} if isinstance(value, str) else value
 
 

@@ -140,7 +140,7 @@ class DrawnContact(NamedTuple):
 
 
 def _drawn(profile: Expr, frame: Frame, place: Vec) -> DrawnContact:
-    """The profile where a point is drawn."""
+    """Return the profile where a point is drawn."""
     turn = _rotation(frame.initial[0]) if frame.initial else None
     arm = minus(place, frame.start)
     coordinates = arm if turn is None else apply(transposed(turn), arm)

@@ -34,7 +34,7 @@ MOST_TURNS = 8
 
 
 def _coupling_rows(at: Kinematics) -> Iterator[VelocityRow]:
-    """The sum over the joints of the slope of the relation by each, times its rate."""
+    """Yield the sum over the joints of the slope of the relation by each, times its rate."""
     if at.parts:
         yield combined([(factor, rate(part)) for rate, factor, part in at.parts])
 
@@ -115,7 +115,7 @@ class Coupling(ConstraintBase):
             yield Relation(_in_turns(e, measured) or _in_arcs(e, measured), sense)
 
     def _within_half_turns(self, world: World, bounds: Sequence[Expr], measured: Mapping[Expr, MeasuredJoint]) -> bool:
-        """Whether bounds on an angle of space lie where it is counted, within half a turn of the drawing; else a fault.
+        """Return whether bounds on an angle of space lie within half a turn of the reference; else record a fault.
 
         Beyond that they would hold nowhere, and a hinge does turn there.
         """
@@ -128,18 +128,18 @@ class Coupling(ConstraintBase):
             return False
         for letter, joint in measured.items():
             low, high = _bounds_of(letter, bounds) if joint.axis is not None and joint.measure.turns else (-inf, inf)
-            if _told_by_arcs(low, high):
+            if _stated_by_arcs(low, high):
                 continue
             hint = "choose a reference configuration nearer to the middle of its range"
             turns = 2 * pi * round((low + high) / (4 * pi)) if isfinite(low + high) else 0.0
-            if turns and _told_by_arcs(low - turns, high - turns):
+            if turns and _stated_by_arcs(low - turns, high - turns):
                 hint = f"subtract whole turns: `{low - turns:.6g} <= {letter.args[1]} <= {high - turns:.6g}`"
             world.fault(message, "text", hint=hint)
             return False
         return True
 
     def _measured(self, world: World) -> dict[Expr, MeasuredJoint] | None:
-        """What every letter stands for; None after a fault, or where a joint itself is at fault."""
+        """Return what every letter stands for; None after a fault, or where a joint itself is at fault."""
         before = len(world.faults)
         joints = {coordinate(letter): self._joint(world, letter, name) for letter, name in self.lettered.items()}
         measured = {letter: joint for letter, joint in joints.items() if joint is not None}
@@ -167,7 +167,7 @@ class Coupling(ConstraintBase):
         return None if measured is None else measured._replace(name=f"{name}.{what}")
 
     def _located(self, world: World, letter: str, joint: Axial, measure: Measure) -> MeasuredJoint | None:
-        """The joint where it is drawn."""
+        """Return the joint where it is drawn."""
         planar = world.dimension == 2 and measure.turns
         if any(end not in world.frames and end != world.ground.name for end in joint.between):
             return None
@@ -228,7 +228,7 @@ class MeasuredJoint(NamedTuple):
         return self.measure.value(self.first, self.second, self.place, self.axis)
 
     def rate(self, slope: Expr) -> JointRate:
-        """How its rate enters where the relation has that slope."""
+        """Return how its rate enters where the relation has that slope."""
         size = ONE if self.axis is None else length(self.axis.vector)
         return JointRate(
             self.name,
@@ -242,7 +242,7 @@ class MeasuredJoint(NamedTuple):
         )
 
     def half(self) -> tuple[Expr, Expr] | None:
-        """The cosine and sine of half its angle up to a positive factor; None for what is no angle of Gibbs charts."""
+        """Return cosine and sine of half its angle up to a positive factor; None for no angle of Gibbs charts."""
         turned = relative(self.first, self.second) if self.axis is not None and self.measure.turns else None
         if turned is None or self.axis is None:
             return None
@@ -250,7 +250,7 @@ class MeasuredJoint(NamedTuple):
 
 
 def _most(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> float:
-    """The most that a sum of several angles of space can be, each at most pi; of anything else no bound."""
+    """Return the most that a sum of several angles of space can be, each at most pi; of anything else no bound."""
     slopes = {letter: approximate(diff(e, letter)) for letter in measured}
     moving = [letter for letter, slope in slopes.items() if slope != 0]
     at = approximate(substitute(e, dict.fromkeys(measured, ZERO)))
@@ -260,8 +260,8 @@ def _most(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> float:
     return at + pi * sum(abs(slope or 0.0) for slope in slopes.values())
 
 
-def _told_by_arcs(low: float, high: float) -> bool:
-    """Do bounds say of an angle between -pi and pi what they say of the same angle counted on?"""
+def _stated_by_arcs(low: float, high: float) -> bool:
+    """Return whether bounds state of an angle between -pi and pi what they state of the angle counted on."""
     if not isfinite(low + high):
         return low < pi and high > -pi
     return (-pi <= low and high <= pi) or (low <= -pi and high >= pi)
@@ -278,18 +278,18 @@ def _bounds_of(letter: Expr, relations: Sequence[Expr]) -> tuple[float, float]:
 
 
 def _split(written: str, entries: Mapping[str, object]) -> tuple[str, str]:
-    """The joint's name, and what of it is meant."""
+    """Return the joint's name, and what of it is meant."""
     name, dot_, what = written.rpartition(".")
     return (name, what) if dot_ and written not in entries else (written, "")
 
 
 def _in_arcs(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr:
-    """The relation with every angle as an arc."""
+    """Return the relation with every angle as an arc."""
     return substitute(e, {letter: joint.value for letter, joint in measured.items()})
 
 
 def _in_turns(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr | None:
-    """A homogeneous linear relation of angles of space with small whole factors, without arcs: Im prod z^k."""
+    """Return a homogeneous linear relation of angles of space with small whole factors, without arcs: Im prod z^k."""
     terms = linear_terms(e)
     halves = {letter: measured[letter].half() for letter in terms if letter in measured}
     if len(halves) < len(terms) or any(half is None for half in halves.values()):
@@ -307,14 +307,14 @@ def _in_turns(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr | None:
 
 
 def _product(a: tuple[Expr, Expr], b: tuple[Expr, Expr]) -> tuple[Expr, Expr]:
-    """Of complex numbers."""
+    """Return the product of two complex numbers."""
     if is_zero((a[1],)):
         return mul(a[0], b[0]), mul(a[0], b[1])
     return difference(mul(a[0], b[0]), mul(a[1], b[1])), mul(a[0], b[1]) + mul(a[1], b[0])
 
 
 def _whole(factors: Sequence[Fraction]) -> list[int]:
-    """The same ratios in the smallest integers."""
+    """Return the same ratios in the smallest integers."""
     below = lcm(*(f.denominator for f in factors))
     above = [int(f * below) for f in factors]
     common = gcd(*above)

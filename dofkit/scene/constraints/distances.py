@@ -69,7 +69,7 @@ class Link(ConstraintBase):
 
     @classmethod
     def offers(cls, names: NamesAtHand, known: Sequence[Mapping[str, Any]]) -> Iterator[Mapping[str, Any]]:
-        """A link between two particles that have none, where others have."""
+        """Yield a link between two particles that have none, where others have."""
         pairs = [
             frozenset(entry["between"]) for entry in known if entry.get("type") == cls.kind() and _between_names(entry)
         ]
@@ -79,7 +79,7 @@ class Link(ConstraintBase):
                 yield {"type": cls.kind(), "between": list(pair)}
 
     def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
-        """Its length in motion, or the place in the world that it hangs on."""
+        """Yield its length in motion, or the place in the world that it hangs on."""
         replacement = length_in_motion(self.written(), names)
         if replacement is not None:
             yield replacement
@@ -94,7 +94,7 @@ class Link(ConstraintBase):
 
 
 def _hung_on_what_moves(link: Link, names: NamesAtHand) -> Replacement | None:
-    """A particle on a link of constant length whose other end moves to and fro in the world, as an equation."""
+    """Return a particle on a link of constant length whose other end moves to and fro in the world, as an equation."""
     places = [end for end in link.between if isinstance(end, tuple)]
     points = [names.owned.get(end, ()) for end in link.between if isinstance(end, str)]
     length = "" if link.length is None else as_written(link.length)

@@ -120,7 +120,7 @@ class Joint(ConstraintBase):
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
 
     def ends(self, world: World) -> tuple[Frame, Frame] | None:
-        """The frames of the two ends; None after a fault."""
+        """Return the frames of the two ends; None after a fault."""
         before = len(world.faults)
         first, second = (world.frame(name, "between", i) for i, name in enumerate(self.between))
         if self.between[0] == self.between[1]:
@@ -128,21 +128,21 @@ class Joint(ConstraintBase):
         return None if len(world.faults) > before else (first, second)
 
     def geometry(self, world: World) -> JointGeometry:
-        """What it asks of the world; faults go there."""
+        """Return what it asks of the world; faults go there."""
         del world
         return JointGeometry()
 
     def equations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
-        """The relations between the two frames, the drive's apart."""
+        """Yield the relations between the two frames, the drive's apart."""
         raise NotImplementedError
 
     def laws(self, world: World, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
-        """The drive's relation, if it is driven."""
+        """Yield the drive's relation, if it is driven."""
         del world, first, second, drawn
         yield from ()
 
     def joined(self, world: World, first: Frame, second: Frame) -> Sequence[Relation]:
-        """The relations between the two frames; written out later where the drawing alone tells what they mention."""
+        """Return the relations between the two frames, written out later where the drawing states what they mention."""
         drawn = self.geometry(world)
         laws = tuple(self.laws(world, first, second, drawn))
         equations = partial(self.equations, first, second, drawn)
@@ -186,7 +186,7 @@ class Axial(LocatedJoint):
     axis: Vector | None = Field(None, description="the joint's axis in the reference configuration")
 
     def directed(self, world: World) -> Direction:
-        """The axis; one that is left out where the place is given is a fault."""
+        """Return the axis; one that is left out where the place is given is a fault."""
         if self.axis is None and self.at is not None:
             world.fault(
                 f"this {self.kind()} joint has a position (`at`) but no `axis`",
@@ -216,18 +216,18 @@ class Driven(Axial):
             yield self.law(first, second, drawn, world.expression(self.drive, "drive", allow=LAW))
 
     def law(self, first: Frame, second: Frame, drawn: JointGeometry, driven: Expr) -> Relation:
-        """The relation that says what is ``driven``."""
+        """Return the relation that says what is ``driven``."""
         raise NotImplementedError
 
 
 def turn_rate(at: Kinematics) -> VelocityRow:
-    """How fast the second body turns against the first, in space about the axis."""
+    """Return how fast the second body turns against the first, in space about the axis."""
     turn = at.turn()
     return turn[0] if at.dimension == 2 else rows.along(at.directions[0], turn)
 
 
 def slide_rate(at: Kinematics) -> VelocityRow:
-    """How fast the second body moves along the axis against the first."""
+    """Return how fast the second body moves along the axis against the first."""
     return rows.along(at.directions[0], at.shift())
 
 
@@ -259,7 +259,7 @@ def together(first: Frame, second: Frame, place: Vec) -> Iterator[Relation]:
 
 
 def aligned(first: Frame, second: Frame, axis: Direction) -> Iterator[Relation]:
-    """The axis keeps its direction in both bodies of space: 2 relations, (R1 n).(R2 u) = 0 or v.u = 0.
+    """Yield 2 relations that keep the direction of the axis in both bodies: (R1 n).(R2 u) = 0 or v.u = 0.
 
     The first keeps them from turning about n x u, the second about u.
     """
@@ -290,7 +290,7 @@ def parallel(first: Frame, second: Frame) -> Iterator[Relation]:
 
 
 def carrier(first: Frame, second: Frame) -> Frame:
-    """The frame in which directions common to both are simplest: the ground's, else the first."""
+    """Return the frame in which directions common to both are simplest: the ground's, else the first."""
     return second if second.fixed else first
 
 
@@ -306,7 +306,7 @@ def shift(first: Frame, second: Frame, direction: Vec) -> tuple[Expr, Expr]:
 
 
 def slide(first: Frame, second: Frame, place: Vec, direction: Vec) -> tuple[Expr, Expr]:
-    """How far the second body's point at ``place`` has moved from the first's along a direction of both."""
+    """Return how far the second body's point at ``place`` has moved from the first's along a direction of both."""
     frame = carrier(first, second)
     if frame is second:
         point = first.point(place)
@@ -326,7 +326,7 @@ def crossing(axis: Direction) -> tuple[Vec, Vec]:
 
 
 def angle_law(first: Frame, second: Frame, axis: Direction, law: Expr) -> Relation:
-    """The second body's angle against the first about the axis, right-handed, is ``law``.
+    """Return the relation that the angle of the second body against the first about the axis is ``law``.
 
     In the plane theta2 - theta1 - f = 0. In space v.n cos(f/2) - s |n| sin(f/2) = 0, or with
     w = n x u: (R1 w).(R2 u) cos f - |n| (R1 u).(R2 u) sin f = 0.
@@ -345,7 +345,7 @@ def angle_law(first: Frame, second: Frame, axis: Direction, law: Expr) -> Relati
 
 
 def angle_of(first: Frame, second: Frame, axis: Direction) -> Expr:
-    """The second body's angle against the first about a shared axis of space, right-handed."""
+    """Return the second body's angle against the first about a shared axis of space, right-handed."""
     size = length(axis.vector)
     turned = relative(first, second)
     if turned is not None:

@@ -40,7 +40,7 @@ from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
 
 def coaxial(first: Frame, second: Frame, place: Vec, axis: Direction) -> Iterator[Relation]:
-    """The axis stays one line: 2 relations for its direction, 2 for its place."""
+    """Yield 4 relations that keep the axis one line: 2 for its direction, 2 for its place."""
     yield from aligned(first, second, axis)
     for u in axis.across:
         yield Relation(slide(first, second, place, u)[0], part="across", vector=u)
