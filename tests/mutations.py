@@ -78,11 +78,6 @@ SAME: Mapping[tuple[str, str, str], str] = {
         "if stages[-1].residual >= VIOLATED * 10 * tolerance:",
     ): "a floating point number does not meet a bound exactly",
     (
-        "dofkit/configuration/local/long_paths.py",
-        "if wrong < CLOSE:",
-        "if wrong <= CLOSE:",
-    ): "a floating point number does not meet a bound exactly",
-    (
         "dofkit/configuration/local/neighbourhood.py",
         "if float(np.max(np.abs(step))) < 1e-12:",
         "if float(np.max(np.abs(step))) <= 1e-12:",
