@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, model_validator
 
-from dofkit.base.display import Companion, Displayed, DisplayedFormulas, text_of
+from dofkit.base.display import Displayed, DisplayedFormulas, text_of
 from dofkit.base.verdicts import About, ArgumentKey, Claim, Verdict
 
 Form = Literal["finite", "pfaffian", "nonlinear", "inequality"]
@@ -21,6 +21,25 @@ FORMS: tuple[Form, ...] = ("finite", "pfaffian", "nonlinear", "inequality")
 
 #: Said of a constraint that is a product.
 BRANCH_WARNING = "'{name}' is satisfied on several branches; the degrees of freedom are those of the largest"
+
+
+class Companion:
+    """What accompanies a value and is no part of it: equal to every other, and empty in another process.
+
+    ``about``: of a report its scene, for the title and the picture; of a scene what was worked out of it.
+    """
+
+    def __init__(self, about: Any = None) -> None:
+        self.about = about
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Companion)
+
+    def __hash__(self) -> int:
+        return 0
+
+    def __reduce__(self) -> tuple[type[Self], tuple[()]]:
+        return type(self), ()
 
 
 class ReportModel(BaseModel):
@@ -275,7 +294,7 @@ class Report(Displayed, ReportModel):
         "the constraints in order, each with its labels, its verdict and the reason"
     )
     forces: list[ForceEntry] = meaning("the forces, and why they are no constraints")
-    special_cases: list[SpecialCase] = meaning("configurations and parameter values at which the answer is another one")
+    special_cases: list[SpecialCase] = meaning("configurations and branches where the answer is another one")
     verdict: Verdict = meaning("how certain the report is: the weakest of all its verdicts")
     verdicts: dict[str, FieldVerdict] = meaning(
         "how certain each field is, with the argument, the bound, and the points that the claim is about", default={}

@@ -153,7 +153,7 @@ class TypeFacts:
 
     @property
     def placed(self) -> bool:
-        """Does its geometry alone say what it does, so that it can be put in general position? A text has none."""
+        """True where geometry alone says what it does, so that it can be put in general position; a text has none."""
         return self.velocities is not None and not self.written
 
 

@@ -96,7 +96,7 @@ def model(wheel: str, name: str, rounds: int = 3) -> Measured:
     from dofkit.models.model_document import ModelFile
 
     path = next(folder(wheel).rglob(name))
-    left = compiled(ModelFile(path.read_bytes(), path.stem, path)).told["left"]
+    left = compiled(ModelFile(path.read_bytes(), path.stem, path)).content["left"]
     scene, told = dofkit.load(path), []
     dofkit.classify(tree_with_loops(5, 1, 0)[0])
     taken = [speed_scenes.seconds(lambda: told.append(dofkit.classify(scene))) for _ in range(rounds)]

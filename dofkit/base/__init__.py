@@ -12,11 +12,10 @@ Modules
     3. `workers` runs jobs in processes that can be killed: each job has limits of memory and time (`process_limits`),
        and a crash costs one job only. `runs` has several workers at once, here or in a cluster, and the journal that
        keeps the results of a run in one SQLite file, so that an interrupted run can be resumed.
-    4. `components` joins what shares names: blocks of equations, groups of constraints.
-    5. `arguments` and `wording` check what is given from outside, suggest the nearest known word, choose a format by
-       the ending of a path, and put numbers with their nouns into English.
-    6. `display` is what `print` and a notebook show of a value; `libraries` imports numpy and networkx when they are
-       first used.
+    4. `wording` checks what is given from outside, suggests the nearest known word, chooses a format by the ending of
+       a path, and puts numbers with their nouns into English.
+    5. `display` is what `print` and a notebook show of a value. `libraries` imports numpy and networkx when they are
+       first used, and joins what shares names without them: blocks of equations, groups of constraints.
 """
 
 __version__ = "0.1.0"

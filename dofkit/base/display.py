@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sys
 from importlib import import_module
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 
 def _drawn(name: str, *arguments: Any) -> Any:
@@ -91,22 +91,3 @@ class DisplayedFormulas(Displayed):
     def _repr_latex_(self) -> str | None:
         latex = _drawn("latex_of", self)
         return None if latex is None else str(latex)
-
-
-class Companion:
-    """What accompanies a value and is no part of it: equal to every other, and empty in another process.
-
-    ``about``: of a report its scene, for the title and the picture; of a scene what was worked out of it.
-    """
-
-    def __init__(self, about: Any = None) -> None:
-        self.about = about
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Companion)
-
-    def __hash__(self) -> int:
-        return 0
-
-    def __reduce__(self) -> tuple[type[Self], tuple[()]]:
-        return type(self), ()

@@ -82,7 +82,7 @@ ABOUTS: tuple[About, ...] = ("reference", "component", "everywhere")
 
 
 def weakest(*verdicts: Verdict) -> Verdict:
-    """The weakest of some verdicts; of none, ``proved``.
+    """Return the weakest of some verdicts; of none, ``proved``.
 
     >>> weakest("proved", "numeric", "probable")
     'numeric'
@@ -91,7 +91,7 @@ def weakest(*verdicts: Verdict) -> Verdict:
 
 
 def least(*abouts: About) -> About:
-    """Of which points a claim speaks that needs some others.
+    """Return the configurations that a claim is about which needs several others.
 
     >>> least("everywhere", "reference")
     'reference'
@@ -137,7 +137,7 @@ OPEN = Claim("undecided")
 
 
 def together(*claims: Claim) -> Claim:
-    """The claim that all of some hold, by the argument of the weakest: errors add up.
+    """Return the claim that all of some hold, by the argument of the weakest: errors add up.
 
     >>> together(Claim("proved", "graph"), Claim("probable", "cases", bits=40), Claim("probable", "graph", bits=40))
     Claim(verdict='probable', argument='cases', bits=39, gap=None, about='everywhere')

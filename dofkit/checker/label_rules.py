@@ -290,19 +290,15 @@ def moves(evidence: CheckedEvidence, given: Told, wanted: Sequence[str]) -> Chec
 def refuted(evidence: CheckedEvidence, given: Told, verified: Told, names: Sequence[str] | None = None) -> bool:
     """No motion meets equations: a positive number plus squares plus multiples of what is 0 cannot be 0.
 
-    An inequality is refuted by itself, times squares (Krivine 1964, Stengle 1974); of ``/feasible`` with all others,
-    and a strict one, times a positive number, is positive.
+    An inequality is refuted by itself, times squares (Krivine 1964, Stengle 1974).
     """
     held = evidence.closure([one.name for one in evidence.problem.relations] if names is None else names, None)
-    total = [evidence.text(given["number"]), evidence.squares(given.get("sos", []))]
+    number = evidence.text(given["number"])
+    refuse(not evidence.is_nowhere_zero(number, True), "what is left over is not positive")
     sided = {name: evidence.squares(terms) for name, terms in given.get("inequality", {}).items()}
     factors = {name: evidence.text(text) for name, text in given.get("c", {}).items()}
-    together = names is None and given["path"] == "/feasible"
-    several = len(sided) + bool(factors) > 1 and sided
-    refuse((several and not together) or {*sided} & {*factors}, "an inequality is refuted by itself")
-    strict = [s for name, s in sided.items() if together and evidence.relation(name).strict]
-    more = total[0] == ZERO and any(evidence.is_nowhere_zero(s, True) for s in strict)
-    refuse(not more and not evidence.is_nowhere_zero(total[0], True), "what is left over is not positive")
+    refuse(sided and len(sided) + len(factors) > 1, "an inequality is refuted by itself")
+    total = [number, evidence.squares(given.get("sos", []))]
     for name, factor in (*sided.items(), *factors.items()):
         one = evidence.relation(name)
         fits = name in held and not one.leaf and (one.kind == "inequality") == (name in sided)

@@ -25,7 +25,7 @@ Rule = Callable[[CheckedEvidence, dict[str, Any], dict[str, Any]], object]
 #: The rules: paths of the report (fields of an entry, without ``/``), names of rules, and what looks at them.
 TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("/consistent, /feasible", "point, regular", labels.consistent),
-    ("/consistent, /feasible", "nullstellensatz", labels.refuted), ("/conflicting", "conflict", labels.conflict),
+    ("/consistent", "nullstellensatz", labels.refuted), ("/conflicting", "conflict", labels.conflict),
     ("/dof, /velocity_dof", "squeeze, regular", numbers.bounds), ("circuit", "cofactors", numbers.circuit),
     ("/velocity_dof, /redundant_equations, /redundancies", "count", numbers.counted),
     ("/holonomic, /scleronomic, /singular", "count", numbers.counted),

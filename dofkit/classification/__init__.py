@@ -1,7 +1,7 @@
 """Classification: how can this system move, and what does each of its constraints do?
 
-A `System` becomes a `Report`. What is known of a system is a `Study` (`study`); every field of the report is filled
-by one row of the table `PASSES` (`passes`), by a function of `report`.
+A `System` becomes a `Report`. What is known of a system is a `Study` (`study`); the fields of the report are filled
+by the passes of the table `PASSES` (`passes`), by functions of `report`, which also holds the claim of each field.
 
 Types
     `Study`, the relations of a system in blocks with their answers; `Outcome` (in `freedom`), the answer for one
@@ -10,17 +10,19 @@ Types
 
 Mechanisms, in the order in which a report is filled
     1. `freedom`: each block is answered, branch by branch, and the answers are held against one common configuration
-       and time. The numbers of the largest branch count.
-    2. `dependence`: circuits and redundant constraints, by the rank of rows where the rank measures dependence,
-       otherwise by leaving constraints out and by implication; conflicts of an inconsistent system.
-    3. `labels`: holonomic (on its own, and in the system), scleronomic, catastatic, with the sentence that gives the
-       reason.
-    4. `generalized_coordinates`, chosen where the rows of all others are independent; `explicit_coordinates`,
-       `tangent_spaces` and `turned_coordinates` serve this choice.
-    5. `feasibility`: inequalities together with the equations.
+       and time [ImplicitFunctions]. The numbers of the largest branch count.
+    2. `dependence`: circuits and redundant constraints, by the rank of rows where the rank measures dependence
+       [Whitney1935], otherwise by implication at drawn states and by removal; conflicts of an inconsistent system.
+       `equivalence` compares an answer with the constraints that it should state.
+    3. `labels`: holonomic (on its own, and in the system) [HermannNagano], scleronomic, catastatic, with the sentence
+       that gives the reason.
+    4. `generalized_coordinates`, chosen where the rows of all others are independent; `tangent_spaces` and
+       `turned_coordinates` serve this choice.
+    5. `feasibility`: inequalities together with the equations, by a certified point or a proof that there is none
+       [Motzkin1936].
     6. `counts`: the counts that stand beside the report's own, and why they differ.
-    7. `special`: loci on which a rank drops, branches of another dimension, special values of parameters.
+    7. `special`: loci on which a rank drops or curvature vanishes, and branches of another dimension.
 
-`claims` says how certain each field is and `arguments` lists the arguments with their hypotheses; `agreements` is the
-table of laws that every report is held against before it leaves; `undecided` makes a report where no time was left.
+`arguments` lists the arguments with their hypotheses and theorems; `passes` withholds counts that contradict each
+other before a report leaves; `undecided` makes a report where no time was left.
 """

@@ -33,7 +33,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "near the witness the configuration space is a manifold of dimension n - r",
         "ImplicitFunctions",
         "interval Newton certifies a common zero of all r equations, at which their differentials are independent",
-        "dofkit.configuration.reality.with_reality",
+        "dofkit.configuration.generic_dimension.with_reality",
     ),
     "one relation": Argument(
         "the configuration space has dimension n - 1, and no component is larger",
@@ -53,7 +53,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "GrueblerKutzbach",
         "each joint has a reference position and is the only connection between two parts of the system, one "
         "of which can be moved as a rigid body",
-        "dofkit.mobility.bridges.bridges",
+        "dofkit.mobility.joint_tree.bridges",
     ),
     "generic fibre": Argument(
         "for almost all values of the parameters the configuration space is a manifold",
@@ -72,7 +72,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "some coordinates have isolated values; the others are free or determined by them",
         "IsolatedZeros",
         "each equation has one coordinate, is analytic everywhere and not identically zero, with a known common zero",
-        "dofkit.configuration.isolated_zeros.isolated",
+        "dofkit.configuration.search.isolated",
     ),
     "singular values": Argument(
         "the rank of measured geometry",
@@ -84,7 +84,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the rank of generic links",
         "PollaczekGeiringer1927",
         "all constraints are links, each with a length that occurs nowhere else",
-        "dofkit.mobility.frameworks.framework_answer",
+        "dofkit.mobility.general_position.framework_answer",
     ),
     "linear contradiction": Argument(
         "no configuration satisfies the equations",
@@ -220,7 +220,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "",
         "the rank over GF(p) is that of all rows, or leaves only rigid motions of the system; otherwise the "
         "rank over the rationals",
-        "dofkit.configuration.drawing.at_reference.at_reference",
+        "dofkit.configuration.at_reference.at_reference",
     ),
     "zero at the reference": Argument(
         "the reference configuration satisfies the equations",

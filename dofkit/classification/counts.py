@@ -12,8 +12,8 @@ from dofkit.classification.study import Study
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.mobility import special_position
+from dofkit.mobility.counts import kutzbach_count
 from dofkit.mobility.general_position import General, has_geometry, in_general_position
-from dofkit.mobility.kutzbach import kutzbach_count
 from dofkit.mobility.near_dependence import MOST, nearly_dependent
 from dofkit.mobility.placement import Placement, drawn_placement, measured_placement
 from dofkit.relations.normal.pieces import Finite
@@ -42,16 +42,16 @@ class CountsBeside:
         if not has_geometry(self.system):
             return None
         look = partial(in_general_position, self.system, self.outcome.written_rows, self.setting)
-        found = unless_late(look, _LATE)
-        if found.rank is None:
-            return Generic(dof=None, redundant_equations=None, differs=found.why, verdict="undecided")
-        dof = len(self.system.coordinates) - found.rank
+        result = unless_late(look, _LATE)
+        if result.rank is None:
+            return Generic(dof=None, redundant_equations=None, differs=result.why, verdict="undecided")
+        dof = len(self.system.coordinates) - result.rank
         equations = self.study.equations
         return Generic(
             dof=dof,
-            redundant_equations=max(0, equations - found.rank),
+            redundant_equations=max(0, equations - result.rank),
             differs=unless_late(partial(self._differs, dof), None),
-            verdict=found.verdict,
+            verdict=result.verdict,
         )
 
     def _differs(self, dof: int) -> str | None:
@@ -66,12 +66,12 @@ class CountsBeside:
         more = here - dof
         start = f"this geometry is special: {many(more, 'more equation')} {verb(more, 'is', 'are')} dependent"
         placement = self._placement
-        told = (
+        answer = (
             []
             if placement is None
             else special_position.special_facts(self.system, placement, self._dependent_sets(), self._slack())
         )
-        return "; ".join([start, *told[:MOST_TOLD]])
+        return "; ".join([start, *answer[:MOST_TOLD]])
 
     def _slack(self) -> float:
         return SLACK * float(self.system.tolerance or 0)

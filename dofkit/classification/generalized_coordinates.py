@@ -19,9 +19,9 @@ from dofkit.classification.turned_coordinates import (
     rows_at_drawing,
     turned_together,
 )
-from dofkit.configuration.drawing.rigid_orbit import RigidOrbit
 from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
+from dofkit.configuration.rigid_motions import RigidOrbit
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import last_columns, rank_of_rows
 from dofkit.exact.zero import BOTH
@@ -50,18 +50,18 @@ def explicit(relations: Sequence[Expr], names: Sequence[str], count: int, most: 
     """
     if len(relations) > MOST or len(names) > MOST:
         return None
-    left = _readings(relations)
+    remaining = _readings(relations)
     solved: set[str] = set()
     while len(solved) < count:
         open_ = [n for n in reversed(names) if n not in solved]
-        found = min(((r.of[n], k, i) for i, r in enumerate(left) for k, n in enumerate(open_) if n in r.of),
+        result = min(((r.of[n], k, i) for i, r in enumerate(remaining) for k, n in enumerate(open_) if n in r.of),
                     default=(OTHER, 0, 0))  # fmt: skip
-        if found[0] > most:
+        if result[0] > most:
             return None
-        most = LINEAR if found[0] == QUADRATIC else most
-        relation = left.pop(found[2])
-        solved.add(open_[found[1]])
-        left = [r.without(open_[found[1]], relation) for r in left]
+        most = LINEAR if result[0] == QUADRATIC else most
+        relation = remaining.pop(result[2])
+        solved.add(open_[result[1]])
+        remaining = [r.without(open_[result[1]], relation) for r in remaining]
     return [n for n in names if n not in solved]
 
 
@@ -81,14 +81,14 @@ class _Reading:
 def _readings(relations: Iterable[Expr]) -> list[_Reading]:
     """How coordinates occur in every relation; looked at once in those that are the same up to names."""
     known: dict[Expr, list[tuple[int, int]]] = {}
-    found = []
+    result = []
     for g in relations:
         shape = shape_of(g)
         if shape.skeleton not in known:
             place = {name: k for k, name in enumerate(shape.names)}
             known[shape.skeleton] = [(place[name], degree) for name, degree in _degrees(g).items()]
-        found.append(_Reading({shape.names[k]: degree for k, degree in known[shape.skeleton]}))
-    return found
+        result.append(_Reading({shape.names[k]: degree for k, degree in known[shape.skeleton]}))
+    return result
 
 
 def _degrees(g: Expr) -> dict[str, int]:
@@ -115,12 +115,12 @@ def _joined(e: Expr, parts: Sequence[dict[str, int]]) -> dict[str, int]:
     if e.op not in ("add", "mul"):
         return {n: OTHER for part in parts for n in part}
     single = e.op == "mul" and sum(p.op not in ("num", "const") for p in e.args) == 1
-    found: dict[str, int] = {}
+    result: dict[str, int] = {}
     for part in parts:
         for name, k in part.items():
             own = k if single or e.op == "add" else max(k, LINEAR)
-            found[name] = own if name not in found else _both(e.op, found[name], own)
-    return found
+            result[name] = own if name not in result else _both(e.op, result[name], own)
+    return result
 
 
 def _both(op: str, first: int, second: int) -> int:
@@ -151,13 +151,13 @@ def generalized_coordinates(study: Study) -> list[str] | None:
 
     Of an open tree where that is not known at the drawing, by the rows of its joints at another pose.
     """
-    found = unless_late(partial(_of_system, study), None)
-    return unless_late(partial(_on_tree, study), None) if found is None else found
+    result = unless_late(partial(_of_system, study), None)
+    return unless_late(partial(_on_tree, study), None) if result is None else result
 
 
 def _on_tree(study: Study) -> list[str] | None:
-    found = None if not study.outcome.dof else tree_pose.free_coordinates(study.system, study.setting.positive)
-    return found if found is not None and len(found) == study.outcome.dof else None
+    result = None if not study.outcome.dof else tree_pose.free_coordinates(study.system, study.setting.positive)
+    return result if result is not None and len(result) == study.outcome.dof else None
 
 
 def _of_system(study: Study) -> list[str] | None:
@@ -259,8 +259,8 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
     if orbit is not None:
         return orbit.chart_of()
     block = with_still_parts(block, a, setting)
-    found = tangent_spaces.nearby(block, a.dof, setting, turning) or tangent_spaces.rigid(block, a.dof, setting)
-    return found if found is not None or turning else whole
+    result = tangent_spaces.nearby(block, a.dof, setting, turning) or tangent_spaces.rigid(block, a.dof, setting)
+    return result if result is not None or turning else whole
 
 
 def _dependent_at_drawing(block: Block, a: Answer, setting: Setting) -> tuple[str, ...]:
@@ -268,15 +268,15 @@ def _dependent_at_drawing(block: Block, a: Answer, setting: Setting) -> tuple[st
 
     Of bodies whose joints close no loop places are solved for before angles.
     """
-    found = rows_at_drawing(TurnedGroup(block, ()), setting)
-    if found is None:
+    result = rows_at_drawing(TurnedGroup(block, ()), setting)
+    if result is None:
         return ()
     own = frozenset(block.coordinates)
     places = frozenset(c.name for c in setting.roles if not a.parts and c.name in own and c.role in ("x", "y", "z"))
     names = sorted(block.coordinates, key=places.__contains__)
     place = {name: k for k, name in enumerate(names)}
-    rows = [{place[name]: v for name, v in row.items()} for row in found.rows]
-    return tuple(names[c] for c in last_columns(rows, len(place), found.p))
+    rows = [{place[name]: v for name, v in row.items()} for row in result.rows]
+    return tuple(names[c] for c in last_columns(rows, len(place), result.p))
 
 
 def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit | None:
@@ -308,9 +308,9 @@ def _is_regular(block: Block, a: Answer, chosen: Sequence[str], setting: Setting
         return False
     if not a.matrix or a.modulus <= 2:
         return True
-    left = {k for k, name in enumerate(block.coordinates) if name not in chosen}
-    rows = [{c: v for c, v in row.items() if c in left} for row in a.matrix]
-    return rank_of_rows(rows, a.modulus) == len(left)
+    remaining = {k for k, name in enumerate(block.coordinates) if name not in chosen}
+    rows = [{c: v for c, v in row.items() if c in remaining} for row in a.matrix]
+    return rank_of_rows(rows, a.modulus) == len(remaining)
 
 
 def _regular_at_reference(block: Block, a: Answer, setting: Setting) -> list[str] | None:

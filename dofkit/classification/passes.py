@@ -19,7 +19,7 @@ from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
 from dofkit.exact.points.balls import precise_for
 from dofkit.exact.zero import BOTH, Engines
-from dofkit.mobility.kutzbach import without_drives
+from dofkit.mobility.counts import without_drives
 from dofkit.relations.answer import DEFECTS
 from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.report import ConstraintEntry, FieldVerdict, Mobility, Report
@@ -279,12 +279,12 @@ def examined(
     """All that some engines find of a system in so many seconds, with some ``reductions``. Raises OutOfTimeError."""
     with limited(seconds), precise_for(system.longest), gc_rarely():
         with part(SOLVING):
-            found = study(system, engines, reductions)
-        return Examined(found, report_of(found, passes))
+            result = study(system, engines, reductions)
+        return Examined(result, report_of(result, passes))
 
 
 def studied(system: System, budget: float | None = None) -> Examined:
     """The generic answer for a system. Raises OutOfTimeError where there was no time for it."""
     with limited(DEFAULT_SECONDS if budget is None else budget), precise_for(system.longest):
-        found = study(system)
-        return Examined(found, report_of(found, GENERIC))
+        result = study(system)
+        return Examined(result, report_of(result, GENERIC))

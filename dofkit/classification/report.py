@@ -17,8 +17,8 @@ from dofkit.classification.labels.companions import integrable_part
 from dofkit.classification.study import Study
 from dofkit.expressions.text import to_text
 from dofkit.integrability.growth_vector import is_free
+from dofkit.mobility.counts import CountedFacts, count
 from dofkit.mobility.joint_tree import tree_coordinates
-from dofkit.mobility.textbook_count import CountedFacts, count
 from dofkit.relations.answer import BITS
 from dofkit.relations.blocks import about_constants, uses_time
 from dofkit.relations.normal.pieces import Finite
@@ -74,8 +74,8 @@ def redundancies(study: Study) -> list[Redundancy]:
 def joint_coordinates(study: Study) -> list[str] | None:
     """Angles and displacements of joints that describe a tree; None for what is none, or has another freedom."""
     dof = study.outcome.dof
-    found = None if dof is None else tree_coordinates(study.system)
-    return found if found is not None and len(found) == dof else None
+    result = None if dof is None else tree_coordinates(study.system)
+    return result if result is not None and len(result) == dof else None
 
 
 def largest_integrable_part(study: Study) -> IntegrablePart | None:
@@ -123,15 +123,15 @@ def witness(study: Study) -> dict[str, str] | None:
     outcome = study.outcome
     if outcome.consistent is not True or any(a.witness is None for a in outcome.answers):
         return None
-    found: dict[str, str] = {}
-    for told in (outcome.witness, *(a.witness or {} for a in outcome.answers)):
-        for s, text in told.items():
-            if s.args[0] in ("coordinate", "parameter", "time") and found.setdefault(str(s.args[1]), text) != text:
+    result: dict[str, str] = {}
+    for answer in (outcome.witness, *(a.witness or {} for a in outcome.answers)):
+        for s, text in answer.items():
+            if s.args[0] in ("coordinate", "parameter", "time") and result.setdefault(str(s.args[1]), text) != text:
                 return None
     names = [c.name for c in study.system.coordinates]
     own = frozenset(names)
-    others = {name: text for name, text in found.items() if name not in own}
-    return {name: found.get(name, "0") for name in names} | others
+    others = {name: text for name, text in result.items() if name not in own}
+    return {name: result.get(name, "0") for name in names} | others
 
 
 def method(study: Study) -> str:
@@ -146,15 +146,15 @@ def modelled(system: System, outcome: Outcome) -> str:
     if outcome.blocks:
         parts.append(f"{many(touched, 'coordinate')} in {many(len(outcome.blocks), 'independent subsystem')}")
     if outcome.untouched:
-        shown = ", ".join(outcome.untouched[:12]) + (", ..." if len(outcome.untouched) > 12 else "")
-        parts.append(f"counted but left out of the computation, because nothing constrains them: {shown}")
+        text = ", ".join(outcome.untouched[:12]) + (", ..." if len(outcome.untouched) > 12 else "")
+        parts.append(f"counted but left out of the computation, because nothing constrains them: {text}")
     finite = sum(not b.forms and not b.nonlinear for b in outcome.blocks)
     if finite:
         parts.append("no integrability test where all equations are geometric (d(dg) = 0)")
     parts += _looked_at(outcome)
     if system.forces:
         parts.append("forces are left out: they are not constraints")
-    parts += [f"left out: {told}" for told in system.left_out]
+    parts += [f"left out: {answer}" for answer in system.left_out]
     return "; ".join(parts) or "nothing constrains anything"
 
 
@@ -185,26 +185,28 @@ def _looked_at(outcome: Outcome) -> Iterator[str]:
 
 def warnings(study: Study) -> list[str]:
     """Lines of text: what was noticed while reading, why something is open, and what is hidden."""
-    told = list(study.system.warnings)
-    told += [
+    answer = list(study.system.warnings)
+    answer += [
         f"not read, so the true freedom may be smaller: {t}" for t in study.system.left_out if t.startswith(BINDING)
     ]
     for r in study.reduced:
         for normal in r.normals:
-            told += [f"'{r.constraint.name}': {note}" for note in normal.notes]
+            answer += [f"'{r.constraint.name}': {note}" for note in normal.notes]
             if len(normal.branches) > 1:
-                told.append(BRANCH_WARNING.format(name=r.constraint.name))
-        told += [f"'{r.constraint.name}': {note}" for note in r.constraint.notes]
-    told += [f"'{study.names[i]}': whether it can be satisfied at all was not decided" for i in study.outcome.unsettled]
+                answer.append(BRANCH_WARNING.format(name=r.constraint.name))
+        answer += [f"'{r.constraint.name}': {note}" for note in r.constraint.notes]
+    answer += [
+        f"'{study.names[i]}': whether it can be satisfied at all was not decided" for i in study.outcome.unsettled
+    ]
     for a in study.outcome.answers:
-        told += a.reasons
-        told += [f"hidden geometric equation: {to_text(g)} = 0" for g in a.hidden]
+        answer += a.reasons
+        answer += [f"hidden geometric equation: {to_text(g)} = 0" for g in a.hidden]
     if study.outcome.dof is None and study.outcome.consistent is not False:
-        told += [
+        answer += [
             f"There is no reference configuration: give {missing}. With a reference configuration more can be decided."
             for missing in _missing_reference(study.system)
         ]
-    return list(dict.fromkeys(told))
+    return list(dict.fromkeys(answer))
 
 
 def about_branches(system: System, branches: Sequence[str]) -> Iterator[str]:
@@ -223,8 +225,8 @@ def _missing_reference(system: System) -> Iterator[str]:
     if system.reference is not None or all(c.name in known for c in system.coordinates):
         return
     owners = dict.fromkeys(c.owner for c in system.coordinates if c.owner in system.particles and c.name not in known)
-    shown = ", ".join([*owners][:8]) + (", ..." if len(owners) > 8 else "")
-    wanted = [f"`at` for {shown}"] if owners else []
+    text = ", ".join([*owners][:8]) + (", ..." if len(owners) > 8 else "")
+    wanted = [f"`at` for {text}"] if owners else []
     if system.bodies and system.generic:
         wanted.append("`at` (and `axis`) for the joints")
     if not wanted:
@@ -244,27 +246,27 @@ LEFT_OUT = Claim("probable", "leaving out", bits=BITS)
 def claims(study: Study, told: Mapping[str, Any]) -> dict[str, Claim]:
     """The claim of every field that the report decides, or leaves open."""
     free = freedom(study)
-    found = {"consistent": consistency(study)}
+    result = {"consistent": consistency(study)}
     if told["consistent"] is False:
-        found["conflicting"] = _conflict(study, found["consistent"])
+        result["conflicting"] = _conflict(study, result["consistent"])
     else:
-        found |= {"dof": _unless(told["dof"], free), "velocity_dof": _unless(told["velocity_dof"], free)}
-        found["redundant_equations"] = _unless(told["redundant_equations"], counted(free))
-        found["redundant"] = _unless(told["redundant"], _dependence(study, free, bool(told["redundant"])))
-        found["redundancies"] = _unless(told["redundant"], _dependence(study, free, bool(told["redundancies"])))
+        result |= {"dof": _unless(told["dof"], free), "velocity_dof": _unless(told["velocity_dof"], free)}
+        result["redundant_equations"] = _unless(told["redundant_equations"], counted(free))
+        result["redundant"] = _unless(told["redundant"], _dependence(study, free, bool(told["redundant"])))
+        result["redundancies"] = _unless(told["redundant"], _dependence(study, free, bool(told["redundancies"])))
         claim = claim_of_choice(study, free, told["generalized_coordinates"] or ())
-        found["generalized_coordinates"] = _unless(told["generalized_coordinates"], claim)
+        result["generalized_coordinates"] = _unless(told["generalized_coordinates"], claim)
     if study.system.reference is not None and told["consistent"] is not False:
         first = first_order(study)
-        found["instantaneous_dof"] = _unless(told["instantaneous_dof"], first)
-        found["singular"] = _unless(told["singular"], together(first, free))
+        result["instantaneous_dof"] = _unless(told["instantaneous_dof"], first)
+        result["singular"] = _unless(told["singular"], together(first, free))
     for name in ("holonomic", "scleronomic"):
-        found[name] = of_entries(told["constraints"], name, told[name])
+        result[name] = of_entries(told["constraints"], name, told[name])
     if told["growth_vector"] is not None:
-        found["growth_vector"] = _growth(study, free, told["growth_vector"])
+        result["growth_vector"] = _growth(study, free, told["growth_vector"])
     if told["integrable_part"] is not None:
-        found["integrable_part"] = free
-    return found
+        result["integrable_part"] = free
+    return result
 
 
 def _unless(value: Any, claim: Claim) -> Claim:

@@ -9,7 +9,7 @@ from typing import Any
 
 from dofkit.base.libraries import np
 from dofkit.classification.turned_coordinates import ANYWHERE
-from dofkit.configuration.drawing.at_reference import ball_point
+from dofkit.configuration.at_reference import ball_point
 from dofkit.configuration.generic_points import pose_point
 from dofkit.configuration.local import neighbourhood
 from dofkit.configuration.rigid_motions import displacements_real
@@ -103,7 +103,7 @@ def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: 
     """
     names = [s for s in chart.symbols if s != ex.TIME]
     symbols = {**dict.fromkeys(names, 0.0), **symbols}
-    found = []
+    result = []
     for seed in range(2 * dof + 2):
         rng = random.Random(f"dofkit secant {seed}")
         change = {**{s: rng.uniform(-1.0, 1.0) for s in names}, **search.start(seed + len(AWAY), {})}
@@ -111,10 +111,10 @@ def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: 
         for s in names:
             beside[s] += SECANT * change[s]
         if any(_settles(search, beside, seed, power) for power in DAMPED):
-            found.append([(beside[s] - symbols[s]) / SECANT for s in names])
-    if not found:
+            result.append([(beside[s] - symbols[s]) / SECANT for s in names])
+    if not result:
         return None
-    _, singular, right = np.linalg.svd(np.array(found))
+    _, singular, right = np.linalg.svd(np.array(result))
     spread = int(np.sum(singular > SPREAD))
     return right[:dof] if spread == dof else None
 

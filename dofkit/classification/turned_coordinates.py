@@ -101,9 +101,9 @@ def rows_at_drawing(group: TurnedGroup, setting: Setting, most: float = math.inf
     Where not all are those of joints they are written out for at ``most`` so many coordinates.
     """
     numbers = dict.fromkeys(row.constraint for row in group.block.rows)
-    found = setting.joint_rows(numbers) if setting.joint_rows is not None and not group.hidden else None
-    if found is not None and len(found.rows) == len(group.block.rows):
-        return found
+    result = setting.joint_rows(numbers) if setting.joint_rows is not None and not group.hidden else None
+    if result is not None and len(result.rows) == len(group.block.rows):
+        return result
     if len(group.block.coordinates) > most:
         return None
     chart = make_chart(group.block, setting, group.hidden)
@@ -125,13 +125,13 @@ def chosen_at_drawing(group: TurnedGroup, setting: Setting, turning: Sequence[Ro
     names = group.block.coordinates
     if setting.reference is None or not any(map(_right_rates, turning)):
         return None
-    found = rows_at_drawing(group, setting, MOST_DRAWN)
-    if found is None:
+    result = rows_at_drawing(group, setting, MOST_DRAWN)
+    if result is None:
         return None
     place = {name: k for k, name in enumerate(names)}
     angle_of = {g: a for r in turning if place.keys() >= {*r.names} for a, g in _right_rates(r).items()}
-    rows = [{place[angle_of.get(name, name)]: v for name, v in row.items()} for row in found.rows]
-    solved = set(sparse_frame(rows, len(names), found.p).dependent)
+    rows = [{place[angle_of.get(name, name)]: v for name, v in row.items()} for row in result.rows]
+    solved = set(sparse_frame(rows, len(names), result.p).dependent)
     chosen = [name for k, name in enumerate(names) if k not in solved]
     return None if any(not _right_rates(r) for r in partly_turned(chosen, turning)) else chosen
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from dofkit.base.verdicts import OPEN
 from dofkit.expressions.tree import Expr
-from dofkit.mobility.textbook_count import CountedFacts, count
+from dofkit.mobility.counts import CountedFacts, count
 from dofkit.report import FORMS, ConstraintEntry, Count, FieldVerdict, ForceEntry, Form, Report
 from dofkit.system import Constraint, Relation, System
 
@@ -16,9 +16,9 @@ def sketch(system: System, why: str) -> Report:
     """All that a system says without being computed with: names, texts, forms as written, the count of equations."""
     entries = [open_entry(c, why) for c in system.constraints]
     written = sum(e.equations for e in entries if e.form == "finite")
-    told = count(system, CountedFacts(written, None, None, 0, 0, entries))
+    answer = count(system, CountedFacts(written, None, None, 0, 0, entries))
     forces = [ForceEntry(name=f.name, reason=f.reason) for f in system.forces]
-    return open_report(system.name, told, entries, forces, [*system.warnings, why_nothing(why)])
+    return open_report(system.name, answer, entries, forces, [*system.warnings, why_nothing(why)])
 
 
 def undecided(report: Report, why: str) -> Report:

@@ -19,12 +19,12 @@ from itertools import product as cartesian
 from math import prod
 from typing import NamedTuple
 
-from dofkit.base.components import components
 from dofkit.base.deadline import check
+from dofkit.base.libraries import components
 from dofkit.base.verdicts import ArgumentKey, weakest
 from dofkit.configuration import cases as all_cases
+from dofkit.configuration.generic_dimension import most_near
 from dofkit.configuration.generic_points import field_jacobian, on_variety
-from dofkit.configuration.reality import most_near
 from dofkit.configuration.variety import Variety
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.errors import NoValueError

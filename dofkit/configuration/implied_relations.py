@@ -1,12 +1,16 @@
-"""Does a relation follow from others near the drawing?
+"""Is a relation implied by others near the reference configuration?
 
-Let S be relations that are independent at the drawing P, and M the manifold that they cut out there
-[ImplicitFunctions]. A relation g follows from S near P if and only if it vanishes on M. That its row is a sum of the
-rows of S at P says less: of three points on a line two distances give the third to first order only. So g is followed
-along a random curve of M: what is not 0 there is a proof that it does not follow, what is 0 to an order above its
-degree, and at a distance, vanishes on M with high probability [SchwartzZippel].
+Let S be relations that are independent at the reference P, and M the manifold that they cut out there
+[ImplicitFunctions]. A relation g is implied by S near P if and only if it vanishes on M. That its row is a sum of the
+rows of S at P says less: of three points on a line two distances give the third instantaneously only. So g is followed
+along a random curve of M: what is not 0 there is a proof that it is not implied, what is 0 to an order above its
+degree, and at a distance, vanishes on M with high probability [SchwartzZippel]. Measured geometry is continued for a
+finite step, within the tolerance.
 
-Measured geometry is followed for a finite step, within the tolerance.
+Which relations of S it needs is read from its multipliers: df = sum l_k dg_k at every point of M. With A(s) the
+derivatives of the g_k by the dependent columns along a curve of M and b(s) those of f, the row l(s) solves l A = b; its
+coefficients follow one after another from A at the point. A multiplier that is 0 at the point need not be 0 along the
+curve.
 """
 
 from __future__ import annotations
@@ -17,20 +21,21 @@ from dataclasses import dataclass, field, replace
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
-from dofkit.configuration.drawing.at_reference import ball_point
-from dofkit.configuration.drawing.dependent_classes import chart_of
-from dofkit.configuration.drawing.fewer_coordinates import smaller
+from dofkit.configuration.at_reference import ball_point, chart_of
+from dofkit.configuration.fewer_coordinates import smaller
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
-from dofkit.configuration.local.dimension import vanish_near
+from dofkit.configuration.local.criteria import vanish_near
+from dofkit.configuration.local.germ import random_direction
 from dofkit.configuration.local.manifold import Manifold
-from dofkit.configuration.local.multipliers import needed_along
 from dofkit.configuration.measured.dimension import measured_freedom
 from dofkit.configuration.rigid_motions import rigid_motions
 from dofkit.exact.errors import NoValueError
+from dofkit.exact.matrices.sparse import FactoredMatrix, SparseRow, transposed
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots, sparse_frame
 from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.points.series import Series
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -162,3 +167,36 @@ def _within_tolerance(chart: Chart, setting: Setting, known: Mapping[Expr, Expr]
     except NoValueError:
         return None
     return None if freedom is None or freedom.dimension is None else freedom.dimension == chart.coordinates - rank
+
+
+# Multipliers along a curve
+
+#: Orders of the multipliers that are looked at.
+ORDER = 4
+
+
+def needed_along(field: Manifold, other: int) -> list[int]:
+    """The numbers of the manifold's relations whose multipliers for the dependent one, ``other``, are not 0.
+
+    Over GF(p), along a random curve, to an order. Raises NoValueError.
+    """
+    curve = field.line(random_direction(field), ORDER)
+    columns = [field.columns[c] for c in field.frame.dependent]
+    slopes = curve.slopes([*field.rows, other], columns)
+    p = int(field.sample.modulus())
+    orders = [[_sparse(row, k) for row in slopes[:-1]] for k in range(ORDER)]
+    turned = FactoredMatrix(transposed(orders[0], len(columns)), p)
+    found: list[list[int]] = []
+    for k in range(ORDER):
+        right = [int(v.coefficient(k)) for v in slopes[-1]]
+        for j in range(1, k + 1):
+            for row, factor in zip(orders[j], found[k - j], strict=True):
+                for c, v in row.items():
+                    right[c] = (right[c] - factor * v) % p
+        found.append([int(v) for v in turned.solve(right)])
+    return [field.frame.rows[i] for i in range(len(field.rows)) if any(row[i] for row in found)]
+
+
+def _sparse(row: Sequence[Series], k: int) -> SparseRow:
+    """The coefficients of s^k without zeros."""
+    return {c: v for c, series in enumerate(row) if (v := int(series.coefficient(k)))}

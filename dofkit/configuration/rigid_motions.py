@@ -1,11 +1,12 @@
-"""Motions of the whole as one rigid body."""
+"""Rigid motions of the system: their dimension at a point, and the orbit of a configuration that moves no other way."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from dofkit.base.libraries import np
+from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import BallPoint
@@ -14,6 +15,7 @@ from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import gradient, values
 from dofkit.expressions import tree as ex
 from dofkit.relations.chart import Chart, Displacement, displacement_fields, free_point
+from dofkit.relations.setting import Setting
 
 #: Random real points that are tried.
 TRIES = 8
@@ -108,3 +110,40 @@ def _keeps(
         if change != 0 if isinstance(point, FieldPoint) else not change.contains(0):
             return False
     return True
+
+
+# The orbit of the reference configuration
+
+
+class RigidOrbit(NamedTuple):
+    """Displacement fields of the whole at the reference, over GF(p): what is independent there is independent."""
+
+    names: list[str]
+    fields: list[list[Any]]
+    p: int
+
+    @classmethod
+    def at_reference(cls, chart: Chart, setting: Setting, dof: int) -> RigidOrbit | None:
+        """The orbit, where it has the dimension ``dof`` and so is all that is near the reference; else None."""
+        if setting.reference is None or "field" not in setting.engines:
+            return None
+        point = pose_point(chart, {**setting.reference, ex.TIME: ex.ZERO}, 3)
+        if point is None or not on_variety(chart, point):
+            return None
+        kept = [(str(s.args[1]), k) for k, s in enumerate(chart.symbols) if s != ex.TIME]
+        fields = [[field[k] for _, k in kept] for field in rigid_fields(chart, point)]
+        found = cls([name for name, _ in kept], fields, point.p)
+        return found if found.rank(found.names) == dof else None
+
+    def rank(self, chosen: Sequence[str]) -> int:
+        """The rank of the projection of the tangent space onto some coordinates."""
+        columns = [k for k, name in enumerate(self.names) if name in chosen]
+        return rank_of([[field[k] for k in columns] for field in self.fields], self.p) if self.fields else 0
+
+    def chart_of(self) -> list[str]:
+        """The first coordinates, in order, over which the orbit is a graph near the reference."""
+        chosen: list[str] = []
+        for name in self.names:
+            if self.rank([*chosen, name]) > len(chosen):
+                chosen.append(name)
+        return chosen

@@ -9,7 +9,7 @@ from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
-from dofkit.configuration.local.dimension import numeric_dimension
+from dofkit.configuration.local.criteria import numeric_dimension
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_motions_real
 from dofkit.exact.errors import NoValueError, raising_no_value

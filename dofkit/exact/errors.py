@@ -35,7 +35,7 @@ class NoPointError(NoValueError):
 
 
 def raising_no_value(work: Callable[P, T]) -> Callable[P, T]:
-    """``work``, whose divisions by zero are PoleErrors, and FLINT's errors about a domain NoValueErrors."""
+    """Return ``work``, whose divisions by zero are PoleErrors, and FLINT's errors about a domain NoValueErrors."""
 
     @wraps(work)
     def wrapper(*args: P.args, **kwargs: P.kwargs) -> T:

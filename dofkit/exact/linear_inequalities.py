@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import count
 from typing import Literal
 
 from flint import fmpq, fmpq_mat
@@ -17,12 +16,7 @@ from dofkit.base.deadline import check
 #: Entries of a matrix of equations that is eliminated, and of a tableau that is worked through.
 MAX_EQUATIONS, MAX_TABLEAU = 1_000_000, 250_000
 
-#: Steps by the least cost, for each row of the tableau.
-GREEDY = 4
-
 Vector = tuple[fmpq, ...]
-#: Entries that are not 0.
-Row = dict[int, fmpq]
 ZERO, ONE = fmpq(0), fmpq(1)
 
 
@@ -35,7 +29,7 @@ class LinearCondition:
     sense: Literal["=", ">=", ">"]
 
     def holds(self, x: Sequence[fmpq]) -> bool:
-        """Does it hold at a point?"""
+        """Return whether the condition is satisfied at a point."""
         value = _dot(self.coefficients, x) + self.constant
         return bool(value == 0 if self.sense == "=" else value > 0 if self.sense == ">" else value >= 0)
 
@@ -45,7 +39,7 @@ def _dot(a: Sequence[fmpq], b: Sequence[fmpq]) -> fmpq:
 
 
 def solution(conditions: Sequence[LinearCondition]) -> Vector | Literal[False] | None:
-    """A point at which all conditions hold, False where there is none (proved), None where they are too many."""
+    """Return a point at which all conditions hold, False where there is none (proved), None where they are too many."""
     n = len(conditions[0].coefficients) if conditions else 0
     equations = [c for c in conditions if c.sense == "="]
     if len(equations) * (n + 1) > MAX_EQUATIONS:
@@ -72,14 +66,14 @@ class _Graph:
     n: int
 
     def point(self, at: Vector) -> Vector:
-        """All coordinates from the free ones."""
+        """Return all coordinates from the free ones."""
         known = dict(zip(self.free, at, strict=True))
         known |= {c: _dot(row[:-1], at) + row[-1] for c, row in self.rows.items()}
         return tuple(known[c] for c in range(self.n))
 
 
 def _graph(equations: Sequence[LinearCondition], n: int) -> _Graph | None:
-    """The solutions of the equations; None where there are none (Gauss)."""
+    """Return the solutions of the equations; None where there are none (Gauss)."""
     if not equations:
         return _Graph(tuple(range(n)), {}, n)
     reduced, rank = fmpq_mat([[*e.coefficients, e.constant] for e in equations]).rref()
@@ -92,7 +86,7 @@ def _graph(equations: Sequence[LinearCondition], n: int) -> _Graph | None:
 
 
 def _restricted(c: LinearCondition, graph: _Graph) -> LinearCondition:
-    """The condition in the free coordinates."""
+    """Return the condition in the free coordinates."""
     total = [*(c.coefficients[j] for j in graph.free), c.constant]
     for p, row in graph.rows.items():
         if c.coefficients[p] != 0:
@@ -101,7 +95,7 @@ def _restricted(c: LinearCondition, graph: _Graph) -> LinearCondition:
 
 
 def _alternative(conditions: Sequence[LinearCondition], n: int) -> Vector | Literal[False] | None:
-    """The theorem of alternatives for a_i . x + b_i >= 0, some of them > 0 [Motzkin1936].
+    """Return a solution of a_i . x + b_i >= 0, some of them > 0, or False where there is none [Motzkin1936].
 
     Either there are l_i >= 0 and s >= 0 with sum l_i a_i = 0, sum l_i b_i + s = 0 and s + (the strict l_i) = 1, which
     no x allows; or a linear function (y, u, v) is at most 0 on all columns (a_i, b_i, [i strict]) and on (0, 1, 1) and
@@ -119,52 +113,27 @@ def _alternative(conditions: Sequence[LinearCondition], n: int) -> Vector | Lite
 
 
 def _phase_one(columns: Sequence[Vector], rows: int) -> tuple[list[fmpq], list[fmpq] | None]:
-    """Non-negative weights of the columns with the sum (0, ..., 0, 1).
+    """Return non-negative weights of the columns with the sum (0, ..., 0, 1).
 
-    Where there are none, also a linear function that is at most 0 on every column and positive on that sum. The column
-    of least cost enters first; past a number of steps the first of negative cost, which ends [Bland1977].
+    Where there are none, also a linear function that is at most 0 on every column and positive on that sum. The first
+    column of negative cost enters, and of equals the first leaves, which ends [Bland1977].
     """
-    total = len(columns)
-    right = total + rows
-    table = [{j: c[r] for j, c in enumerate(columns) if c[r] != 0} | {total + r: ONE} for r in range(rows)]
-    table[-1][right] = ONE
-    costs: Row = {}
-    for row in table:
-        _add(costs, -ONE, {j: v for j, v in row.items() if j < total or j == right})
-    basis = list(range(total, right))
-    for step in count():
+    number = len(columns)
+    units = [tuple(ONE if i == k else ZERO for i in range(rows)) for k in range(rows)]
+    every, basis = [*columns, *units], list(range(number, number + rows))
+    while True:
         check()
-        below = [j for j, v in costs.items() if v < 0 and j < total]
-        if not below:
+        inverse = fmpq_mat([[every[j][r] for j in basis] for r in range(rows)]).inv()
+        lines = [[inverse[r, k] for k in range(rows)] for r in range(rows)]
+        artificial = [r for r in range(rows) if basis[r] >= number]
+        prices = [sum((lines[r][k] for r in artificial), ZERO) for k in range(rows)]
+        entering = next((j for j, column in enumerate(columns) if _dot(prices, column) > 0), None)
+        if entering is None:
             break
-        entering = min(below) if step > GREEDY * rows else min(below, key=lambda j: (costs[j], j))
-        allowed = [r for r in range(rows) if table[r].get(entering, ZERO) > 0]
-        leaving = min(allowed, key=lambda r: (table[r].get(right, ZERO) / table[r][entering], basis[r]))
-        _pivot(table, costs, leaving, entering)
-        basis[leaving] = entering
-    weights = [ZERO] * right
+        slopes = [_dot(line, columns[entering]) for line in lines]
+        basis[min((lines[r][-1] / v, basis[r], r) for r, v in enumerate(slopes) if v > 0)[2]] = entering
+    weights = [ZERO] * number
     for r, j in enumerate(basis):
-        weights[j] = table[r].get(right, ZERO)
-    unmet = any(w != 0 for w in weights[total:])
-    return weights[:total], [ONE - costs.get(c, ZERO) for c in range(total, right)] if unmet else None
-
-
-def _pivot(table: list[Row], costs: Row, r: int, c: int) -> None:
-    """Make the column ``c`` a unit vector."""
-    below = table[r][c]
-    table[r] = {j: v / below for j, v in table[r].items()}
-    for k, row in enumerate(table):
-        if k != r and c in row:
-            _add(row, -row[c], table[r])
-    if c in costs:
-        _add(costs, -costs[c], table[r])
-
-
-def _add(row: Row, factor: fmpq, other: Row) -> None:
-    """Add a multiple of another row."""
-    for j, v in other.items():
-        total = row.get(j, ZERO) + factor * v
-        if total == 0:
-            row.pop(j, None)
-        else:
-            row[j] = total
+        if j < number:
+            weights[j] = lines[r][-1]
+    return weights, prices if any(lines[r][-1] != 0 for r in artificial) else None

@@ -91,7 +91,7 @@ class Planner:
         return self.plan
 
     def _solved_last(self, remaining: list[int]) -> list[tuple[int, Unit]]:
-        """The steps, those that are taken last first."""
+        """Return the steps, those that are taken last first."""
         solved_last: list[tuple[int, Unit]] = []
         tried = False
         while remaining:
@@ -144,7 +144,7 @@ class Planner:
         return bool(peeled)
 
     def _best(self, node: int, own: Sequence[Unit]) -> Unit | None:
-        """The unknown of lowest degree; of equals, what is not a parameter, then by order."""
+        """Return the unknown of lowest degree; of equals, what is not a parameter, then by order."""
         if self._parameters_only(node):
             return None
         ranked = []
@@ -186,7 +186,7 @@ class Planner:
                 self.plan.contradictory, self.plan.witness = True, node
 
     def _parameters_only(self, node: int) -> bool:
-        """Does the relation hold between named parameters alone (generic geometry is not named)?"""
+        """Return whether the relation is one between named parameters alone (generic geometry is not named)."""
         units = {u for u in units_in(self.ring, node) if self.degree(node, u)}
         return bool(units) and all(_is_parameter(self.ring, u) for u in units)
 
@@ -219,7 +219,7 @@ class Planner:
         return at_zero, self.ring.emit(ADD, (at_one, self.ring.negative(at_zero)))
 
     def _may_be_zero(self, node: int) -> bool:
-        """Does a coefficient hold unknowns, so that it may vanish where the relations hold?"""
+        """Return whether a coefficient holds unknowns, so that it may vanish where the relations hold."""
         moving = [u for u in units_in(self.ring, node) if not _is_parameter(self.ring, u)]
         try:
             return self.probe is None or any(univariate(self.ring, node, u, self.probe).degree() > 0 for u in moving)
@@ -227,7 +227,7 @@ class Planner:
             return True
 
     def _vanishes(self, node: int) -> bool:
-        """True where a relation holds for random values of all its unknowns: it says nothing new."""
+        """Return whether a relation holds for random values of all its unknowns: it says nothing new."""
         try:
             point = field_point([self.ring], self.rng.randrange(1 << 30))
             return bool(value_along(self.ring, node, {}, point) == 0)

@@ -76,23 +76,23 @@ Unit = tuple[str, int]
 
 
 def unit_of(ring: Ring, index: int) -> Unit:
-    """The unknown that a generator belongs to: sin and cos are one."""
+    """Return the unknown that a generator belongs to: sin and cos are one."""
     var = ring.vars[index]
     return ("angle", min(index, var.partner)) if var.kind in ("cos", "sin") else ("var", index)
 
 
 def units_in(ring: Ring, node: int) -> frozenset[Unit]:
-    """The unknowns of a relation."""
-    found = set()
+    """Return the unknowns of a relation."""
+    units = set()
     for i in reachable(ring, [node], through_generators=False):
         op, payload = ring.code[i]
         if op == VAR and ring.vars[payload].kind != "sign" and not stands_for_number(ring, payload):
-            found.add(unit_of(ring, payload))
-    return frozenset(found)
+            units.add(unit_of(ring, payload))
+    return frozenset(units)
 
 
 def stands_for_number(ring: Ring, index: int) -> bool:
-    """True for generators that stand for one number: pi, roots and angles of numbers."""
+    """Return whether a generator stands for one number: pi, roots and angles of numbers."""
     var = ring.vars[index]
     if var.kind in ("symbol", "call"):
         return False
@@ -101,7 +101,7 @@ def stands_for_number(ring: Ring, index: int) -> bool:
 
 def root_relations(ring: Ring, relations: list[int]) -> list[int]:
     """root^d - radicand for every root that the relations reach."""
-    found, seen = [], set()
+    equations, seen = [], set()
     pending = list(relations)
     while pending:
         for i in reachable(ring, [pending.pop()], through_generators=False):
@@ -112,14 +112,14 @@ def root_relations(ring: Ring, relations: list[int]) -> list[int]:
             var = ring.vars[payload]
             if var.kind == "root" and not stands_for_number(ring, payload):
                 relation = ring.emit(ADD, (ring.power_node(i, var.degree), ring.negative(var.args[0])))
-                found.append(relation)
+                equations.append(relation)
                 pending.append(relation)
-    return found
+    return equations
 
 
 @raising_no_value
 def univariate(ring: Ring, node: int, unit: Unit, point: FieldPoint) -> nmod_poly:
-    """The numerator of a relation as a polynomial in one unknown. Raises NoValueError."""
+    """Return the numerator of a relation as a polynomial in one unknown. Raises NoValueError."""
     check()
     x = nmod_poly([0, 1], point.p)
     one = nmod_poly([1], point.p)
@@ -137,7 +137,7 @@ def univariate(ring: Ring, node: int, unit: Unit, point: FieldPoint) -> nmod_pol
 
 @raising_no_value
 def value_along(ring: Ring, node: int, pair: dict[int, Rational], point: FieldPoint) -> Any:
-    """The value of a relation where some generators are functions of one unknown. Raises NoValueError."""
+    """Return the value of a relation where some generators are functions of one unknown. Raises NoValueError."""
     values: dict[int, Any] = {}
     for i in reversed(reachable(ring, [node], through_generators=False)):
         values[i] = _step(ring, i, values, pair, point)
@@ -167,25 +167,25 @@ def _step(ring: Ring, i: int, values: dict[int, Any], pair: dict[int, Rational],
 
 
 def _independent(ring: Ring, index: int, point: FieldPoint) -> Any:
-    """A generator's value where its argument is not looked at."""
+    """Return a generator's value where its argument is not looked at."""
     var = ring.vars[index]
-    found = point.given.get((var.kind, var.key))
-    if found is not None:
-        return found
+    value = point.given.get((var.kind, var.key))
+    if value is not None:
+        return value
     if not stands_for_number(ring, index):
         return point.whatever(var)
     return point.generator(var, [value_along(ring, a, {}, point) for a in var.args])
 
 
 def is_linear(ring: Ring, node: int, index: int, point: FieldPoint) -> bool:
-    """Is the relation a polynomial of degree 1 in a generator, with no denominator in it? Raises NoValueError."""
+    """Return whether the relation is a polynomial of degree 1 in a generator. Raises NoValueError."""
     x, one = nmod_poly([0, 1], point.p), nmod_poly([1], point.p)
     result = value_along(ring, node, {index: Rational(x, one)}, point)
     return isinstance(result, Rational) and result.bottom.degree() == 0 and result.top.degree() == 1
 
 
 def roots_of(polynomial: nmod_poly) -> list[nmod]:
-    """The roots of a polynomial over GF(p)."""
+    """Return the roots of a polynomial over GF(p)."""
     if polynomial.degree() > 1:
         return [root for root, _ in polynomial.roots()]
     if polynomial.degree() < 1:

@@ -152,13 +152,13 @@ INVERSE = ("asin", "atan", "atan2")
 
 
 def odd_constants(ring: Ring) -> bool:
-    """Do constants occur that may be related (nested roots, inverse functions and logarithms of numbers)?"""
+    """Return whether constants occur that may be related: nested roots, inverse functions, logarithms of numbers."""
     constant = [v for v in ring.vars if not ring.var_expr[v.index].symbols]
     return any(v.kind in (*INVERSE, "log", "sign") or _root_of_more(v) for v in constant)
 
 
 def independent_generators(ring: Ring) -> bool:
-    """True where the generators are algebraically independent up to the relations that the ring knows.
+    """Return whether the generators are algebraically independent up to the relations that the ring knows.
 
     Symbols, sines, cosines and exponentials of different terms are [Ax1971], and so are unknown functions, square
     roots of different primes and one root of what is linear in a symbol, so no power itself, and one transcendental
@@ -177,7 +177,7 @@ def independent_generators(ring: Ring) -> bool:
 
 
 def _one_constant(ring: Ring) -> bool:
-    """Is there at most one transcendental constant: pi, or the exponential or angle of one rational number?
+    """Return whether there is at most one transcendental constant: pi, exp or an angle of one rational number.
 
     These are transcendental [Lindemann1882]; of two of them it is not known, or they are related as e and e^1000 are.
     """
@@ -191,12 +191,12 @@ def _one_constant(ring: Ring) -> bool:
 
 
 def _is_rational(e: Expr) -> bool:
-    """A product of numbers that are not 0, as written."""
+    """Return a product of numbers that are not 0, as written."""
     return all(part.op == "num" and not part.is_zero for part in (e.args if e.op == "mul" else (e,)))
 
 
 def independent_on_set(ring: Ring, relations: Sequence[object]) -> bool:
-    """The same where some relations hold.
+    """Return the same where some relations hold.
 
     There arguments may be related that are not related as written: of few of them a point tells (`characters`); of
     more only what is equal, or a sum, so that no other argument may occur than a symbol.
@@ -216,7 +216,7 @@ def _of_symbol(var: Var) -> bool:
 
 
 def _independent_arguments(ring: Ring, kind: str) -> bool:
-    """Are the arguments of all exponentials, or of all angles, linearly independent over Q modulo constants? [Ax1971].
+    """Return whether the exponents, or the angles, are linearly independent over Q modulo constants [Ax1971].
 
     They are put over one denominator L: then so are their numerators together with L. False where they grow too large.
     """
@@ -240,18 +240,18 @@ def _independent_arguments(ring: Ring, kind: str) -> bool:
 
 
 def _root_of_more(var: Var) -> bool:
-    """A root of something else than a prime number."""
+    """Return a root of something else than a prime number."""
     return var.kind == "root" and not isinstance(var.key[0], Expr)
 
 
 def _linear_somewhere(e: Expr) -> bool:
-    """Is ``e`` of degree 1 in one of its symbols?"""
+    """Return whether ``e`` is of degree 1 in one of its symbols."""
     slopes = ((s, diff(e, s)) for s in e.symbols)
     return any(not slope.is_zero and s not in slope.symbols for s, slope in slopes)
 
 
 def doubt(ring: Ring) -> Doubt | None:
-    """May what is 0 look like something else over GF(p), or a root stand there for the other one?
+    """Return whether what is 0 may look otherwise over GF(p), or a root stand there for the other one.
 
     Of numbers only, or of functions: these may be 0 in one region and not in another, so that no point decides. Less is
     asked than of `independent_generators`: no proof rests on the answer, but where it is None no relation among the
@@ -264,7 +264,7 @@ def doubt(ring: Ring) -> Doubt | None:
 
 
 def _related_functions(ring: Ring) -> bool:
-    """May functions of the variables be related?"""
+    """Return whether functions of the variables may be related."""
     moving = [v for v in ring.vars if ring.var_expr[v.index].symbols]
     kinds = [v.kind for v in moving]
     if sum(kind in INVERSE for kind in kinds) + kinds.count("sign") > 1:
@@ -279,13 +279,13 @@ def _related_functions(ring: Ring) -> bool:
 
 
 def _changes_sign(ring: Ring, var: Var) -> bool:
-    """Is the argument of a sign linear in a symbol, so that both signs occur?"""
+    """Return whether the argument of a sign is linear in a symbol, so that both signs occur."""
     shown = ring.var_expr[var.index]
     return any(_linear_somewhere(node.args[1]) for node in ex.nodes(shown) if node.op == "fn" and node.args[0] == "abs")
 
 
 def _odd_arguments(moving: Sequence[Var]) -> bool:
-    """Are there several sines or exponentials, one of them of something that is no polynomial?"""
+    """Return whether there are several sines or exponentials, one of them of something that is no polynomial."""
     angles = [v for v in moving if v.kind in ("cos", "exp")]
     if len(angles) < 2:
         return False
@@ -293,7 +293,7 @@ def _odd_arguments(moving: Sequence[Var]) -> bool:
 
 
 def _beyond_polynomials(e: Expr) -> bool:
-    """Do quotients, roots or functions occur?"""
+    """Return whether quotients, roots or functions occur."""
     return any(
         node.op == "fn" or (node.op == "pow" and (node.args[1].op != "num" or not _natural(node.args[1])))
         for node in ex.nodes(e)

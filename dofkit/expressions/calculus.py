@@ -18,7 +18,7 @@ from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr, add, call, child
 
 
 def substitute(e: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
-    """``e`` with symbols replaced by expressions, all at once."""
+    """Return ``e`` with symbols replaced by expressions, all at once."""
     return _substituted(e, mapping, {})
 
 
@@ -27,22 +27,24 @@ def _substituted(node: Expr, mapping: Mapping[Expr, Expr], memo: dict[Expr, Expr
         return node
     if node.op == "sym":
         return mapping[node]
-    found = memo.get(node)
-    if found is None:
-        found = memo[node] = rebuild(node, tuple([_substituted(child, mapping, memo) for child in children(node)]))
-    return found
+    substituted = memo.get(node)
+    if substituted is None:
+        substituted = memo[node] = rebuild(
+            node, tuple([_substituted(child, mapping, memo) for child in children(node)])
+        )
+    return substituted
 
 
 def replace_nodes(e: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
-    """``e`` with nodes of any kind, such as sin(x) or 3/2, replaced by expressions, the outermost first."""
+    """Return ``e`` with nodes of any kind, such as sin(x) or 3/2, replaced by expressions, the outermost first."""
     return _replaced(e, dict(mapping))
 
 
 def _replaced(node: Expr, memo: dict[Expr, Expr]) -> Expr:
-    found = memo.get(node)
-    if found is None:
-        found = memo[node] = rebuild(node, tuple([_replaced(child, memo) for child in children(node)]))
-    return found
+    replaced = memo.get(node)
+    if replaced is None:
+        replaced = memo[node] = rebuild(node, tuple([_replaced(child, memo) for child in children(node)]))
+    return replaced
 
 
 _DERIVATIVES: dict[str, Callable[[Expr], Expr]] = {
@@ -65,7 +67,7 @@ _DERIVATIVES: dict[str, Callable[[Expr], Expr]] = {
 
 
 def diff(e: Expr, symbol: Expr) -> Expr:
-    """The partial derivative by one symbol, all other symbols held."""
+    """Return the partial derivative by one symbol, all other symbols held."""
     return _diff(e, symbol, {})
 
 
@@ -74,10 +76,10 @@ def _diff(node: Expr, symbol: Expr, memo: dict[Expr, Expr]) -> Expr:
         return ONE
     if symbol not in node.symbols:
         return ZERO
-    found = memo.get(node)
-    if found is None:
-        found = memo[node] = _diff_node(node, partial(_diff, symbol=symbol, memo=memo))
-    return found
+    derivative = memo.get(node)
+    if derivative is None:
+        derivative = memo[node] = _diff_node(node, partial(_diff, symbol=symbol, memo=memo))
+    return derivative
 
 
 def _diff_node(node: Expr, go: Callable[[Expr], Expr]) -> Expr:
@@ -110,7 +112,7 @@ HOMOGENEOUS = ("abs", "atan2")
 
 
 def differential_degree(e: Expr) -> int | None:
-    """The degree in (dq, dt), None for the number 0. Raises TextError where terms differ."""
+    """Return the degree in (dq, dt), None for the number 0. Raises TextError where terms differ."""
     if e.is_zero:
         return None
     if not any(map(is_differential, e.symbols)):
@@ -139,7 +141,7 @@ def differential_degree(e: Expr) -> int | None:
 
 
 def in_velocities(e: Expr) -> tuple[Expr, bool]:
-    """``e`` in velocities instead of differentials, and whether it had a dt to divide by."""
+    """Return ``e`` in velocities instead of differentials, and whether it had a dt to divide by."""
     degree = differential_degree(e)
     if not degree and not any(map(is_differential, e.symbols)):
         return e, False
@@ -149,7 +151,7 @@ def in_velocities(e: Expr) -> tuple[Expr, bool]:
 
 
 def cleared(e: Expr) -> Expr:
-    """``e`` times the denominators of its terms, so that dy/dx = f becomes dy - f dx = 0."""
+    """Return ``e`` times the denominators of its terms, so that dy/dx = f becomes dy - f dx = 0."""
     denominators: dict[Expr, Expr] = {}
     for term in e.args if e.op == "add" else (e,):
         for factor in term.args if term.op == "mul" else (term,):
@@ -169,7 +171,7 @@ SOLVE_FOR_IT = "write the constraint solved for the second derivative, or put it
 
 
 def accelerations_of(e: Expr) -> list[Expr]:
-    """The second derivatives in an expression, by name."""
+    """Return the second derivatives in an expression, by name."""
     return sorted((s for s in e.symbols if s.args[0] == "acceleration"), key=lambda s: str(s.args[1]))
 
 

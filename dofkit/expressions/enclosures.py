@@ -4,32 +4,29 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING
+
+from flint import arb, ctx, fmpq
 
 from dofkit.expressions.tree import HALF, Expr, children
-
-if TYPE_CHECKING:
-    from flint import arb
 
 #: Bits of the interval arithmetic.
 BITS = 256
 
 
 def is_constant(e: Expr) -> bool:
-    """True where no symbol and no unknown function occurs."""
+    """Return whether no symbol and no unknown function occurs."""
     return not e.symbols and not has_call(e)
 
 
 def has_call(e: Expr) -> bool:
-    """True where an unknown function occurs."""
+    """Return whether an unknown function occurs."""
     return "call" in e.functions
 
 
 def interval_of(e: Expr, values: Mapping[Expr, Fraction | arb] | None = None, bits: int = BITS) -> arb | None:
-    """A ball that holds the real value of ``e``, symbols replaced by ``values``; None where there is none."""
-    from flint import ctx
+    """Return a ball that holds the real value of ``e``, symbols replaced by ``values``; None where there is none."""
 
     def go(node: Expr) -> arb:
         if node not in known:
@@ -42,22 +39,18 @@ def interval_of(e: Expr, values: Mapping[Expr, Fraction | arb] | None = None, bi
                 symbol: _ball(value) if isinstance(value, Fraction) else value
                 for symbol, value in (values or {}).items()
             }
-            found = go(e)
+            ball = go(e)
         except (KeyError, ZeroDivisionError, RecursionError, OverflowError):
             return None
-    return found if found.is_finite() else None
+    return ball if ball.is_finite() else None
 
 
 def _ball(value: Fraction) -> arb:
-    from flint import arb, fmpq
-
     return arb(fmpq(value.numerator, value.denominator))
 
 
 def _combined(node: Expr, parts: Sequence[arb]) -> arb:
-    """The value of a node from those of its parts. Raises KeyError where it has none."""
-    from flint import arb
-
+    """Return the value of a node from those of its parts. Raises KeyError where it has none."""
     if node.op == "num":
         return _ball(node.args[0])
     if node.op == "const":
@@ -69,32 +62,25 @@ def _combined(node: Expr, parts: Sequence[arb]) -> arb:
     if node.op == "pow":
         return parts[0].sqrt() if node.args[1] == HALF else parts[0] ** parts[1]
     if node.op == "fn":
-        return _function(node.args[0])(*parts)
+        name = node.args[0]
+        return abs(parts[0]) if name == "abs" else getattr(arb, name)(*parts)
     raise KeyError(node)
 
 
-def _function(name: str) -> Callable[..., arb]:
-    from flint import arb
-
-    table: dict[str, Callable[..., arb]] = {"abs": abs, "atan2": arb.atan2}
-    found: Callable[..., arb] = table[name] if name in table else getattr(arb, name)
-    return found
-
-
 def differs_from_zero(e: Expr) -> bool:
-    """True where ``e`` is certainly not 0, at random positive values of its parameters; False else."""
+    """Return whether ``e`` is certainly not 0, at random positive values of its parameters; False else."""
     if e.op == "num":
         return bool(e.args[0])
     if has_call(e):
         return False
     draw = random.Random(20)
     values = {symbol: Fraction(draw.randrange(10**6, 10**7), 10**6) for symbol in sorted(e.symbols, key=repr)}
-    found = interval_of(e, values)
-    return found is not None and not found.contains(0)
+    ball = interval_of(e, values)
+    return ball is not None and not ball.contains(0)
 
 
 def approximate(e: Expr) -> float | None:
-    """A constant expression as a float."""
+    """Return a constant expression as a float."""
     if e.op == "num":
         try:
             return float(e.args[0])
@@ -102,5 +88,5 @@ def approximate(e: Expr) -> float | None:
             return None
     if not is_constant(e):
         return None
-    found = interval_of(e)
-    return None if found is None else float(found.mid())
+    ball = interval_of(e)
+    return None if ball is None else float(ball.mid())

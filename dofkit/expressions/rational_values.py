@@ -30,7 +30,7 @@ def exact_power(base: Fraction, exponent: Fraction) -> Fraction | None:
 
 
 def exact_root(value: Fraction, degree: int) -> Fraction | None:
-    """The root of a positive number; None where it is not rational, or the degree is above `MAX_DEGREE`."""
+    """Return the root of a positive number; None where it is not rational, or the degree is above `MAX_DEGREE`."""
     if degree > MAX_DEGREE:
         return None
     top, bottom = _integer_root(value.numerator, degree), _integer_root(value.denominator, degree)
@@ -61,7 +61,7 @@ TURNING = frozenset(_AT_TWELFTHS)
 
 
 def value_at(name: str, argument: Fraction) -> Fraction | None:
-    """The value of a function of one argument, where that is known to be rational; else None.
+    """Return the value of a function of one argument, where that is known to be rational; else None.
 
     >>> value_at("cos", Fraction(0)), value_at("abs", Fraction(-2, 3)), value_at("sin", Fraction(1))
     (Fraction(1, 1), Fraction(2, 3), None)
@@ -74,7 +74,7 @@ def value_at(name: str, argument: Fraction) -> Fraction | None:
 
 
 def value_at_turn(name: str, multiple: Fraction) -> Fraction | None:
-    """The value of a function of `TURNING` at ``multiple`` times pi, where it is rational; else None.
+    """Return the value of a function of `TURNING` at ``multiple`` times pi, where it is rational; else None.
 
     >>> value_at_turn("sin", Fraction(1, 6)), value_at_turn("cos", Fraction(-2, 3))
     (Fraction(1, 2), Fraction(-1, 2))

@@ -54,22 +54,22 @@ class ExpressionShape(NamedTuple):
 
 
 def order_of(names: Sequence[str], kept: Sequence[str] = ()) -> tuple[int | str, ...]:
-    """The numbers of some names, sorted by these, among others that are kept."""
+    """Return the numbers of some names, sorted by these, among others that are kept."""
     places: dict[str, int | str] = {name: name for name in kept}
     places.update((name, k) for k, name in enumerate(names))
     return tuple(places[name] for name in sorted(places))
 
 
 def is_name(symbol: Expr) -> bool:
-    """Is a symbol called by a name that may be another: of a coordinate, or of geometry that was left out?"""
+    """Return whether a symbol has a name that may be another: of a coordinate, or of geometry left out."""
     kind, name = symbol.args
     return kind in MOVING or (kind == "parameter" and name[0] == "_")
 
 
 def shape_of(e: Expr) -> ExpressionShape:
-    """An expression without its names; worked out once."""
-    found: ExpressionShape | None = e.shape
-    if found is None:
+    """Return an expression without its names; worked out once."""
+    shape: ExpressionShape | None = e.shape
+    if shape is None:
         places: dict[str, str] = {}
         for symbol in _symbols_in_order(e):
             if is_name(symbol):
@@ -79,17 +79,17 @@ def shape_of(e: Expr) -> ExpressionShape:
         kept = sorted({s.args[1] for s in e.symbols if not is_name(s)})
         called = {s.args[1] for s in e.symbols if s.args[0] in VALUED}
         occurring = Occurring(kinds_in(e), tuple([k for k, name in enumerate(places) if name in called]))
-        found = e.shape = ExpressionShape(renamed(e, places), tuple(places), tuple(kept), occurring)
-    return found
+        shape = e.shape = ExpressionShape(renamed(e, places), tuple(places), tuple(kept), occurring)
+    return shape
 
 
 def kinds_in(e: Expr) -> frozenset[str]:
-    """The kinds of the symbols that occur."""
+    """Return the kinds of the symbols that occur."""
     return frozenset([s.args[0] for s in e.symbols]) if e.shape is None else e.shape.occurring.kinds
 
 
 def coordinates_in(e: Expr) -> frozenset[str]:
-    """The coordinates of which the value or the velocity occurs.
+    """Return the coordinates of which the value or the velocity occurs.
 
     >>> from dofkit.expressions.tree import coordinate, velocity
     >>> sorted(coordinates_in(coordinate("y") * velocity("x")))
@@ -103,21 +103,21 @@ def coordinates_in(e: Expr) -> frozenset[str]:
 
 
 def _symbols_in_order(e: Expr) -> list[Expr]:
-    """The symbols, each where it first occurs."""
-    found: dict[Expr, None] = {}
+    """Return the symbols, each where it first occurs."""
+    symbols: dict[Expr, None] = {}
     stack, seen = [e], set[int]()
     while stack:
         node = stack.pop()
         if node.op == "sym":
-            found.setdefault(node)
+            symbols.setdefault(node)
         elif id(node) not in seen:
             seen.add(id(node))
             stack.extend(reversed(children(node)))
-    return list(found)
+    return list(symbols)
 
 
 def renamed(e: Expr, names: Mapping[str, str]) -> Expr:
-    """An expression in other names, which have to be as many: nothing is folded again.
+    """Return an expression in other names, which have to be as many: nothing is folded again.
 
     >>> from dofkit.expressions.tree import coordinate
     >>> renamed(coordinate("x") + 1, {"x": "y"}) == coordinate("y") + 1
@@ -135,7 +135,7 @@ class Renaming:
         self._known: dict[int, tuple[Expr, Expr]] = {}
 
     def of(self, e: Expr) -> Expr:
-        """An expression in the other names; its shape is known where it was."""
+        """Return an expression in the other names; its shape is known where it was."""
         op, args = e.op, e.args
         if op == "sym":
             return self._symbol(e)
@@ -158,12 +158,12 @@ class Renaming:
         return made
 
     def _symbol(self, symbol: Expr) -> Expr:
-        found = self._symbols.get(symbol)
-        if found is None:
+        renamed_symbol = self._symbols.get(symbol)
+        if renamed_symbol is None:
             kind, name = symbol.args
             other = self.names.get(name)
-            found = self._symbols[symbol] = symbol if other is None else sym(kind, other)
-        return found
+            renamed_symbol = self._symbols[symbol] = symbol if other is None else sym(kind, other)
+        return renamed_symbol
 
 
 class _Step(NamedTuple):
@@ -209,48 +209,24 @@ class Template:
         self._root = places[e]
 
     def of(self, names: Sequence[str]) -> Expr:
-        """The expression in other names, all different, in the order of its own; its shape is known."""
+        """Return the expression in other names, all different, in the order of its own; its shape is known."""
         return self.with_symbols([sym(kind, names[k]) for kind, k in self._called])
 
     def with_symbols(self, symbols: Sequence[Expr]) -> Expr:
-        """The expression with other symbols, each of the kind of its own and in their order; see `of`."""
-        if not self._steps:
-            return (*symbols, *self._kept)[self._root]
-        return _Renamed(self, symbols, tuple([symbols[k].args[1] for k in self._named]))
-
-    def written(self, symbols: Sequence[Expr]) -> Expr:
-        """The same with all its nodes."""
-        found = [*symbols, *self._kept]
+        """Return the expression with other symbols, each of the kind of its own and in their order; see `of`."""
+        names = [symbols[k].args[1] for k in self._named]
+        rename = dict(zip(self.names, names, strict=True))
+        written = [*symbols, *self._kept]
         for op, before, parts, shape in self._steps:
-            below = tuple([found[k] for k in parts])
-            made = Expr(op, (*before, below) if op == "call" else before + below)
+            below = tuple([written[k] for k in parts])
+            node = Expr(op, (*before, below) if op == "call" else before + below)
             if shape is not None:
-                other = dict(zip(self.names, (symbols[k].args[1] for k in self._named), strict=True))
-                made.shape = shape._replace(names=tuple([other[n] for n in shape.names]))
-            found.append(made)
-        return found[self._root]
-
-
-class _Renamed(Expr):
-    """An expression of a template with other symbols: its nodes are written when it is looked into."""
-
-    __slots__ = ("_own", "_template")
-
-    def __init__(self, template: Template, symbols: Sequence[Expr], names: tuple[str, ...]) -> None:
-        skeleton, _, kept, occurring = template.shape
-        self.op = template.op
-        self.shape = ExpressionShape(skeleton, names, kept, occurring)
-        self._symbols = frozenset(dict.fromkeys((*template.others, *symbols)))
-        self._functions = template.functions
-        self._template, self._own = template, symbols
-
-    def __getattr__(self, name: str) -> Any:
-        """``args`` and the hash that they have: asked for while there are none yet."""
-        if name not in ("args", "_hash"):
-            raise AttributeError(f"an expression has no '{name}'")
-        written = self._template.written(self._own)
-        self.args, self._hash = written.args, hash(written)
-        return getattr(self, name)
+                node.shape = shape._replace(names=tuple([rename[n] for n in shape.names]))
+            written.append(node)
+        e = written[self._root]
+        if self._steps:
+            e.shape = self.shape._replace(names=tuple(names))
+        return e
 
 
 T = TypeVar("T")

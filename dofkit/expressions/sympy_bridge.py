@@ -47,11 +47,11 @@ class Bridge:
     # to SymPy
 
     def velocity(self, name: str, order: int = 1) -> Any:
-        """The ``order``-th derivative of a coordinate by time."""
+        """Return the ``order``-th derivative of a coordinate by time."""
         return self.positions[name].diff(self.time, order)
 
     def sympy(self, e: Expr) -> Any:
-        """``e`` in SymPy. Raises KeyError for coordinates that were not given."""
+        """Return ``e`` in SymPy. Raises KeyError for coordinates that were not given."""
         for node in ex.nodes(e):
             if node not in self._memo:
                 self._memo[node] = self._to_sympy(node)
@@ -101,7 +101,7 @@ class Bridge:
     # and back
 
     def expr(self, e: Any) -> Expr:
-        """A SymPy expression as one of ours. Raises UntranslatableError where that is not possible."""
+        """Return a SymPy expression as one of ours. Raises UntranslatableError where that is not possible."""
         found = self._back.get(e)
         if found is None:
             found = self._back[e] = self._from_sympy(e)
@@ -131,7 +131,7 @@ class Bridge:
         return self._parameters.get(e) or ex.parameter(str(e.name))
 
     def derivative(self, e: Any) -> Expr:
-        """A velocity, an acceleration, or the derivative of an unknown function at its own arguments."""
+        """Return a velocity, an acceleration, or the derivative of an unknown function at its own arguments."""
         base, steps = e.expr, {variable: int(order) for variable, order in e.variable_count}
         if steps == {base: 1}:
             return ex.ONE
@@ -153,7 +153,7 @@ class Bridge:
         return tuple(steps.get(a, 0) for a in base.args)
 
     def substituted(self, e: Any) -> Expr:
-        """A derivative of an unknown function at other arguments than it was taken by."""
+        """Return a derivative of an unknown function at other arguments than it was taken by."""
         inner = e.expr
         if not isinstance(inner, self._sympy.Derivative):
             raise UntranslatableError("a substitution that was not carried out")

@@ -16,7 +16,7 @@ EXPAND_TERMS = 64
 
 
 def expand(e: Expr) -> Expr:
-    """``e`` with products of sums and small powers of sums multiplied out."""
+    """Return ``e`` with products of sums and small powers of sums multiplied out."""
     if e.op == "add":
         return ex.add(*(expand(term) for term in e.args))
     if e.op == "mul":
@@ -35,7 +35,7 @@ def expand(e: Expr) -> Expr:
 
 
 def linear_terms(e: Expr) -> dict[Expr, Fraction]:
-    """``e`` as a combination of its terms with rational coefficients, not 0; the number's term is `ONE`."""
+    """Return ``e`` as a combination of its terms with rational coefficients, not 0; the number's term is `ONE`."""
     if e.op == "sym":
         return {e: Fraction(1)}
     total = expand(e)
@@ -53,7 +53,7 @@ def linear_terms(e: Expr) -> dict[Expr, Fraction]:
 
 
 def without_cancelled(e: Expr) -> Expr:
-    """``e`` without the terms of sums that cancel as they are written, functions and quotients apart."""
+    """Return ``e`` without the terms of sums that cancel as they are written, functions and quotients apart."""
     parts = ex.children(e)
     if not parts:
         return e
@@ -70,7 +70,7 @@ def without_cancelled(e: Expr) -> Expr:
 
 
 def number_and_rest(term: Expr) -> tuple[Fraction, Expr]:
-    """A term as a number times the rest."""
+    """Return a term as a number times the rest."""
     if term.op == "mul" and term.args[0].op == "num":
         rest = term.args[1:]
         return term.args[0].args[0], rest[0] if len(rest) == 1 else Expr("mul", rest)
@@ -78,17 +78,17 @@ def number_and_rest(term: Expr) -> tuple[Fraction, Expr]:
 
 
 def sorted_product(e: Expr) -> Expr:
-    """The same product, its factors in an order of their own."""
+    """Return the same product, its factors in an order of their own."""
     return Expr("mul", tuple(sorted(e.args, key=repr))) if e.op == "mul" else e
 
 
 def sorted_sum(e: Expr) -> tuple[tuple[str, Fraction], ...]:
-    """A key that does not depend on the order of terms."""
+    """Return a key that does not depend on the order of terms."""
     return tuple(sorted((repr(rest), factor) for rest, factor in linear_terms(e).items()))
 
 
 def content(e: Expr) -> tuple[Fraction, Expr]:
-    """A sum as positive rational content times the rest."""
+    """Return a sum as positive rational content times the rest."""
     factors = [number_and_rest(t)[0] if t.op != "num" else t.args[0] for t in e.args]
     top = gcd(*(abs(f.numerator) for f in factors))
     bottom = 1
@@ -99,7 +99,7 @@ def content(e: Expr) -> tuple[Fraction, Expr]:
 
 
 def longest_number(expressions: Iterable[Expr]) -> int:
-    """The bits of the longest numerator or denominator of a number that occurs; 0 where none does."""
+    """Return the bits of the longest numerator or denominator of a number that occurs; 0 where none does."""
     seen: set[Expr] = set()
     stack, longest = list(expressions), 0
     while stack:
@@ -121,7 +121,7 @@ class Combined(NamedTuple):
 
 
 def combined(e: Expr) -> Combined:
-    """``e`` in fewer symbols, where some of them occur through one sum with rational coefficients only.
+    """Return ``e`` in fewer symbols, where some of them occur through one sum with rational coefficients only.
 
     Sums that are looked at stand in a function. One of their coordinates takes the place of the sum, which is a change
     of coordinates, and none of the other symbols may be left.
@@ -142,7 +142,7 @@ def combined(e: Expr) -> Combined:
 
 
 def _sums_in_functions(e: Expr) -> Iterator[Expr]:
-    """The sums of several symbols, without their number, that functions stand around."""
+    """Return the sums of several symbols, without their number, that functions stand around."""
     for node in ex.nodes(e) if e.functions else ():
         for argument in node.args[1:] if node.op == "fn" else ():
             if argument.op not in ("add", "mul") or len(argument.symbols) < 2:

@@ -109,24 +109,24 @@ class Expr:
             if self.op == "sym":
                 self._symbols = frozenset((self,))
             else:
-                found: frozenset[Expr] = _NO_SYMBOLS
+                symbols: frozenset[Expr] = _NO_SYMBOLS
                 for child in children(self):
                     own = child.symbols
-                    if own and not own <= found:
-                        found = own if found <= own else found | own
-                self._symbols = found
+                    if own and not own <= symbols:
+                        symbols = own if symbols <= own else symbols | own
+                self._symbols = symbols
         return self._symbols
 
     @property
     def functions(self) -> frozenset[str]:
         """The names of the functions that occur; ``pow`` for powers but whole ones, ``call`` for unknown functions."""
         if self._functions is None:
-            found = _NO_NAMES if self.op in ("num", "sym", "const", "add", "mul") else _function_of(self)
+            functions = _NO_NAMES if self.op in ("num", "sym", "const", "add", "mul") else _function_of(self)
             for child in children(self):
                 own = child.functions
-                if own and not own <= found:
-                    found = found | own
-            self._functions = found
+                if own and not own <= functions:
+                    functions = functions | own
+            self._functions = functions
         return self._functions
 
     @property
@@ -145,7 +145,7 @@ def _function_of(e: Expr) -> frozenset[str]:
 
 
 def num(value: int | Fraction) -> Expr:
-    """The exact number ``value``."""
+    """Return the exact number ``value``."""
     if value.denominator == 1 and value.numerator in _SMALL:
         return _SMALL[value.numerator]
     return Expr("num", (value if type(value) is Fraction else Fraction(value),))
@@ -160,7 +160,7 @@ PI, E = Expr("const", ("pi",)), Expr("const", ("E",))
 
 
 def as_expr(value: ExprLike) -> Expr:
-    """``value`` itself, or the exact number it stands for. Raises TypeError for floats and text."""
+    """Return ``value`` itself, or the exact number it stands for. Raises TypeError for floats and text."""
     if isinstance(value, Expr):
         return value
     if isinstance(value, (int, Fraction)) and not isinstance(value, bool):
@@ -170,12 +170,12 @@ def as_expr(value: ExprLike) -> Expr:
 
 @lru_cache(MOST_SYMBOLS)
 def sym(kind: Kind, name: str) -> Expr:
-    """The symbol ``name`` of the given kind: mostly one object, however often it occurs."""
+    """Return the symbol ``name`` of the given kind: mostly one object, however often it occurs."""
     return Expr("sym", (kind, name))
 
 
 def coordinate(name: str) -> Expr:
-    """The configuration coordinate q."""
+    """Return the configuration coordinate q."""
     return sym("coordinate", name)
 
 
@@ -190,7 +190,7 @@ def differential(name: str) -> Expr:
 
 
 def parameter(name: str) -> Expr:
-    """A constant with a name."""
+    """Return a constant with a name."""
     return sym("parameter", name)
 
 
@@ -199,7 +199,7 @@ _ONCE: Fraction = ONE.args[0]
 
 
 def _split(term: Expr) -> tuple[Fraction, Expr]:
-    """``term`` as number times rest."""
+    """Return ``term`` as number times rest."""
     if term.op == "num":
         return term.args[0], ONE
     if term.op == "mul" and term.args[0].op == "num":
@@ -209,7 +209,7 @@ def _split(term: Expr) -> tuple[Fraction, Expr]:
 
 
 def add(*terms: Expr) -> Expr:
-    """The sum; numbers are folded and equal terms collected."""
+    """Return the sum; numbers are folded and equal terms collected."""
     collected: dict[Expr, Fraction] = {}
     for term in terms:
         for part in term.args if term.op == "add" else (term,):
@@ -232,7 +232,7 @@ def _scaled(factor: Fraction, rest: Expr) -> Expr:
 
 
 def mul(*factors: Expr) -> Expr:
-    """The product; numbers are folded and integer powers of equal factors collected."""
+    """Return the product; numbers are folded and integer powers of equal factors collected."""
     number = _ONCE
     powers: dict[Expr, int] = {}
     for factor in factors:
@@ -260,7 +260,7 @@ def mul(*factors: Expr) -> Expr:
 
 
 def power(base: Expr, exponent: Expr) -> Expr:
-    """``base^exponent``; ``E^u`` is ``exp(u)``, ``0^-n`` raises PoleError."""
+    """Return ``base^exponent``; ``E^u`` is ``exp(u)``, ``0^-n`` raises PoleError."""
     if exponent.op == "num":
         value: Fraction = exponent.args[0]
         if value == 1:
@@ -282,7 +282,7 @@ def power(base: Expr, exponent: Expr) -> Expr:
 
 
 def sqrt(value: Expr) -> Expr:
-    """The non-negative square root."""
+    """Return the non-negative square root."""
     return power(value, HALF)
 
 
@@ -302,13 +302,13 @@ def fn(name: str, *arguments: Expr) -> Expr:
 
 
 def call(name: str, arguments: Iterable[Expr], orders: Iterable[int] | None = None) -> Expr:
-    """The unknown function ``name`` at ``arguments``, differentiated ``orders[i]`` times by the i-th."""
+    """Return the unknown function ``name`` at ``arguments``, differentiated ``orders[i]`` times by the i-th."""
     given = tuple(arguments)
     return Expr("call", (name, tuple(orders) if orders is not None else (0,) * len(given), given))
 
 
 def children(e: Expr) -> tuple[Expr, ...]:
-    """The nodes directly below ``e``."""
+    """Return the nodes directly below ``e``."""
     if e.op in ("num", "sym", "const"):
         return ()
     if e.op == "fn":
@@ -319,7 +319,7 @@ def children(e: Expr) -> tuple[Expr, ...]:
 
 
 def rebuild(e: Expr, parts: tuple[Expr, ...]) -> Expr:
-    """``e`` with its children replaced, folded again."""
+    """Return ``e`` with its children replaced, folded again."""
     if e.op == "add":
         return add(*parts)
     if e.op == "mul":
@@ -334,7 +334,7 @@ def rebuild(e: Expr, parts: tuple[Expr, ...]) -> Expr:
 
 
 def nodes(e: Expr) -> Iterator[Expr]:
-    """Every different node of ``e``, children first."""
+    """Return every different node of ``e``, children first."""
     seen: set[Expr] = set()
     stack = [(e, False)]
     while stack:

@@ -17,7 +17,7 @@ _Number = int | Fraction
 
 
 def total(parts: Iterable[tuple[_Number, Expr]]) -> Expr:
-    """The sum of numbers times expressions, equal terms collected: `add` for many short sums.
+    """Return the sum of numbers times expressions, equal terms collected: `add` for many short sums.
 
     Whole numbers are kept as int while they are added, which is several times faster than Fraction.
     """
@@ -52,7 +52,7 @@ def _times(number: _Number, term: Expr) -> Expr:
 
 
 def plus(*vectors: Vec) -> Vec:
-    """The sum."""
+    """Return the sum."""
     return tuple(total([(1, part) for part in parts]) for parts in zip(*vectors, strict=True))
 
 
@@ -107,28 +107,28 @@ def cross(a: Vec, b: Vec) -> Vec:
 
 
 def apply(matrix: Matrix, a: Vec) -> Vec:
-    """The matrix times a vector."""
+    """Return the matrix times a vector."""
     return tuple(dot(row, a) for row in matrix)
 
 
 def product(left: Matrix, right: Matrix) -> Matrix:
-    """The product of two matrices."""
+    """Return the product of two matrices."""
     columns = tuple(zip(*right, strict=True))
     return tuple(tuple(dot(row, column) for column in columns) for row in left)
 
 
 def transposed(matrix: Matrix) -> Matrix:
-    """The transpose."""
+    """Return the transpose."""
     return tuple(zip(*matrix, strict=True))
 
 
 def unit(axis: int, dimension: int) -> Vec:
-    """The world's axis number ``axis``."""
+    """Return the world's axis number ``axis``."""
     return tuple(ONE if i == axis else ZERO for i in range(dimension))
 
 
 def is_zero(a: Vec) -> bool:
-    """True where every component is the number 0 as written."""
+    """Return whether every component is the number 0 as written."""
     return all(part.is_zero for part in a)
 
 

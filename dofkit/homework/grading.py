@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Generator, Iterator, Mapping
-from contextlib import suppress
+from collections.abc import Generator, Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
@@ -14,7 +13,7 @@ from typing import Any, Literal, cast
 from flint import ctx
 
 from dofkit.base.deadline import OutOfTimeError, by_processor
-from dofkit.base.errors import DofkitError, TextError
+from dofkit.base.errors import TextError
 from dofkit.base.wording import nearest
 from dofkit.exact.points.balls import PRECISION
 from dofkit.homework.answers.prose import says_nothing
@@ -27,7 +26,6 @@ from dofkit.homework.judgement import (
     NOTHING,
     DoubtError,
     Given,
-    JudgedReading,
     Judgement,
     needs_review,
     partly,
@@ -37,8 +35,7 @@ from dofkit.homework.judgement import (
 )
 from dofkit.homework.key.key import Key
 from dofkit.homework.problem import Problem
-from dofkit.homework.questions import NumberQuestion, QuestionBase
-from dofkit.homework.repairs import nearest_reading, parts_read
+from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, PossibleReading, Result
 from dofkit.homework.review.filled_table import read_table
 from dofkit.homework.review.queue import Decision, answer_id
@@ -194,7 +191,7 @@ class Grader:
         try:
             readings = question.readings(answer, key.declared)
         except DoubtError as error:
-            return replace(needs_review("", error.message), ways=self._parts(question, answer, key), certain=False)
+            return replace(needs_review("", error.message), certain=False)
         except TextError as error:
             return self._unread(error, question, answer, key)
         shown, certain = shown_text_of(readings), all(one.certain for one in readings)
@@ -208,27 +205,9 @@ class Grader:
         return replace(found, read_as=shown, certain=certain and not several)
 
     def _unread(self, error: TextError, question: QuestionBase, answer: Given, key: Key) -> Judgement:
-        """Return that an answer could not be read, with what would be."""
-        error = in_whole(answer, error, lambda part: question.read(part, key.declared))
-        nearest: JudgedReading | None = None
-        with suppress(DofkitError):
-            nearest = nearest_reading(answer, error, self._judge_of(question, key))
-        ways = (nearest,) if nearest is not None else self._parts(question, answer, key)
-        found = unreadable(error, ways)
+        """Return that an answer could not be read, and where."""
+        found = unreadable(in_whole(answer, error, lambda part: question.read(part, key.declared)))
         return found if self.prepared.assignment.unreadable == "review" else replace(found, share=NOTHING)
-
-    def _judge_of(self, question: QuestionBase, key: Key) -> Callable[[str], Judgement]:
-        def judge(text: str) -> Judgement:
-            shown = question.read(text, key.declared)
-            return replace(question.judge(text, key, {}), read_as=shown)
-
-        return judge
-
-    def _parts(self, question: QuestionBase, answer: Given, key: Key) -> tuple[JudgedReading, ...]:
-        """Return what an answer in doubt may mean."""
-        with suppress(DofkitError):
-            return parts_read(answer, isinstance(question, NumberQuestion), self._judge_of(question, key))
-        return ()
 
     def _item(self, problem: Problem, question: QuestionBase, found: Judgement, answer: Given | None = None) -> Item:
         return Item(
@@ -242,7 +221,6 @@ class Grader:
             feedback=found.feedback(self.prepared.assignment.language),
             column=found.column,
             answer=None if answer is None else shown_text(answer),
-            would_read=found.ways[0].read_as if found.status == "unreadable" and len(found.ways) == 1 else None,
             variant=self.prepared.marks.get((problem.id, question.id)),
             certain=found.certain,
             readings=[PossibleReading(read_as=way.read_as, score=_points(way.share, question)) for way in found.ways],

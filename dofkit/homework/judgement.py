@@ -48,7 +48,7 @@ class Reading(NamedTuple):
 class Judgement:
     """``share``: of the question's points; None where it could not be decided. ``said``: the feedback.
 
-    ``ways``: of what is open the readings that it may have; of what is unreadable the nearest one. ``certain``: it
+    ``ways``: of what is open the readings that it may have. ``certain``: it
     reads in one way, in declared names.
     """
 
@@ -98,11 +98,11 @@ def needs_review(read_as: str, reason: Sentence) -> Judgement:
     return Judgement("needs_review", None, read_as, (), told)
 
 
-def unreadable(error: TextError, ways: tuple[JudgedReading, ...] = ()) -> Judgement:
-    """What could not be read, and where: open until a person decides. ``ways``: what it may mean."""
+def unreadable(error: TextError) -> Judgement:
+    """Return what could not be read, and where: open until a person decides."""
     said = say("{fault} ({hint})", fault=error.message, hint=error.hint) if error.hint else None
     told = say("{fault}", fault=error.message) if said is None else said
-    return Judgement("unreadable", None, "", (), (told,), error.column or 1, ways)
+    return Judgement("unreadable", None, "", (), (told,), error.column or 1)
 
 
 def verdict(readings: Sequence[Reading], judge: Callable[[Reading], Judgement]) -> Judgement:

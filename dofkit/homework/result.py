@@ -29,7 +29,7 @@ class Item(ReportModel):
 
     ``codes`` are stable names of what went wrong, the most likely first; ``answer`` is the answer as typed, at most
     2 000 characters of it, and ``read_as`` the answer as it was understood. ``column`` is where an unreadable answer
-    could not be read further, from 1, and ``would_read`` what would be read, where that is known. ``readings``: the
+    could not be read further, from 1. ``readings``: the
     ways to read an open answer, and what each would earn. ``certain``: its text reads in one way, in declared names
     alone; that does not depend on the key. ``decided_by``: the person who gave the points.
     ``variant``: of the problem, where every student has another: its structure and a mark.
@@ -45,7 +45,6 @@ class Item(ReportModel):
     feedback: str
     column: int | None = None
     answer: str | None = None
-    would_read: str | None = None
     readings: list[PossibleReading] = Field(default_factory=list)
     certain: bool = True
     decided_by: str | None = None

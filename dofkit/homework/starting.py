@@ -1,7 +1,8 @@
-"""A starting assignment: of each scene the five questions most worth asking, or all that it can be asked."""
+"""A starting assignment: of each scene the questions most worth asking, or all; and an empty submission to fill in."""
 
 from __future__ import annotations
 
+import json
 import re
 from collections import Counter
 from collections.abc import Hashable, Iterator, Mapping, Sequence
@@ -11,6 +12,7 @@ from typing import Any
 import yaml
 from pydantic import TypeAdapter
 
+from dofkit.homework.assignment import Prepared
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_coordinates import polar_angles
 from dofkit.homework.questions import AnyQuestion
@@ -41,6 +43,19 @@ def starting(sources: Sequence[str], every: bool = False) -> str:
         problems.append({"id": name, **title, "scene": source, **also, "questions": asked})
     assignment = {"title": "Assignment", "convention": "configuration", "problems": problems}
     return yaml.safe_dump(assignment, sort_keys=False, allow_unicode=True, width=110)
+
+
+def template(prepared: Prepared, form: str) -> str:
+    """Return an empty submission of an assignment to fill in, as ``yaml`` or ``csv``."""
+    if form == "csv":
+        return ",".join(["student", *prepared.columns()]) + "\n"
+    lines = ["# Fill in the answers and submit this file.", "student:", "answers:"]
+    for problem in prepared.assignment.problems:
+        lines.append(f"  {json.dumps(problem.id, ensure_ascii=False)}:")
+        for question in problem.questions:
+            asked = " ".join(question.asked(", ".join(question.about)).told(prepared.assignment.language).split())
+            lines.append(f"    {json.dumps(question.id, ensure_ascii=False)}:  # {asked}")
+    return "\n".join(lines) + "\n"
 
 
 def best_questions(key: Key) -> Iterator[dict[str, Any]]:

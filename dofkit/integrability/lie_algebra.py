@@ -21,7 +21,7 @@ from flint import arb, arb_mat, arb_poly, nmod_mat, nmod_poly
 
 from dofkit.base.deadline import affordable, check
 from dofkit.base.errors import NoValueError
-from dofkit.configuration.reality import real_point
+from dofkit.configuration.generic_dimension import real_point
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.certified import ball_part

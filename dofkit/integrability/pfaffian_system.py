@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from flint import arb
 
 from dofkit.base.errors import NoValueError
-from dofkit.configuration.drawing.at_reference import CLEAR, ball_matrix, ball_point
+from dofkit.configuration.at_reference import CLEAR, ball_matrix, ball_point
 from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of

@@ -9,7 +9,7 @@ from functools import cached_property
 from flint import arb, nmod_mat
 
 from dofkit.base.verdicts import Verdict, weakest
-from dofkit.configuration.drawing.at_reference import CLEAR
+from dofkit.configuration.at_reference import CLEAR
 from dofkit.configuration.finite_blocks import dependent_names
 from dofkit.configuration.variety import Variety
 from dofkit.exact.matrices.certified import ball_part, dependencies

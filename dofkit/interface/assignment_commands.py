@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from dofkit.base.arguments import format_of_path
+from dofkit.base.wording import format_of_path
 from dofkit.interface import options
 from dofkit.interface.output import failures_of
 
@@ -35,7 +35,7 @@ def new(
 @assignment_app.command("handout")
 def handout(
     assignment: options.Assignment,
-    form: Annotated[str | None, typer.Option("--format", metavar="NAME", help="html (default), pdf or md.")] = None,
+    form: Annotated[str | None, typer.Option("--format", metavar="NAME", help="html (default) or md.")] = None,
     out: Annotated[
         Path | None,
         typer.Option("--out", metavar="PATH", help="The file, whose ending decides the format."),
@@ -66,6 +66,26 @@ def handout(
     typer.echo(target)
 
 
+@assignment_app.command("template")
+def template(
+    assignment: options.Assignment,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="PATH", callback=options.file_of("yaml", "csv"), help="A .yaml or .csv file."),
+    ] = None,
+) -> None:
+    """Print or write an empty submission for students to fill in."""
+    from dofkit.homework.assignment import load_assignment
+    from dofkit.homework.starting import template as empty
+
+    with failures_of(assignment):
+        text = empty(load_assignment(assignment), "yaml" if out is None else out.suffix[1:])
+        if out is None:
+            typer.echo(text, nl=False)
+        else:
+            out.write_text(text, encoding="utf-8")
+
+
 @assignment_app.command("vary")
 def vary(
     assignment: options.Assignment,
@@ -73,7 +93,7 @@ def vary(
     seed: Annotated[str, typer.Option("--seed", metavar="TEXT", help="The seed of the variants: keep it.")],
     out: Annotated[Path, typer.Option("--out", metavar="FOLDER", callback=options.folder, help="The folder to write.")],
     form: Annotated[
-        str, typer.Option("--format", metavar="NAME", help="The format of the handouts: html, pdf or md.")
+        str, typer.Option("--format", metavar="NAME", help="The format of the handouts: html or md.")
     ] = "html",
     anew: Annotated[bool, typer.Option("--anew", help="Replace the variants that the folder holds already.")] = False,
 ) -> None:

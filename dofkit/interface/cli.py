@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 import typer
 
 from dofkit.base import __version__
-from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.deadline import DEFAULT_SECONDS
 from dofkit.base.errors import ArgumentError
+from dofkit.base.wording import format_of_path, is_folder_path
 from dofkit.interface import options
 from dofkit.interface.assignment_commands import assignment_app, export_app
 from dofkit.interface.output import INTERRUPTED, UNREADABLE, Output, failures_of, print_json
@@ -277,17 +277,17 @@ def chart(
         raise typer.Exit(INTERRUPTED)
 
 
-def _pictures(files: list[str], kind: str, out: Path | None, form: str | None, known: tuple[str, ...]) -> None:
+def _pictures(files: list[str], kind: str, out: Path | None, form: str | None, kinds: tuple[str, ...]) -> None:
     """Write the picture of each file: to ``out`` if it is a file, else into that folder (None: the current one)."""
     from dofkit.interface.jobs import Request, distinct_names, replies
 
     paths = [str(out)]
     if out is None or is_folder_path(out):
         suffix = f"-{kind}" if kind in ("graph", "directions") else ""
-        paths = [str((out or Path()) / f"{name}{suffix}.{form or known[0]}") for name in distinct_names(files)]
+        paths = [str((out or Path()) / f"{name}{suffix}.{form or kinds[0]}") for name in distinct_names(files)]
     else:
         with failures_of("--out"):
-            format_of_path(out, known, form)
+            format_of_path(out, kinds, form)
             if len(files) > 1:
                 raise ArgumentError(f"'{out}' is one file, and {len(files)} scenes are drawn: name a folder")
     request = Request("", Output.here(), pictures=tuple((kind, path) for path in paths))

@@ -31,19 +31,19 @@ constraints:
 
 def converted(file: str, limits: bool = False) -> str:
     """Return the scene of a model as YAML. Raises DofkitError for a file that is not a model or has faults."""
-    found = find(file)
-    if not is_model(found.data):
+    file_data = find(file)
+    if not is_model(file_data.data):
         raise DofkitError(f"'{file}' is not a model: only MJCF, URDF and SolveSpace files are converted")
-    scene = SceneFile.read(found.data, found.name, found.path, limits)
+    scene = SceneFile.read(file_data.data, file_data.name, file_data.path, limits)
     try:
         scene.scene()
     except SceneError as error:
         raise SceneError(error.faults, file) from None
-    model = read_model(ModelFile(found.data, found.name, found.path, limits))
+    model = read_model(ModelFile(file_data.data, file_data.name, file_data.path, limits))
     remarks = [f"Made from {Path(file).name} by dofkit {__version__}."]
     if model.tolerance is not None and "tolerance" not in model.value:
         remarks.append(f"The joints form a tree. If you close a loop, add `tolerance: {model.tolerance:g}`.")
-    return yaml_text({"name": found.name, **model.value}, SECTIONS, tuple(remarks))
+    return yaml_text({"name": file_data.name, **model.value}, SECTIONS, tuple(remarks))
 
 
 def write_converted(file: str, out: Path | None, limits: bool) -> str:

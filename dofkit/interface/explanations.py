@@ -136,10 +136,10 @@ def _type(name: str, cls: type[ConstraintBase]) -> Explanation:
     about = " ".join((cls.__doc__ or "").split())
     fields = [f"{key} ({field.description})" for key, field in cls.model_fields.items() if key not in ("type", "name")]
     spaces = series([str(d) for d in cls.dimensions])
-    told = (
+    text = (
         f"{about} Defined in {spaces} dimensions. Fields: {'; '.join(fields)}. `dofkit catalog '{name}'` finds scenes."
     )
-    return Explanation(name, "constraint type", told)
+    return Explanation(name, "constraint type", text)
 
 
 def _arguments() -> Iterator[Explanation]:

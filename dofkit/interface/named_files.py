@@ -26,7 +26,7 @@ def _named(argument: str) -> list[str]:
         return list(_below(argument)) or [argument]
     if glob.has_magic(argument) and not os.path.exists(argument):
         matched = sorted(glob.iglob(argument, recursive=True))
-        return [file for one in matched for file in (_below(one) if os.path.isdir(one) else [one])] or [argument]
+        return [file for path in matched for file in (_below(path) if os.path.isdir(path) else [path])] or [argument]
     return [argument]
 
 

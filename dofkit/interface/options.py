@@ -8,9 +8,8 @@ from typing import Annotated, Any
 
 from typer import Argument, BadParameter, Option
 
-from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.errors import ArgumentError
-from dofkit.base.wording import no_such
+from dofkit.base.wording import format_of_path, is_folder_path, no_such
 from dofkit.interface.output import FAILURES
 
 #: The heading of the options that few people need.
@@ -54,9 +53,9 @@ def folder(path: Path | None) -> Path | None:
     return path if path is None or is_folder_path(path) else _with_ending(path, ())
 
 
-def file_of(*known: str) -> Callable[[Path | None], Path | None]:
+def file_of(*endings: str) -> Callable[[Path | None], Path | None]:
     """Return what checks that a path has one of the endings of the files that can be written."""
-    return lambda path: path if path is None else _with_ending(path, known)
+    return lambda path: path if path is None else _with_ending(path, endings)
 
 
 def _certificate(path: str | None) -> str | None:
@@ -66,20 +65,20 @@ def _certificate(path: str | None) -> str | None:
     return path
 
 
-def _with_ending(path: Path, known: Collection[str]) -> Path:
+def _with_ending(path: Path, endings: Collection[str]) -> Path:
     try:
-        format_of_path(path, known)
+        format_of_path(path, endings)
     except ArgumentError as error:
         raise BadParameter(str(error)) from None
     return path
 
 
-def _one_of(known: Collection[str]) -> Callable[[str | None], str | None]:
+def _one_of(words: Collection[str]) -> Callable[[str | None], str | None]:
     """Return what checks that an option is one of the known words."""
 
     def checked(word: str | None) -> str | None:
-        if word is not None and word not in known:
-            raise BadParameter(f"'{word}' is none of {', '.join(known)}")
+        if word is not None and word not in words:
+            raise BadParameter(f"'{word}' is none of {', '.join(words)}")
         return word
 
     return checked

@@ -12,11 +12,10 @@ from typing import Any
 
 from flint import ctx
 
-from dofkit.base.arguments import description_of, require_one_of, seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OUT_OF_TIME, OutOfTimeError, limited
 from dofkit.base.errors import ArgumentError
 from dofkit.base.verdicts import Verdict, weakest
-from dofkit.classification.dependence.circuits import OwnedRows, analyse
+from dofkit.base.wording import description_of, require_one_of, seconds_of
 from dofkit.classification.dependence.equivalence import Sameness, compare
 from dofkit.classification.dependence.redundancy import all_needed, redundancies
 from dofkit.classification.freedom.branches import Outcome
@@ -26,11 +25,9 @@ from dofkit.classification.study import Study, study
 from dofkit.exact.points.balls import balls_of, precise_for, precision
 from dofkit.exact.points.field import primes_of
 from dofkit.exact.zero import BALLS, BOTH, FIELD, Engines
-from dofkit.expressions import tree as ex
 from dofkit.methods.table import METHODS, QUESTIONS, Knobs, MethodName, MethodReply, Question, cannot, function_of
-from dofkit.mobility.frameworks import unprescribed_links
+from dofkit.mobility.general_position import unprescribed_links
 from dofkit.mobility.graph.linkage import linkage
-from dofkit.mobility.rank_at_drawing import drawn_rank
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite, Reduced
 from dofkit.scene.added_equations import read_equations, with_equations
@@ -146,7 +143,7 @@ def answered_by(
 
 def _of_system(system: System, question: Question, engines: Engines) -> Reply:
     if engines == BOTH and question in ("dof", "redundancy"):
-        found = _by_graph(system, question) or _by_drawing(system, question)
+        found = _by_graph(system, question)
         if found is not None:
             return found
     if question == "integrability" and all(map(_is_finite, prepared(system)[0])):
@@ -171,22 +168,6 @@ def _by_graph(system: System, question: Question) -> Reply | None:
         return Reply(len(system.coordinates) - told.rank, sure)
     names = [system.constraints[pairs[k][0]].name for k in told.redundant_places]
     return Reply(names, sure) if len({i for i, _ in pairs}) == len(pairs) else None
-
-
-def _by_drawing(system: System, question: Question) -> Reply | None:
-    """Joints and links whose rows at the drawing prove their freedom. None for any other system."""
-    known = drawn_rank(
-        system, frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
-    )
-    if known is None:
-        return None
-    if question == "dof":
-        return Reply(known.freedom, "proved")
-    gone = list(known.copies)
-    sure: Verdict = "proved" if known.independent else "probable"
-    if not known.independent:
-        gone += analyse([OwnedRows(known.rows, known.owners, [True] * len(known.rows), known.p)]).redundant
-    return Reply([system.constraints[i].name for i in sorted(gone)], sure)
 
 
 def _dof(known: Study) -> Reply:

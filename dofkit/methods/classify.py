@@ -6,9 +6,9 @@ from dataclasses import replace
 from functools import partial
 from typing import overload
 
-from dofkit.base.arguments import require_one_of, seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
 from dofkit.base.errors import ArgumentError, Fault, SceneError
+from dofkit.base.wording import require_one_of, seconds_of
 from dofkit.classification.study import study
 from dofkit.exact.points.balls import precise_for
 from dofkit.methods.certificates import lowering

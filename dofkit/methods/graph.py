@@ -7,10 +7,9 @@ from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
 from dofkit.exact.points.field import prime_for
 from dofkit.methods.table import Knobs, MethodReply, cannot
-from dofkit.mobility.frameworks import unprescribed_links
+from dofkit.mobility.general_position import unprescribed_links
 from dofkit.mobility.graph.linkage import Linkage, linkage
-from dofkit.mobility.placement import general_placement
-from dofkit.mobility.twists import rows_of
+from dofkit.mobility.placement import general_placement, rows_of
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
 from dofkit.system import System

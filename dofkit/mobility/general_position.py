@@ -1,28 +1,36 @@
-"""The freedom in general position: the same connections at random places, beside those of the drawing.
+"""The freedom in general position: the same connections at random places, beside those of the reference configuration.
 
 Links between particles are counted by their graph. Everything else is a rank modulo p at random places and
 directions; relations written as texts keep what they say up to a constant. A rank at a random point is at most the
 generic one, and equal to it but for a chance of degree/p [SchwartzZippel].
+
+Blocks that are graphs of links between particles are answered by the graph. Every row is |A - B|^2 = L with an L of its
+own: one that was left out, so it is what it is where all particles stand in general position, or the square of a
+parameter. Where the links of prescribed lengths are independent, an open set of lengths is met in general position. The
+lengths are then a regular value [Sard1942], and all configurations that have them are a manifold whose dimension is the
+coordinates less the generic rank.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import random
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import Verdict
 from dofkit.exact.errors import NoValueError, raising_no_value
-from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
+from dofkit.exact.matrices.sparse import SparseRow, last_columns, rank_of_rows
 from dofkit.exact.points.field import FieldPoint, field_point, prime_for
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.tree import Expr
-from dofkit.mobility.graph.linkage import redundant_links
-from dofkit.mobility.placement import Placement, general_placement
-from dofkit.mobility.twists import rows_of
-from dofkit.relations.blocks import Row
+from dofkit.mobility.graph.linkage import linkage, redundant_links
+from dofkit.mobility.placement import Placement, general_placement, rows_of
+from dofkit.relations.answer import Answer
+from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 from dofkit.system import System
@@ -143,4 +151,125 @@ def _slopes(system: System, ring: Ring, nodes: Sequence[int], point: FieldPoint)
         slope = gradient(ring, at, point, [(node, one)])
         row = {columns[i][0]: int(v * columns[i][1]) for i, v in slope.items() if i in columns}
         rows.append({c: v for c, v in row.items() if v})
+    return rows
+
+
+# Blocks that are graphs of links
+
+Pair = tuple[str, str]
+METHOD = "graph of rigid links"
+
+
+def framework_answer(block: Block, setting: Setting) -> Answer | None:
+    """The answer to a block of links in general position; None for any other."""
+    pairs = _pairs(block, setting)
+    if pairs is None:
+        return None
+    told = linkage(pairs, setting.dimension)
+    proof = told.proof("redundant")
+    p = prime_for(1, (), 0)
+    matrix = _rows(pairs, block.coordinates, setting, p)
+    dependent = set(told.redundant_places)
+    columns = last_columns([r for i, r in enumerate(matrix) if i not in dependent], len(block.coordinates), p)
+    return Answer(
+        dof=told.freedom,
+        velocity_dof=told.freedom,
+        verdict=proof.verdict,
+        reasons=[proof.reason] if proof.verdict != "proved" else [],
+        derived=(told.rank,),
+        matrix=matrix,
+        modulus=p,
+        supports=lambda: told.circuit_places,
+        dependent=tuple(block.coordinates[c] for c in columns),
+        method=METHOD,
+        argument="links in general position",
+    )
+
+
+def unprescribed_links(system: System) -> list[tuple[int, Pair]] | None:
+    """The ends of every link, with its constraint, of a system that is nothing but links whose lengths were left out.
+
+    Each then has a length of its own that nothing prescribes. None for any other system.
+    """
+    if system.reference is not None or system.tolerance is not None or not system.constraints:
+        return None
+    particles = frozenset(system.particles)
+    relations = sum(len(c.relations) for c in system.constraints)
+    free = frozenset(ex.parameter(p) for p in system.generic) - system.pose.keys()
+    if relations != len(system.links) or any(a == b or not {a, b} <= particles for _, a, b in system.links):
+        return None
+    lengths = [s for c in system.constraints for r in c.relations if r.sense == "=" for s in r.expr.symbols & free]
+    if not len(lengths) == len(set(lengths)) == relations:
+        return None
+    parameters = {
+        s for c in system.constraints for r in c.relations for s in r.expr.symbols if s.args[0] != "coordinate"
+    }
+    return [(i, (a, b)) for i, a, b in system.links] if parameters == set(lengths) else None
+
+
+def _pairs(block: Block, setting: Setting) -> list[Pair] | None:
+    """The ends of the link that each row is; None where one is no link with a length of its own."""
+    if setting.reference is not None or setting.tolerance is not None or block.conditions or not block.rows:
+        return None
+    of, places = _places(block.coordinates, setting)
+    given = {i: iter(setting.links.get(i, ())) for i in {row.constraint for row in block.rows}}
+    pairs, lengths, free = list[Pair](), set[Expr](), _unprescribed(setting)
+    prescribed = []
+    for row in block.rows:
+        pair = next(given[row.constraint], None)
+        if pair is None or not isinstance(row.piece, Finite) or not {*pair} <= places.keys():
+            return None
+        length = _only(row.piece.expr, {*places[pair[0]], *places[pair[1]]})
+        if length is None or length in lengths or not (length in free or _is_length(length, row, setting)):
+            return None
+        lengths.add(length)
+        pairs.append(pair)
+        prescribed += [] if length in free else [pair]
+    whole = all(next(rest, None) is None for rest in given.values())
+    if not whole or {of[c] for c in block.coordinates} != {end for pair in pairs for end in pair}:
+        return None
+    return None if prescribed and linkage(prescribed, setting.dimension).redundant else pairs
+
+
+def _unprescribed(setting: Setting) -> frozenset[Expr]:
+    """Squared lengths that nothing prescribes."""
+    return frozenset(setting.generic) - setting.pose.keys()
+
+
+def _only(e: Expr, ends: set[str]) -> Expr | None:
+    """The one symbol beside some coordinates, which are all that occur."""
+    if len(e.symbols) != len(ends) + 1 or coordinates_in(e) != ends:
+        return None
+    others = [s for s in e.symbols if s.args[0] != "coordinate"]
+    return others[0] if len(others) == 1 else None
+
+
+def _is_length(symbol: Expr, row: Row, setting: Setting) -> bool:
+    """Is a parameter the length of a link, as it stands?"""
+    return [d.squared for d in setting.distances.get(row.constraint, ())] == [ex.power(symbol, ex.TWO)]
+
+
+def _places(coordinates: Iterable[str], setting: Setting) -> tuple[dict[str, str | None], dict[str, list[str]]]:
+    """(the particle of every coordinate, the coordinates of every particle that has all of them)."""
+    owner = {c.name: c.owner for c in setting.roles if c.role in ("x", "y", "z")}
+    of = {name: owner.get(name) for name in coordinates}
+    found: dict[str, list[str]] = {}
+    for name, particle in of.items():
+        if particle is not None:
+            found.setdefault(particle, []).append(name)
+    return of, {particle: own for particle, own in found.items() if len(own) == setting.dimension}
+
+
+def _rows(pairs: Sequence[Pair], coordinates: Sequence[str], setting: Setting, p: int) -> list[SparseRow]:
+    """The rigidity matrix at random positions modulo p."""
+    number = {name: k for k, name in enumerate(coordinates)}
+    _, places = _places(coordinates, setting)
+    columns = {particle: [number[name] for name in own] for particle, own in places.items()}
+    rng = random.Random("dofkit framework")
+    at = {particle: [rng.randrange(p) for _ in own] for particle, own in columns.items()}
+    rows = []
+    for a, b in pairs:
+        arm = [(x - y) % p for x, y in zip(at[a], at[b], strict=True)]
+        row = dict(zip(columns[a], arm, strict=True)) | {c: -v % p for c, v in zip(columns[b], arm, strict=True)}
+        rows.append({c: v for c, v in row.items() if v} if 0 in arm else row)
     return rows

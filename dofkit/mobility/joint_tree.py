@@ -1,12 +1,24 @@
-"""Angles and displacements of joints that describe a tree of bodies, where joints are all that holds them."""
+"""Trees of joints: joint coordinates where joints alone hold the bodies, and joints that close no loop (bridges).
+
+Let a joint with f freedoms be the only connection between bodies S, the ground not among them, and all others. The
+constraints on S by itself do not change when all of S is moved as one body. So every configuration of the system is one
+of the others, one of S up to rigid motions, and any value q of the joint: M = M_others x (M_S / SE(d)) x J, with J the
+joint's own manifold of dimension f, and the map from there is a diffeomorphism. So the joint's d(d+1)/2 - f equations
+are independent of all others, everywhere, whatever M_others and M_S are; and so on for every bridge, one after another.
+
+A text refers to fixed places, so that what it names is held by the ground; so is what any other constraint names that
+is not known to stay the same when all its members are moved together.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from typing import NamedTuple
 
 from dofkit.base.libraries import nx
-from dofkit.system import GROUND, Connection, System
+from dofkit.system import GROUND, Connection, Constraint, System
 
 
 def tree_coordinates(system: System) -> list[str] | None:
@@ -77,3 +89,82 @@ def _first_of_each(rows: list[dict[str, Fraction]]) -> set[str]:
         if row:
             pivots[next(iter(row))] = row
     return set(pivots)
+
+
+# Bridges
+
+#: A node of the graph: a body, a particle, the ground, a coordinate that is nobody's, or a constraint by its number.
+Node = Hashable
+
+
+class Bridges(NamedTuple):
+    """The ``joints`` that close no loop, and the constraints ``afloat``: without these joints nothing ties them to the
+    ground, so that they hold after any motion of all their bodies as one.
+    """
+
+    joints: frozenset[int] = frozenset()
+    afloat: frozenset[int] = frozenset()
+
+
+def bridges(system: System) -> Bridges:
+    """The joints that close no loop, of those of a drawing in fractions, by numbers; none without a drawing."""
+    if system.dimension == 1:
+        return Bridges()
+    joints = {c.constraint: c.members for c in system.connections if _is_drawn(c, system)}
+    if not joints:
+        return Bridges()
+    graph = _graph(system, joints)
+    found = _ends_of_bridges(graph)
+    apart = frozenset(i for i in joints if found[i] == len(graph.adj[i]))
+    graph.remove_nodes_from(apart)
+    grounded = nx.node_connected_component(graph, GROUND) if GROUND in graph else set()
+    return Bridges(apart, frozenset(i for i in graph if isinstance(i, int)) - grounded)
+
+
+def _graph(system: System, joints: Mapping[int, Sequence[Node]]) -> nx.Graph[Node]:
+    """Who is held together by what, from every constraint to all that it holds.
+
+    One between coordinates that are nobody's is left out: with all that holds these too it ends at the ground.
+    """
+    owners: dict[str, Node] = {q.name: q.owner or ("coordinate", q.name) for q in system.coordinates}
+    connected = {c.constraint: c for c in system.connections}
+    graph: nx.Graph[Node] = nx.Graph()
+    for i, constraint in enumerate(system.constraints):
+        nodes = joints.get(i) or _held(constraint, connected.get(i), owners)
+        if not all(isinstance(node, tuple) or node == GROUND for node in nodes):
+            graph.add_edges_from((i, node) for node in nodes)
+    return graph
+
+
+def _ends_of_bridges(graph: nx.Graph[Node]) -> Counter[Node]:
+    """Of how many bridges each node is an end: of those of leaves, peeled off one after another, and of the others."""
+    left = dict(graph.degree)
+    leaves = [node for node, degree in left.items() if degree == 1]
+    found: Counter[Node] = Counter()
+    for leaf in leaves:
+        del left[leaf]
+        for other in graph.adj[leaf]:
+            if other in left:
+                found.update((leaf, other))
+                left[other] -= 1
+                if left[other] == 1:
+                    leaves.append(other)
+    found.update(node for edge in nx.bridges(graph.subgraph(left).copy()) for node in edge)
+    return found
+
+
+def _is_drawn(c: Connection, system: System) -> bool:
+    """Is a joint of two bodies, whose motion nothing prescribes, drawn in fractions, as its bodies are?"""
+    if not (c.facts.freedoms or c.facts.welded) or len(c.members) != 2 or c.driven or c.number is not None:
+        return False
+    given = (*c.places, *c.directions, *(system.starts.get(member, ()) for member in c.members))
+    return all(vector is not None and all(part.op == "num" for part in vector) for vector in given)
+
+
+def _held(constraint: Constraint, c: Connection | None, owners: Mapping[str, Node]) -> set[Node]:
+    """What a constraint that is no such joint holds together: the ground too, unless all may move as one."""
+    members: set[Node] = set() if c is None else {*c.members}
+    named = {owners[name] for name in constraint.mentioned if name in owners}
+    facts = constraint.facts
+    moves = facts.bars or facts.merged or facts.welded or bool(facts.freedoms) or (c is not None and bool(c.rates))
+    return members | named | (set() if moves and named <= members else {GROUND})

@@ -13,8 +13,7 @@ from math import ceil, floor, log10
 from typing import Any
 
 from dofkit.base.libraries import np
-from dofkit.mobility.placement import Placement
-from dofkit.mobility.twists import TURNS, Member, rows_of
+from dofkit.mobility.placement import TURNS, Member, Placement, rows_of
 
 #: More columns than this are not looked at.
 MOST = 200

@@ -1,21 +1,27 @@
-"""Connections with numbers modulo a prime: as drawn, or the same connections in general position."""
+"""Connections with numbers, as drawn or in general position, and the linear relations between velocities that they are.
+
+NumberTuple are integers that stand for GF(p), or floats. A body has the velocity v of the point of it that stands at
+``start``, and the angular velocity w: its point at a moves by v + w x (a - start). Columns are v, then w, of every
+member in order. No angles occur: a singular choice of coordinates is no singularity here.
+"""
 
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Hashable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 from dofkit.base.libraries import nx
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.matrices.sparse import LinearRow
+from dofkit.exact.matrices.sparse import LinearRow, Numbers, SparseRow, less
 from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
-from dofkit.mobility.twists import Located, Member
+from dofkit.relations.setting import NamedRows
 from dofkit.system import GROUND, Connection, DrawnPoint, JointRate, Kinematics, System, TypeFacts
 
 #: Random numbers are below this where there is no prime.
@@ -23,7 +29,7 @@ FREE = 1000
 #: Draws of one drawing modulo a prime.
 DRAWS = 20
 
-Numbers = tuple[Any, ...]
+NumberTuple = tuple[Any, ...]
 Vector = tuple[Expr, ...]
 
 
@@ -37,7 +43,7 @@ class Placement:
     p: int
     members: Mapping[str, Member]
     located: tuple[Located, ...]
-    places: Mapping[str, Numbers]
+    places: Mapping[str, NumberTuple]
 
 
 def drawn_placement(system: System, positive: frozenset[Expr]) -> Placement | None:
@@ -79,18 +85,18 @@ class _Drawn:
         self.p, self._known, self._size = p, known, size
         self._rng = random.Random("dofkit drawn")
         self._turn = self._rng.randrange(1, p or FREE)
-        self._elsewhere: dict[str, Numbers] = {}
+        self._elsewhere: dict[str, NumberTuple] = {}
 
-    def random(self, dimension: int) -> Numbers:
+    def random(self, dimension: int) -> NumberTuple:
         return tuple(self._rng.randrange(1, self.p or FREE) for _ in range(dimension))
 
-    def vector(self, given: Vector | None, dimension: int) -> Numbers:
+    def vector(self, given: Vector | None, dimension: int) -> NumberTuple:
         return self.random(dimension) if given is None else tuple(self._known[e] for e in given)
 
-    def place(self, member: str, given: Vector | None, dimension: int) -> Numbers:
+    def place(self, member: str, given: Vector | None, dimension: int) -> NumberTuple:
         return self.vector(given, dimension)
 
-    def point(self, point: DrawnPoint, dimension: int) -> Numbers:
+    def point(self, point: DrawnPoint, dimension: int) -> NumberTuple:
         if point.at is not None:
             return self.vector(point.at, dimension)
         if point.carrier not in self._elsewhere:
@@ -117,7 +123,7 @@ class _General:
         self.p = p
         self._rng = random.Random(f"dofkit general position {seed}")
         self._same: nx.utils.UnionFind[Hashable] = nx.utils.UnionFind()
-        self._places: dict[Hashable, Numbers] = {}
+        self._places: dict[Hashable, NumberTuple] = {}
         for c in system.connections:
             for at in c.places:
                 if at is not None:
@@ -125,19 +131,19 @@ class _General:
             if c.facts.merged:
                 self._same.union(*(_key(point) for point in c.points))
 
-    def random(self, dimension: int) -> Numbers:
+    def random(self, dimension: int) -> NumberTuple:
         return tuple(self._rng.randrange(1, self.p) for _ in range(dimension))
 
-    def vector(self, given: Vector | None, dimension: int) -> Numbers:
+    def vector(self, given: Vector | None, dimension: int) -> NumberTuple:
         return self.random(dimension)
 
-    def place(self, member: str, given: Vector | None, dimension: int) -> Numbers:
+    def place(self, member: str, given: Vector | None, dimension: int) -> NumberTuple:
         return self.random(dimension) if given is None else self._at((member, given), dimension)
 
-    def point(self, point: DrawnPoint, dimension: int) -> Numbers:
+    def point(self, point: DrawnPoint, dimension: int) -> NumberTuple:
         return self._at(_key(point), dimension)
 
-    def _at(self, key: Hashable, dimension: int) -> Numbers:
+    def _at(self, key: Hashable, dimension: int) -> NumberTuple:
         root = self._same[key]
         if root not in self._places:
             self._places[root] = self.random(dimension)
@@ -205,3 +211,162 @@ def _part(
     place = numbers.place(rate.members[0], rate.place, d)
     directions = (numbers.vector(rate.direction, d),) if rate.direction else ()
     return rate.rate, numbers.factor(rate), Located(facts, d, pair, (), (place,), directions)
+
+
+# Velocities that connections allow
+
+#: Columns of the angular velocity by dimension.
+TURNS = {1: 0, 2: 1, 3: 3}
+
+
+@dataclass(frozen=True)
+class Member:
+    """A body or a particle: its first column (None: the ground), and where its origin stands (None: it cannot turn)."""
+
+    column: int | None
+    start: tuple[Any, ...] | None = None
+
+
+@dataclass(frozen=True)
+class Located:
+    """A connection with numbers: points that belong to members, places, directions, the screw's pitch or the ratio.
+
+    ``parts``: of a coupling the rate of each joint, its factor, and the joint alone.
+    """
+
+    facts: TypeFacts
+    dimension: int
+    members: tuple[Member, ...]
+    points: tuple[tuple[Member, tuple[Any, ...]], ...]
+    places: tuple[tuple[Any, ...], ...]
+    directions: tuple[tuple[Any, ...], ...]
+    number: Any = 0
+    driven: bool = False
+    parts: tuple[tuple[Callable[[Kinematics], LinearRow], Any, Located], ...] = ()
+
+    def shift(self) -> list[LinearRow]:
+        """How the second body's point at the joint moves against the first's; anywhere, where they do not turn."""
+        first, second = self.members[:2]
+        d = self.dimension
+        place = self.places[0] if self.places else (0,) * d
+        return less(velocity(second, place, d), velocity(first, place, d))
+
+    def turn(self) -> list[LinearRow]:
+        """The angular velocity of the second body against the first."""
+        return less(self.spin(1), self.spin(0))
+
+    def slip(self) -> list[LinearRow]:
+        """How the first point moves against the other member, or the ground."""
+        point, at = self.points[0]
+        carrier = next((m for m in self.members if m is not point), Member(None))
+        return less(velocity(point, at, self.dimension), velocity(carrier, at, self.dimension))
+
+    def velocity(self, k: int) -> list[LinearRow]:
+        """Of the point number ``k``."""
+        return velocity(*self.points[k], self.dimension)
+
+    def origin(self, k: int) -> list[LinearRow]:
+        """The velocity of the origin of the member number ``k``."""
+        member = self.members[k]
+        return velocity(member, member.start or (0,) * self.dimension, self.dimension)
+
+    def spin(self, k: int) -> list[LinearRow]:
+        """The angular velocity of the member number ``k``."""
+        return spin(self.members[k], self.dimension)
+
+
+def rows_of(found: Located) -> list[LinearRow] | None:
+    """The linear relations of a connection, in the order of its scalar equations; None for a type without any here."""
+    facts = found.facts
+    if facts.velocities is None:
+        return None
+    rows = list(facts.velocities(found))
+    if found.driven and facts.drive is not None:
+        rows.append(facts.drive(found))
+    return rows
+
+
+def velocity(member: Member, at: Numbers, dimension: int) -> list[LinearRow]:
+    """The velocity of the member's point at a place, a row a component: v + w x (at - start)."""
+    first = member.column
+    if first is None:
+        return [{} for _ in range(dimension)]
+    rows: list[LinearRow] = [{first + i: 1} for i in range(dimension)]
+    if member.start is None or dimension == 1:
+        return rows
+    arm = [a - s for a, s in zip(at, member.start, strict=True)]
+    turn = first + dimension
+    if dimension == 2:
+        rows[0][turn], rows[1][turn] = -arm[1], arm[0]
+        return rows
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        rows[i][turn + j], rows[i][turn + k] = arm[k], -arm[j]
+    return rows
+
+
+def spin(member: Member, dimension: int) -> list[LinearRow]:
+    """The angular velocity, a row a component."""
+    if member.column is None or member.start is None:
+        return [{} for _ in range(TURNS[dimension])]
+    return [{member.column + dimension + i: 1} for i in range(TURNS[dimension])]
+
+
+# Rows of joints at the reference configuration
+
+
+@dataclass(frozen=True)
+class RowsAtReference:
+    """The rows of joints at the reference configuration, from their geometry alone: no equation is written.
+
+    The columns of a body are those of its twist: w is twice the rate of a Gibbs vector that is 0, and the rate of an
+    angle of the plane. So the rows depend on each other, and on columns, as those of the relations do.
+    """
+
+    system: System
+    positive: frozenset[Expr]
+
+    @cached_property
+    def _joints(self) -> tuple[Connection, ...]:
+        """The joints with complete geometry whose motion nothing prescribes."""
+        return tuple(c for c in self.system.connections if self._is_plain(c))
+
+    @cached_property
+    def _placement(self) -> Placement | None:
+        return drawn_placement(replace(self.system, connections=self._joints), self.positive)
+
+    @cached_property
+    def _located(self) -> dict[int, Located]:
+        """The joints with numbers, by constraint."""
+        located = () if self._placement is None else self._placement.located
+        return {c.constraint: at for c, at in zip(self._joints, located, strict=True)} if located else {}
+
+    @cached_property
+    def _turned_by_euler(self) -> frozenset[str]:
+        return frozenset(r.body for r in self.system.rotations if r.chart == "euler")
+
+    def of(self, constraints: Iterable[int]) -> NamedRows | None:
+        """Return the rows of constraints by the names of coordinates, or None if not all of them are such joints."""
+        if self._placement is None:
+            return None
+        names = [q.name for q in self.system.coordinates]
+        p, named = self._placement.p, list[dict[str, int]]()
+        for i in constraints:
+            rows = self._rows(i, p)
+            if rows is None:
+                return None
+            named += [{names[c]: v for c, v in row.items()} for row in rows]
+        return NamedRows(named, p)
+
+    def _is_plain(self, c: Connection) -> bool:
+        facts = c.facts
+        plain = facts.placed and facts.joint and c.number is None and not c.driven and not facts.bars and not c.points
+        given = all(vector is not None for vector in (*c.places, *c.directions))
+        return plain and given and self._turned_by_euler.isdisjoint(c.members)
+
+    def _rows(self, number: int, p: int) -> list[SparseRow] | None:
+        at = self._located.get(number)
+        if at is None:
+            return None
+        rows = rows_of(at) or []
+        short = [{k: int(v % p) for k, v in row.items() if v % p} for row in rows]
+        return short if len(rows) == len(self.system.constraints[number].relations) else None

@@ -18,8 +18,7 @@ from dofkit.base.libraries import nx
 from dofkit.exact.matrices.sparse import SparseRow
 from dofkit.exact.points.frames import sparse_frame
 from dofkit.expressions.tree import Expr
-from dofkit.mobility.placement import drawn_placement
-from dofkit.mobility.twists import Located, Member, rows_of
+from dofkit.mobility.placement import Located, Member, drawn_placement, rows_of
 from dofkit.system import GROUND, System
 
 Vector = tuple[int, ...]

@@ -16,24 +16,24 @@ _LETTERS = "pqrsuvwabcdefgh"
 
 
 class JointSum(NamedTuple):
-    """The sum of factors times what joints tell, counted from the drawing; and what it is in the drawing."""
+    """A sum of factors times joint values, which count from the reference configuration, and its value there."""
 
     terms: tuple[tuple[str, float], ...]
     drawn: float = 0.0
 
     def text(self, letters: dict[str, str]) -> str:
-        """The sum as text; joints get their letters."""
-        parts = []
+        """Return the sum as text; joints get their letters."""
+        terms = []
         for name, factor in self.terms:
             letter = letters.setdefault(name, _letter(len(letters)))
-            parts.append(_term(factor, letter))
+            terms.append(_term(factor, letter))
         if round(self.drawn, DECIMALS):
-            parts.append(_signed(figures(self.drawn)))
-        return _joined(parts)
+            terms.append(_signed(figures(self.drawn)))
+        return _joined(terms)
 
 
 def relation(left: JointSum, right: JointSum | None, polynomial: Sequence[float]) -> dict[str, Any]:
-    """The fields of a coupling: left = a0 + a1 right + a2 right^2 + ...
+    """Return the fields of a coupling: left = a0 + a1 right + a2 right^2 + ...
 
     >>> relation(JointSum((("hip", 1.0),)), JointSum((("knee", 1.0),)), [0, 2, 0, 0, 0])
     {'joints': {'p': 'hip', 'q': 'knee'}, 'text': 'p = 2 q'}
@@ -41,19 +41,19 @@ def relation(left: JointSum, right: JointSum | None, polynomial: Sequence[float]
     'p = 2 (-q)^2'
     """
     letters: dict[str, str] = {}
-    one = left.text(letters)
-    parts = [_signed(figures(polynomial[0]))] if polynomial[0] else []
+    first = left.text(letters)
+    terms = [_signed(figures(polynomial[0]))] if polynomial[0] else []
     if right is not None:
         other = right.text(letters)
         base = other if other in letters.values() else f"({other})"
         for power, factor in enumerate(polynomial[1:], 1):
             if factor:
-                parts.append(_term(factor, base if power == 1 else f"{base}^{power}"))
-    return {"joints": {letter: name for name, letter in letters.items()}, "text": f"{one} = {_joined(parts)}"}
+                terms.append(_term(factor, base if power == 1 else f"{base}^{power}"))
+    return {"joints": {letter: name for name, letter in letters.items()}, "text": f"{first} = {_joined(terms)}"}
 
 
 def bounds(total: JointSum, between: Sequence[float]) -> dict[str, Any]:
-    """The fields of a coupling that keeps a sum between two numbers.
+    """Return the fields of a coupling that keeps a sum between two numbers.
 
     >>> bounds(JointSum((("hip", 1.0),)), [-1, 0.5])
     {'joints': {'p': 'hip'}, 'text': '-1 <= p <= 0.5'}
@@ -65,9 +65,9 @@ def bounds(total: JointSum, between: Sequence[float]) -> dict[str, Any]:
 
 
 def whole_turns(drawn: float, between: Sequence[float]) -> float | None:
-    """The whole turns to count a hinge's range from, so that it lies within half a turn of the drawing.
+    """Return the whole turns from which a hinge's range counts, to lie within half a turn of the reference.
 
-    None where it reaches over that, so that it is none of an angle between -pi and pi; 0 where it allows every angle.
+    None where it extends beyond that, so that it is no range of an angle between -pi and pi; 0 where it allows all.
 
     >>> round(whole_turns(0.0, [3.5, 5.0]), 6), whole_turns(0.0, [-7.0, 7.0]), whole_turns(0.0, [3.0, 4.0])
     (6.283185, 0.0, None)
@@ -80,7 +80,7 @@ def whole_turns(drawn: float, between: Sequence[float]) -> float | None:
 
 
 def figures(value: float) -> str:
-    """A number without an exponent.
+    """Return a number without an exponent.
 
     >>> figures(1e-05), figures(-2.0)
     ('0.00001', '-2')
@@ -94,7 +94,7 @@ def _letter(k: int) -> str:
 
 
 def _term(factor: float, what: str) -> str:
-    """A term with its sign."""
+    """Return a term with its sign."""
     size = figures(abs(factor))
     return ("- " if factor < 0 else "+ ") + (what if size == "1" else f"{size} {what}")
 
@@ -103,8 +103,8 @@ def _signed(text: str) -> str:
     return f"- {text[1:]}" if text.startswith("-") else f"+ {text}"
 
 
-def _joined(parts: Iterable[str]) -> str:
-    told = " ".join(parts)
-    if told.startswith("- "):
-        return f"-{told[2:]}"
-    return told.removeprefix("+ ") or "0"
+def _joined(terms: Iterable[str]) -> str:
+    text = " ".join(terms)
+    if text.startswith("- "):
+        return f"-{text[2:]}"
+    return text.removeprefix("+ ") or "0"

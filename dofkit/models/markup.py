@@ -21,7 +21,7 @@ MOST_BYTES, MOST_ELEMENTS, DEEPEST = 64_000_000, 500_000, 200
 
 @dataclass
 class Element:
-    """An element: its tag without a prefix (but that of a macro), attributes, line, and what is below it."""
+    """An element: its tag without a prefix (but that of a macro), attributes, line, and the elements in it."""
 
     tag: str
     attributes: dict[str, str]
@@ -29,61 +29,51 @@ class Element:
     below: list[Element] = field(default_factory=list)
 
     def get(self, key: str, otherwise: str = "") -> str:
-        """An attribute."""
+        """Return an attribute."""
         return self.attributes.get(key, otherwise)
 
     def all(self, tag: str) -> Iterator[Element]:
-        """The elements right below it of that tag."""
+        """Yield the elements right below it of that tag."""
         return (part for part in self.below if part.tag == tag)
 
     def first(self, tag: str) -> Element | None:
-        """The first element right below it of that tag."""
+        """Return the first element right below it of that tag."""
         return next(self.all(tag), None)
 
     def every(self) -> Iterator[Element]:
-        """It and all below it."""
-        left = [self]
-        while left:
-            part = left.pop()
+        """Yield it and all elements below it, in the order of the file."""
+        stack = [self]
+        while stack:
+            part = stack.pop()
             yield part
-            left += reversed(part.below)
+            stack += reversed(part.below)
 
 
 class _MarkupReader(ContentHandler):
-    """Collects elements with their lines."""
+    """Collects elements with their lines; the root is what is below the document."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.root: Element | None = None
-        self._open: list[Element] = []
+        self.document = Element("", {}, 1)
+        self._open = [self.document]
         self._count = 0
-        self._where: Locator | None = None
+        self._locator: Locator | None = None
 
     @override
     def setDocumentLocator(self, locator: Locator) -> None:
-        self._where = locator
+        self._locator = locator
 
     @override
     def startElement(self, name: str, attrs: AttributesImpl) -> None:
-        line = (self._where.getLineNumber() if self._where is not None else None) or 1
+        line = (self._locator.getLineNumber() if self._locator is not None else None) or 1
         self._count += 1
-        if self._count > MOST_ELEMENTS or len(self._open) >= DEEPEST:
-            what = (
-                f"more than {MOST_ELEMENTS} elements"
-                if self._count > MOST_ELEMENTS
-                else f"nested deeper than {DEEPEST}"
-            )
-            raise SceneError((Fault(f"the model is {what}", line=line, column=1, hint="split the model"),))
-        found = Element(
-            name if name.startswith("xacro:") else name.rpartition(":")[2],
-            {key: attrs.getValue(key) for key in attrs.getNames()},
-            line,
-        )
-        if self._open:
-            self._open[-1].below.append(found)
-        elif self.root is None:
-            self.root = found
-        self._open.append(found)
+        if self._count > MOST_ELEMENTS or len(self._open) > DEEPEST:
+            many = self._count > MOST_ELEMENTS
+            what = f"has more than {MOST_ELEMENTS} elements" if many else f"is nested deeper than {DEEPEST}"
+            raise SceneError((Fault(f"the model {what}", line=line, column=1, hint="split the model"),))
+        tag = name if name.startswith("xacro:") else name.rpartition(":")[2]
+        self._open[-1].below.append(Element(tag, {key: attrs.getValue(key) for key in attrs.getNames()}, line))
+        self._open.append(self._open[-1].below[-1])
 
     @override
     def endElement(self, name: str) -> None:
@@ -91,32 +81,28 @@ class _MarkupReader(ContentHandler):
 
 
 def read_markup(data: bytes | str, name: str) -> Element:
-    """The root element of an XML file. Raises SceneError in its line for what is no XML, or more than is read."""
+    """Return the root element of an XML file.
+
+    Raises SceneError, in its line, for what is not XML or more than is read.
+    """
     raw = data.encode() if isinstance(data, str) else data
-    if len(raw) > MOST_BYTES:
-        fault = Fault(f"the file is longer than {MOST_BYTES // 10**6} MB", line=1, column=1, hint="split the model")
-        raise SceneError((fault,), name)
+    line, column = 1, 1
     reader = _MarkupReader()
     try:
-        defusedxml.sax.parseString(raw, reader)
+        if len(raw) <= MOST_BYTES:
+            defusedxml.sax.parseString(raw, reader)
+            if reader.document.below:
+                return reader.document.below[0]
+            message, hint = "the file is empty", "write a model"
+        else:
+            message, hint = f"the file is longer than {MOST_BYTES // 10**6} MB", "split the model"
     except DefusedXmlException:
+        entity = re.search(rb"<!ENTITY|<!DOCTYPE", raw)
+        line += raw.count(b"\n", 0, entity.start() if entity else 0)
+        message = "entities are not read, because they can expand without bound"
         hint = "write out the text that the entity stands for"
-        fault = Fault(
-            "entities are not read, because they can expand without bound", line=_entity(raw), column=1, hint=hint
-        )
-        raise SceneError((fault,), name) from None
     except xml.sax.SAXParseException as error:
-        told = (error.getMessage() or "it cannot be read").rstrip(".")
         line, column = error.getLineNumber() or 1, (error.getColumnNumber() or 0) + 1
-        raise SceneError(
-            (Fault(f"this is not well-formed XML: {told}", line=line, column=column, hint="correct the XML"),), name
-        ) from None
-    if reader.root is None:
-        raise SceneError((Fault("the file is empty", line=1, column=1, hint="write a model"),), name)
-    return reader.root
-
-
-def _entity(raw: bytes) -> int:
-    """The line of the first entity that is declared."""
-    found = re.search(rb"<!ENTITY|<!DOCTYPE", raw)
-    return 1 + raw.count(b"\n", 0, found.start() if found else 0)
+        message = f"this is not well-formed XML: {(error.getMessage() or 'it cannot be read').rstrip('.')}"
+        hint = "correct the XML"
+    raise SceneError((Fault(message, line=line, column=column, hint=hint),), name)

@@ -52,24 +52,24 @@ _NOISE = re.compile(r"^(?:XML )?Error: (?:Error: )?|,? ?line \d+\s*$|\bElement n
 
 
 def read(file: ModelFile) -> ModelDocument:
-    """The scene of an MJCF file. Raises SceneError for what the compiler does not take."""
-    found = compiled(file)
-    if not found.told["closed"]:
+    """Return the scene of an MJCF file. Raises SceneError for what the compiler does not take."""
+    model = compiled(file)
+    if not model.content["closed"]:
         hint = "give a pose that satisfies them, or switch them off: active='false'"
         fault = Fault("the equalities are satisfied neither in the given pose nor in one near it", hint=hint)
         raise SceneError((fault,), file.name)
-    title = found.root.get("model") or file.name
-    return _MjcfScene(found, SceneDraft(title), file.limits).document()
+    title = model.root.get("model") or file.name
+    return _MjcfScene(model, SceneDraft(title), file.limits).document()
 
 
 @dataclass
 class _MjcfScene:
-    """The scene as it grows: ``stands`` is the scene's body of each of MuJoCo's, ``names`` the joint of each.
+    """The scene while it is written: ``stands`` has the body of each body of MuJoCo, ``names`` that of each joint.
 
     ``loops``: more than joints holds bodies together. Without that no place is special, whatever the digits.
     """
 
-    found: CompiledModel
+    model: CompiledModel
     draft: SceneDraft
     limits: bool
     stands: list[str] = field(default_factory=list)
@@ -77,19 +77,19 @@ class _MjcfScene:
     loops: bool = False
 
     def __post_init__(self) -> None:
-        self.told = self.found.told
+        self.content = self.model.content
         self.line: dict[tuple[str, str], int] = {}
-        for element in self.found.root.every():
+        for element in self.model.root.every():
             kind = "joint" if element.tag == "freejoint" else element.tag
             self.line.setdefault((kind, element.get("name")), element.line)
 
     def document(self) -> ModelDocument:
-        """Everything, in the order of the model."""
-        used = {body for e in self.told["equalities"] for body, _ in e.get("ends", ())}
-        used |= {step["end"][0] for t in self.told["tendons"] for step in t["path"] if step["end"]}
-        parents = {b["parent"] for b in self.told["bodies"]}
+        """Return the scene, its entries in the order of the model."""
+        used = {body for e in self.content["equalities"] for body, _ in e.get("ends", ())}
+        used |= {step["end"][0] for t in self.content["tendons"] for step in t["path"] if step["end"]}
+        parents = {b["parent"] for b in self.content["bodies"]}
         still, markers = [], []
-        for i, body in enumerate(self.told["bodies"]):
+        for i, body in enumerate(self.content["bodies"]):
             if body["static"]:
                 self.stands.append(GROUND)
                 still += [body["name"]] if i and body["name"] else []
@@ -102,7 +102,7 @@ class _MjcfScene:
             self.draft.leave_out(f"{listed(still)}: fixed to the world, so they belong to the ground")
         if markers:
             self.draft.leave_out(f"{listed(markers)}: markers without mass that nothing refers to")
-        for equality in self.told["equalities"]:
+        for equality in self.content["equalities"]:
             self._equality(equality)
         self._ranges()
         self._rest()
@@ -112,98 +112,100 @@ class _MjcfScene:
         name = body["name"] or f"body_{index}"
         line = self.line.get(("body", body["name"]))
         below = self.stands[body["parent"]]
-        joints = [(j, self.told["joints"][j]) for j in body["joints"]]
+        joints = [(j, self.content["joints"][j]) for j in body["joints"]]
         for j, joint in joints[:-1]:
             called = joint["name"] or f"{name}_{joint['kind']}_{j}"
             between = self.draft.body(f"after_{called}", line, mass=0, inertia=[0, 0, 0])
             self.draft.place(between, joint["anchor"])
             self._joint(j, joint, (below, between))
             below = between
-        own = self.draft.body(name, line, mass=number(body["mass"]), inertia=inertia_of(body["inertia"]))
-        self.draft.place(own, body["centre"])
-        self.stands.append(own)
+        inner = self.draft.body(name, line, mass=number(body["mass"]), inertia=inertia_of(body["inertia"]))
+        self.draft.place(inner, body["centre"])
+        self.stands.append(inner)
         if joints:
-            self._joint(*joints[-1], (below, own))
+            self._joint(*joints[-1], (below, inner))
         else:
-            self.draft.constraint(name, "weld", line, between=[below, own])
+            self.draft.constraint(name, "weld", line, between=[below, inner])
 
     def _joint(self, index: int, joint: Mapping[str, Any], between: tuple[str, str]) -> None:
         if joint["kind"] == "free":
             return
         line = self.line.get(("joint", joint["name"]))
-        given: dict[str, Any] = {"between": [*between], "at": vector(joint["anchor"])}
+        fields: dict[str, Any] = {"between": [*between], "at": vector(joint["anchor"])}
         if joint["kind"] != "ball":
-            given["axis"] = vector(joint["axis"])
+            fields["axis"] = vector(joint["axis"])
         kind = _KINDS[joint["kind"]]
-        self.names[index] = self.draft.constraint(joint["name"] or between[1], kind, line, **given)
+        self.names[index] = self.draft.constraint(joint["name"] or between[1], kind, line, **fields)
 
-    def _equality(self, told: Mapping[str, Any]) -> None:
-        kind, name = told["kind"], told["name"] or told["kind"]
-        line = self.line.get((kind, told["name"])) if told["name"] else None
-        if not told["active"]:
+    def _equality(self, entry: Mapping[str, Any]) -> None:
+        kind, name = entry["kind"], entry["name"] or entry["kind"]
+        line = self.line.get((kind, entry["name"])) if entry["name"] else None
+        if not entry["active"]:
             self.draft.leave_out(f"the equality {name}: it is switched off")
         elif kind in ("connect", "weld"):
-            ends = [(self.stands[body], vector(at)) for body, at in told["ends"]]
+            ends = [(self.stands[body], vector(at)) for body, at in entry["ends"]]
             if ends[0][0] == ends[1][0]:
                 self.draft.leave_out(f"the equality {name}: both of its ends belong to {ends[0][0]}")
                 return
             self.loops = True
-            if told["turning"]:
+            if entry["turning"]:
                 self.draft.constraint(name, "weld", line, between=[body for body, _ in ends])
             else:
                 points = [at if body == GROUND else {"on": body, "at": at} for body, at in ends]
                 self.draft.constraint(name, "coincident", line, between=points)
         elif kind in ("joint", "tendon"):
-            self._coupling(name, kind, told, line)
+            self._coupling(name, kind, entry, line)
         else:
             self.draft.leave_out(f"{name}: of kind {kind}, which only MuJoCo defines", binding=True)
 
-    def _coupling(self, name: str, kind: str, told: Mapping[str, Any], line: int | None) -> None:
-        of = [i for i in told["of"] if i >= 0]
-        if kind == "tendon" and len(of) == 1 and self._string(name, of[0], told["polynomial"][0], line):
+    def _coupling(self, name: str, kind: str, entry: Mapping[str, Any], line: int | None) -> None:
+        of = [i for i in entry["of"] if i >= 0]
+        if kind == "tendon" and len(of) == 1 and self._string(name, of[0], entry["polynomial"][0], line):
             return
         sums = [self._joint_sum(i) if kind == "joint" else self._fixed_tendon(i) for i in of]
-        known = [one for one in sums if one is not None]
-        if len(known) < len(sums):
+        totals = [total for total in sums if total is not None]
+        if len(totals) < len(sums):
             self.draft.leave_out(f"{name}: of tendons that wrap around shapes", binding=True)
             return
-        given = relation(known[0], known[1] if len(known) > 1 else None, told["polynomial"])
-        self.draft.constraint(name, "coupling", line, **given)
+        fields = relation(totals[0], totals[1] if len(totals) > 1 else None, entry["polynomial"])
+        self.draft.constraint(name, "coupling", line, **fields)
 
     def _joint_sum(self, index: int) -> JointSum:
-        joint = self.told["joints"][index]
+        joint = self.content["joints"][index]
         return JointSum(((self.names[index], 1.0),), joint["drawn"] - joint["zero"])
 
     def _fixed_tendon(self, index: int) -> JointSum | None:
-        """What a tendon that is a sum of joints is longer by than in MuJoCo's zero; None for one that is not."""
-        tendon = self.told["tendons"][index]
+        """Return the elongation of a tendon that is a sum of joints, from MuJoCo's zero; None for any other."""
+        tendon = self.content["tendons"][index]
         if any(step["kind"] != "joint" for step in tendon["path"]):
             return None
         terms = tuple((self.names[step["of"]], step["factor"]) for step in tendon["path"])
         return JointSum(terms, tendon["length"] - tendon["zero"])
 
     def _string(self, name: str, index: int, more: float, line: int | None) -> bool:
-        """Write a tendon of a given length from site to site as a string; whether it is one."""
-        tendon = self.told["tendons"][index]
+        """Write a tendon of a given length from site to site as a string; return whether it is one."""
+        tendon = self.content["tendons"][index]
         if any(step["kind"] != "site" for step in tendon["path"]):
             return False
         ends = [(self.stands[step["end"][0]], vector(step["end"][1])) for step in tendon["path"]]
         along = [at if body == GROUND else {"on": body, "at": at} for body, at in ends]
         self.loops = True
-        given = {} if not more else {"length": number(tendon["zero"] + more)}
-        self.draft.constraint(name, "string", line, along=along, **given)
+        fields = {} if not more else {"length": number(tendon["zero"] + more)}
+        self.draft.constraint(name, "string", line, along=along, **fields)
         return True
 
     def _ranges(self) -> None:
-        """Ranges of joints and tendons: inequalities where they are asked for, else told."""
-        ranged = {name: self.told["joints"][i] for i, name in self.names.items() if self.told["joints"][i]["range"]}
+        """Add ranges of joints and tendons: as inequalities where they are asked for, else as left out."""
+        ranged = {
+            name: self.content["joints"][i] for i, name in self.names.items() if self.content["joints"][i]["range"]
+        }
         plain = {name: joint for name, joint in ranged.items() if joint["kind"] != "ball"}
-        tendons = [(i, t) for i, t in enumerate(self.told["tendons"]) if t["range"]]
+        tendons = [(i, t) for i, t in enumerate(self.content["tendons"]) if t["range"]]
         if not self.limits:
-            shown = [f"{name} from {j['range'][0]:.4g} to {j['range'][1]:.4g}" for name, j in ranged.items()]
-            if shown:
+            ranges = [f"{name} from {j['range'][0]:.4g} to {j['range'][1]:.4g}" for name, j in ranged.items()]
+            if ranges:
                 self.draft.leave_out(
-                    f"the ranges of joints ({listed(shown)}): with `--limits` they become inequalities"
+                    f"the ranges of joints ({listed(ranges)}): with `--limits` they become inequalities"
                 )
             if tendons:
                 self.draft.leave_out(f"the ranges of tendons ({listed(t['name'] or str(i) for i, t in tendons)})")
@@ -213,8 +215,8 @@ class _MjcfScene:
             if turns is None:
                 self.draft.leave_out(f"the range of {name}: {OVER}")
                 continue
-            given = bounds(JointSum(((name, 1.0),), joint["drawn"] + turns), joint["range"])
-            self.draft.constraint(f"{name} range", "coupling", self.line.get(("joint", joint["name"])), **given)
+            fields = bounds(JointSum(((name, 1.0),), joint["drawn"] + turns), joint["range"])
+            self.draft.constraint(f"{name} range", "coupling", self.line.get(("joint", joint["name"])), **fields)
         balls = [name for name in ranged if name not in plain]
         if balls:
             self.draft.leave_out(f"the ranges of {listed(balls)}: of ball joints")
@@ -223,14 +225,14 @@ class _MjcfScene:
             if total is None:
                 self.draft.leave_out(f"the range of the tendon {name}: it runs through space")
             else:
-                given = bounds(JointSum(total.terms, tendon["length"]), tendon["range"])
-                self.draft.constraint(f"{name} range", "coupling", None, **given)
+                fields = bounds(JointSum(total.terms, tendon["length"]), tendon["range"])
+                self.draft.constraint(f"{name} range", "coupling", None, **fields)
 
     def _rest(self) -> None:
-        """What enters the motion without being a constraint, and what became of the model."""
-        told = self.told
-        if any(told["gravity"]) and self.draft.bodies:
-            self.draft.forces.append({"type": "gravity", "acceleration": vector(told["gravity"])})
+        """Add what enters the motion without being a constraint, and what was changed in the model."""
+        entry = self.content
+        if any(entry["gravity"]) and self.draft.bodies:
+            self.draft.forces.append({"type": "gravity", "acceleration": vector(entry["gravity"])})
         for key, what in (
             ("contacts", "contacts between shapes: they open and close during the motion"),
             ("actuators", "actuators: they are forces, not constraints"),
@@ -241,43 +243,43 @@ class _MjcfScene:
             ("medium", "the medium that bodies move in: its drag is a force, not a constraint"),
             ("flexible", "flexible bodies: only MuJoCo defines them"),
         ):
-            if told[key]:
+            if entry[key]:
                 self.draft.leave_out(what)
-        around = [t["name"] or f"tendon_{i}" for i, t in enumerate(told["tendons"]) if _runs_around(t)]
+        around = [t["name"] or f"tendon_{i}" for i, t in enumerate(entry["tendons"]) if _runs_around(t)]
         if around:
             what = "wrap around shapes or pulleys: their length there is defined by MuJoCo only"
             self.draft.leave_out(f"the tendons {listed(around)}, which {what}; without an equality they only pull")
-        for note in told["notes"]:
+        for note in entry["notes"]:
             self.draft.leave_out(note)
 
     def _tolerance(self) -> float:
         written = (
             value
-            for root in (self.found.root, *self.found.included)
+            for root in (self.model.root, *self.model.included)
             for element in root.every()
             for key, value in element.attributes.items()
             if key in _PLACING
         )
-        places = [*(j["anchor"] for j in self.told["joints"]), *(b["centre"] for b in self.told["bodies"][1:])]
+        places = [*(j["anchor"] for j in self.content["joints"]), *(b["centre"] for b in self.content["bodies"][1:])]
         size = max((max(c) - min(c) for c in zip(*places, strict=True)), default=1.0)
         return tolerance_of(written, size)
 
 
 def _runs_around(tendon: Mapping[str, Any]) -> bool:
-    """Is its length neither a sum of joints nor that of straight pieces?"""
+    """Return whether the length of a tendon is neither a sum of joints nor that of straight pieces."""
     return any(step["kind"] not in ("joint", "site") for step in tendon["path"])
 
 
 class CompiledModel(NamedTuple):
-    """What the compiler told, the model's elements in the order of its lines, and those of the files it includes."""
+    """What the compiler made of a model, its elements in the order of its lines, and those of the files it includes."""
 
-    told: dict[str, Any]
+    content: dict[str, Any]
     root: Element
     included: tuple[Element, ...]
 
 
 def compiled(file: ModelFile) -> CompiledModel:
-    """The model compiled. Raises SceneError for what the compiler does not take."""
+    """Return the compiled model. Raises SceneError for what the compiler does not take."""
     root = read_markup(file.data, file.name)
     included = tuple(_included(root, file))
     faults = [*_not_finite(root), *(fault for part in included for fault in _not_finite(part))]
@@ -291,7 +293,7 @@ def compiled(file: ModelFile) -> CompiledModel:
 
 
 def _not_finite(root: Element) -> Iterator[Fault]:
-    """Numbers that are none, of which the compiler makes places that are none."""
+    """Yield a fault for every number that is not finite: the compiler would make positions of them."""
     for part in root.every():
         for key in _MEASURES:
             odd = [word for word in part.get(key).split() if _NO_NUMBER.fullmatch(word)]
@@ -301,7 +303,7 @@ def _not_finite(root: Element) -> Iterator[Fault]:
 
 
 def _fault(reason: str, error: str) -> Fault:
-    """What the compiler says, in its line."""
+    """Return the fault that the compiler reports, in its line."""
     if not error:
         return Fault(f"MuJoCo's compiler was stopped: {reason}", hint="make the model smaller, or split it")
     said = reason.removeprefix(f"{error}: ")
@@ -314,13 +316,13 @@ def _fault(reason: str, error: str) -> Fault:
 
 
 def _included(root: Element, file: ModelFile) -> Iterator[Element]:
-    """The roots of the files that are included; those that cannot be read the compiler tells of."""
+    """Yield the roots of the files that are included; the compiler reports those that are missing."""
     if file.path is None:
         return
     top, seen = file.path.parent, {file.path.resolve()}
-    left = [(root, top)]
-    while left:
-        element, folder = left.pop()
+    stack = [(root, top)]
+    while stack:
+        element, folder = stack.pop()
         for part in element.every():
             if part.tag != "include" or not part.get("file"):
                 continue
@@ -334,17 +336,17 @@ def _included(root: Element, file: ModelFile) -> Iterator[Element]:
                 raise SceneError(
                     (Fault(f"more than {MOST_INCLUDED} files are included", line=part.line, column=1, hint=hint),)
                 )
-            found = _read_part(place, part)
-            yield found
-            left.append((found, place.parent))
+            model = _read_part(place, part)
+            yield model
+            stack.append((model, place.parent))
 
 
 def _read_part(place: Path, part: Element) -> Element:
     try:
         return read_markup(place.read_bytes(), place.name)
     except SceneError as error:
-        told = "; ".join(fault.message for fault in error.faults)
-        message = f"the file '{part.get('file')}' cannot be included: {told}"
+        faults = "; ".join(fault.message for fault in error.faults)
+        message = f"the file '{part.get('file')}' cannot be included: {faults}"
         raise SceneError((Fault(message, line=part.line, column=1, hint=error.faults[0].hint),)) from None
     except OSError as error:
         message = f"the file '{part.get('file')}' cannot be read: {error.strerror}"

@@ -1,4 +1,4 @@
-"""A model's file, and the scene that is made of it: its mapping, where its parts are from, and what was left out."""
+"""A model's file, and the scene that is made of it: its mapping, the line of each entry, and what was left out."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _NUMBER = re.compile(r"[-+]?\d*\.?(\d*)(?:[eE]([-+]?\d+))?", re.ASCII)
 
 
 class ModelFile(NamedTuple):
-    """A file as it was found: its bytes, the scene's name, where it stands (None: nowhere).
+    """A file of a model: its bytes, the scene's name, and its path (None for a text).
 
     ``limits``: ranges of joints become inequalities.
     """
@@ -54,7 +54,7 @@ class ModelDocument:
 
 @dataclass
 class SceneDraft:
-    """A scene as it is written part by part; names of the model are kept as far as a scene can have them."""
+    """A scene while it is written; names of the model are kept as far as a scene can have them."""
 
     title: str
     dimension: int = 3
@@ -70,47 +70,47 @@ class SceneDraft:
     _bodies: set[str] = field(default_factory=lambda: {"ground", "t"})
     _constraints: set[str] = field(default_factory=set)
 
-    def body(self, name: str, line: int | None, **given: Any) -> str:
-        """Add a body; the name that it got."""
-        found = identifier(name, self._bodies)
+    def body(self, name: str, line: int | None, **fields: Any) -> str:
+        """Add a body and return its name in the scene."""
+        unique_name = identifier(name, self._bodies)
         self._at(("bodies", len(self.bodies)), line)
-        self.bodies.append({"name": found, **given})
-        return found
+        self.bodies.append({"name": unique_name, **fields})
+        return unique_name
 
     def place(self, body: str, at: Iterable[float]) -> None:
-        """Where the origin of a body stands in the drawing; turned as its inertia is told (`inertia_of`)."""
+        """Place the origin of a body; the body is turned as its inertia is written (`inertia_of`)."""
         self.configuration |= {f"{c}_{body}": number(v) for c, v in zip("xyz", at, strict=False)}
         self.configuration[f"theta_{body}"] = "pi/2"
 
     def particle(self, name: str, line: int | None, at: Iterable[float]) -> str:
-        """Add a particle; the name that it got."""
-        found = identifier(name, self._bodies)
+        """Add a particle and return its name in the scene."""
+        unique_name = identifier(name, self._bodies)
         self._at(("particles", len(self.particles)), line)
-        self.particles.append({"name": found, "at": vector(at)})
-        return found
+        self.particles.append({"name": unique_name, "at": vector(at)})
+        return unique_name
 
     def coordinate(self, name: str, drawn: float) -> str:
-        """Add a coordinate of no body and no particle, where there is none of this name; the name."""
+        """Add a coordinate of no body and no particle, where there is none of this name, and return it."""
         if name not in self.configuration:
             self.coordinates.append(name)
             self.configuration[name] = number(drawn)
         return name
 
-    def constraint(self, name: str, kind: str, line: int | None, **given: Any) -> str:
-        """Add a constraint; the name that it got."""
-        found = unique(name, self._constraints)
+    def constraint(self, name: str, kind: str, line: int | None, **fields: Any) -> str:
+        """Add a constraint and return its name in the scene."""
+        unique_name = unique(name, self._constraints)
         self._at(("constraints", len(self.constraints)), line)
-        self.constraints.append({"name": found, "type": kind, **given})
-        return found
+        self.constraints.append({"name": unique_name, "type": kind, **fields})
+        return unique_name
 
     def leave_out(self, what: str, binding: bool = False) -> None:
-        """Say what was not read, and why; once. ``binding``: it is a constraint, and would take freedom away."""
+        """Note once what was not read, and why. ``binding``: it is a constraint, and would reduce the freedom."""
         what = f"{BINDING}{what}" if binding else what
         if what not in self.left_out:
             self.left_out.append(what)
 
     def document(self, tolerance: float | None, special: bool) -> ModelDocument:
-        """The scene; with its tolerance where its places may be ``special``."""
+        """Return the scene, with its tolerance where its geometry may be ``special``."""
         tolerance = None if tolerance is None else float(f"{tolerance:.2g}")
         value: dict[str, Any] = {"title": self.title, "dimension": self.dimension}
         for key in ("parameters", "particles", "bodies", "coordinates", "constraints", "forces"):
@@ -126,7 +126,7 @@ class SceneDraft:
         return ModelDocument(value, self.lines, tolerance)
 
     def _measurable_axes(self) -> None:
-        """Give the axes of coupled joints a length that is a fraction: their angles are told without roots."""
+        """Give the axes of coupled joints a length that is a fraction, so that their angles need no roots."""
         coupled = {joint for c in self.constraints for joint in c.get("joints", {}).values()}
         for constraint in self.constraints:
             if constraint["name"] in coupled and "axis" in constraint:
@@ -138,18 +138,18 @@ class SceneDraft:
 
 
 def number(value: float) -> float | int:
-    """A number as a person would write it: rounded, whole where it is."""
-    found = round(float(value), DECIMALS)
-    return int(found) if found == int(found) and abs(found) < 1e15 else found
+    """Return a number as a person would write it: rounded, and whole where it is."""
+    rounded = round(float(value), DECIMALS)
+    return int(rounded) if rounded == int(rounded) and abs(rounded) < 1e15 else rounded
 
 
 def vector(values: Iterable[float]) -> list[float | int]:
-    """Numbers as a person would write them."""
+    """Return numbers as a person would write them."""
     return [number(v) for v in values]
 
 
 def measurable(axis: Sequence[float | int]) -> list[float | int | Decimal]:
-    """A direction along the axis, right to within 1e-9, whose length is a fraction.
+    """Return a direction along the axis, right to within 1e-9, whose length is a fraction.
 
     With n of length 1, c its largest component, and (a, b) = the others over 1 + |c|: (2a, 2b, 1 - a^2 - b^2).
 
@@ -162,16 +162,16 @@ def measurable(axis: Sequence[float | int]) -> list[float | int | Decimal]:
     size = math.sqrt(sum(v * v for v in axis))
     sign = 1 if axis[k] > 0 else -1
     a, b = (round(Decimal(sign * axis[i] / size / (1 + abs(axis[k]) / size)), 9) for i in range(3) if i != k)
-    found: list[float | int | Decimal] = [sign * 2 * a, sign * 2 * b]
-    found.insert(k, sign * (1 - a * a - b * b))
-    return found
+    components: list[float | int | Decimal] = [sign * 2 * a, sign * 2 * b]
+    components.insert(k, sign * (1 - a * a - b * b))
+    return components
 
 
 def inertia_of(rows: Sequence[Sequence[float]]) -> list[Any]:
-    """An inertia in the axes of a body that is drawn turned by a right angle about x: three moments where that is all.
+    """Return an inertia in the axes of a body that is turned by a right angle about x; its moments if it is diagonal.
 
-    At theta = 0 Euler's angles are no coordinates, so that no equations of motion could be given there. The body's
-    axes stand along x, z and -y of the world.
+    At theta = 0 Euler's angles are no coordinates, so that no equations of motion could be given there. The axes of
+    the body are x, z and -y of the world.
 
     >>> inertia_of([[1, 0, 0], [0, 2, 0], [0, 0, 3]])
     [1, 3, 2]
@@ -183,16 +183,16 @@ def inertia_of(rows: Sequence[Sequence[float]]) -> list[Any]:
 
 
 def unique(name: str, taken: set[str]) -> str:
-    """The name, with a number where it is taken; it is taken then."""
-    found, k = name, 2
-    while found in taken:
-        found, k = f"{name}_{k}", k + 1
-    taken.add(found)
-    return found
+    """Return the name, with a number where it is taken, and note it as taken."""
+    unique_name, k = name, 2
+    while unique_name in taken:
+        unique_name, k = f"{name}_{k}", k + 1
+    taken.add(unique_name)
+    return unique_name
 
 
 def identifier(name: str, taken: set[str]) -> str:
-    """The name of a body or particle as texts can mention it: letters, digits and _.
+    """Return the name of a body or particle as texts can mention it: letters, digits and _.
 
     >>> identifier("robot0:FF-J1", set()), identifier("9 mm", set())
     ('robot0_FF_J1', 'n9_mm')
@@ -205,7 +205,7 @@ def identifier(name: str, taken: set[str]) -> str:
 
 
 def decimals(texts: Iterable[str]) -> Iterator[int]:
-    """How many decimals each number in these texts is written with."""
+    """Yield the number of decimals with which each number in these texts is written."""
     for text in texts:
         for part in text.split():
             match = _NUMBER.fullmatch(part)
@@ -214,7 +214,7 @@ def decimals(texts: Iterable[str]) -> Iterator[int]:
 
 
 def tolerance_of(texts: Iterable[str], size: float) -> float:
-    """Half a unit of the last digit of the number that is written longest, as a fraction of the size.
+    """Return half a unit of the last digit of the number that is written longest, as a fraction of the size.
 
     Where all are short they are meant as they are written, and what a compiler of doubles rounds is left.
 
@@ -228,7 +228,7 @@ def tolerance_of(texts: Iterable[str], size: float) -> float:
 
 
 def listed(names: Iterable[str]) -> str:
-    """The first of several names, and how many more there are."""
+    """Return the first of several names, and how many more there are."""
     every = [*names]
     more = len(every) - MOST_NAMED
     return ", ".join(every[:MOST_NAMED]) + (f" and {more} more" if more > 0 else "")

@@ -1,6 +1,6 @@
-"""What MuJoCo's own compiler makes of a model: bodies, joints, equalities and tendons where they are drawn.
+"""What MuJoCo's own compiler makes of a model: bodies, joints, equalities and tendons in the reference configuration.
 
-This runs in a worker, which alone imports `mujoco`: a compiler in C may crash, hang or take all memory.
+Only a worker imports this module: a compiler in C may crash, hang or take all memory.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import os
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
+import mujoco
 import numpy as np
 
 #: Elements of a model that change nothing about how it moves, and may name files that are missing.
@@ -22,21 +23,19 @@ _TORQUE = 10
 
 
 class Compiled(NamedTuple):
-    """A model with its state at the drawing, and notes on what became of it."""
+    """A model with its state in the reference configuration, and notes on what was changed."""
 
     model: Any
     data: Any
     notes: list[str]
 
 
-def described_model(given: Mapping[str, Any]) -> dict[str, Any]:
-    """What a model holds, as json can write it. ``given``: its ``path``, or its ``text`` where it has none."""
-    import mujoco
-
+def described_model(source: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the content of a model as json can write it. ``source``: its ``path``, or else its ``text``."""
     mujoco.set_mju_user_warning(lambda message: None)
-    path = given["path"]
+    path = source["path"]
     notes: list[str] = []
-    spec = mujoco.MjSpec.from_file(path) if path else mujoco.MjSpec.from_string(given["text"])
+    spec = mujoco.MjSpec.from_file(path) if path else mujoco.MjSpec.from_string(source["text"])
     folder = os.path.dirname(os.path.abspath(path)) if path else os.getcwd()
     notes += _without_files(spec, folder)
     _without_looks(spec)
@@ -71,95 +70,87 @@ def described_model(given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _without_files(spec: Any, folder: str) -> Iterator[str]:
-    """Take out meshes and height fields whose files are missing, with the shapes made of them."""
+    """Remove meshes and height fields whose files are missing, with the shapes made of them; yield what is lost."""
     lost: dict[str, str] = {}
     below = spec.compiler.meshdir
-    for one in [*spec.meshes, *spec.hfields]:
-        if one.file and not os.path.isfile(os.path.join(folder, below, one.file)):
-            lost[one.name or os.path.splitext(os.path.basename(one.file))[0]] = one.file
-            spec.delete(one)
+    for asset in [*spec.meshes, *spec.hfields]:
+        if asset.file and not os.path.isfile(os.path.join(folder, below, asset.file)):
+            lost[asset.name or os.path.splitext(os.path.basename(asset.file))[0]] = asset.file
+            spec.delete(asset)
     if not lost:
         return
     for geom in list(spec.geoms):
         if geom.meshname in lost or geom.hfieldname in lost:
             spec.delete(geom)
     names = [*lost.values()]
-    shown = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
-    yield f"the shapes of {shown}: their files are missing, so their masses are unknown"
+    listed = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+    yield f"the shapes of {listed}: their files are missing, so their masses are unknown"
 
 
 def _without_looks(spec: Any) -> None:
-    """Take out what is only seen or measured, and bounds on memory that steps of a simulation would need."""
+    """Remove what is only seen or measured, and bounds on memory that steps of a simulation would need."""
     spec.memory = -1
     for material in spec.materials:
         material.textures = [""] * len(material.textures)
     for kind in _SHOWN:
-        for one in list(getattr(spec, kind)):
-            spec.delete(one)
+        for asset in list(getattr(spec, kind)):
+            spec.delete(asset)
 
 
-def _draw(found: Compiled) -> bool:
-    """Make the state that of the drawing: as written, or moved from there until the equalities hold. Do they?"""
-    import mujoco
-
-    model, data = found.model, found.data
+def _draw(compiled: Compiled) -> bool:
+    """Set the reference configuration: as written, or moved until the equalities hold; return whether they do."""
+    model, data = compiled.model, compiled.data
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_LIMIT
-    _place(found)
-    rows, gap = _equality_rows(found)
+    _place(compiled)
+    rows, gap = _equality_rows(compiled)
     if gap.size == 0 or float(np.max(np.abs(gap))) <= CLOSED:
         return True
     started = data.qpos.copy()
     for _ in range(STEPS):
         step = -np.linalg.lstsq(rows, gap, rcond=1e-10)[0]
         mujoco.mj_integratePos(model, data.qpos, step, 1.0)
-        _place(found)
-        rows, gap = _equality_rows(found)
+        _place(compiled)
+        rows, gap = _equality_rows(compiled)
         if float(np.max(np.abs(gap))) <= CLOSED * 1e-3:
             break
     if float(np.max(np.abs(gap))) > CLOSED:
         data.qpos[:] = started
-        _place(found)
+        _place(compiled)
         return False
-    found.notes.append(
+    compiled.notes.append(
         "the given pose: it does not satisfy the equalities, and the reference configuration is a pose near it"
     )
     return True
 
 
-def _place(found: Compiled) -> None:
-    """Where everything stands, and how far every equality is from holding; no dynamics."""
-    import mujoco
-
+def _place(compiled: Compiled) -> None:
+    """Compute all positions and the residual of every equality; no dynamics."""
     for step in (mujoco.mj_kinematics, mujoco.mj_comPos, mujoco.mj_tendon):
-        step(found.model, found.data)
-    mujoco.mj_makeConstraint(found.model, found.data)
+        step(compiled.model, compiled.data)
+    mujoco.mj_makeConstraint(compiled.model, compiled.data)
 
 
-def _equality_rows(found: Compiled) -> tuple[Any, Any]:
-    """The equality rows of the Jacobian, and how far each is from being satisfied."""
-    import mujoco
-
-    data, nv = found.data, found.model.nv
-    own = data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY
+def _equality_rows(compiled: Compiled) -> tuple[Any, Any]:
+    """Return the equality rows of the Jacobian, and their residuals."""
+    data, nv = compiled.data, compiled.model.nv
+    is_equality = data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY
     dense = np.zeros((data.nefc, nv))
-    if mujoco.mj_isSparse(found.model):
+    if mujoco.mj_isSparse(compiled.model):
         mujoco.mju_sparse2dense(dense, data.efc_J, data.efc_J_rownnz, data.efc_J_rowadr, data.efc_J_colind)
     else:
         # The array may be longer: room for rows that MuJoCo found to be empty is kept at its end.
         dense = np.reshape(np.ravel(data.efc_J)[: data.nefc * nv], (data.nefc, nv))
-    return dense[own], data.efc_pos[own]
+    return dense[is_equality], data.efc_pos[is_equality]
 
 
-def _left(found: Compiled) -> int:
-    """MuJoCo's own count at the drawing: nv less the rank of the active equality rows."""
-    rows, _ = _equality_rows(found)
-    return int(found.model.nv - (np.linalg.matrix_rank(rows, tol=1e-8) if rows.size else 0))
+def _left(compiled: Compiled) -> int:
+    """Return MuJoCo's own count of the freedom: nv less the rank of the active equality rows."""
+    rows, _ = _equality_rows(compiled)
+    return int(compiled.model.nv - (np.linalg.matrix_rank(rows, tol=1e-8) if rows.size else 0))
 
 
 def _off(model: Any, *flags: str) -> bool:
-    """Is one of these switched off for the whole model?"""
-    import mujoco
-
+    """Return whether one of these is switched off for the whole model."""
     return any(model.opt.disableflags & getattr(mujoco.mjtDisableBit, f"mjDSBL_{flag}") for flag in flags)
 
 
@@ -168,13 +159,11 @@ def _list(values: Any) -> list[float]:
 
 
 def _name(model: Any, kind: str, index: int) -> str:
-    import mujoco
-
     return mujoco.mj_id2name(model, getattr(mujoco.mjtObj, f"mjOBJ_{kind}"), index) or ""
 
 
-def _bodies(found: Compiled) -> Iterator[dict[str, Any]]:
-    model, data = found.model, found.data
+def _bodies(compiled: Compiled) -> Iterator[dict[str, Any]]:
+    model, data = compiled.model, compiled.data
     for i in range(model.nbody):
         turn = np.reshape(data.ximat[i], (3, 3))
         yield {
@@ -189,8 +178,8 @@ def _bodies(found: Compiled) -> Iterator[dict[str, Any]]:
         }
 
 
-def _joints(found: Compiled) -> Iterator[dict[str, Any]]:
-    model, data = found.model, found.data
+def _joints(compiled: Compiled) -> Iterator[dict[str, Any]]:
+    model, data = compiled.model, compiled.data
     for i in range(model.njnt):
         kind = ("free", "ball", "slide", "hinge")[int(model.jnt_type[i])]
         at = int(model.jnt_qposadr[i])
@@ -205,47 +194,41 @@ def _joints(found: Compiled) -> Iterator[dict[str, Any]]:
         }
 
 
-def _ends(found: Compiled, index: int) -> list[tuple[int, list[float]]]:
-    """The two points of a connect, or the anchors of a weld: (body, place in the world)."""
-    import mujoco
-
-    model, data = found.model, found.data
+def _ends(compiled: Compiled, index: int) -> list[tuple[int, list[float]]]:
+    """Return the two points of a connect, or the anchors of a weld: (body, position in the world)."""
+    model, data = compiled.model, compiled.data
     first, second = int(model.eq_obj1id[index]), int(model.eq_obj2id[index])
     if model.eq_objtype[index] == mujoco.mjtObj.mjOBJ_SITE:
         return [(int(model.site_bodyid[s]), _list(data.site_xpos[s])) for s in (first, second)]
     weld = model.eq_type[index] == mujoco.mjtEq.mjEQ_WELD
-    own = (model.eq_data[index, 3:6], model.eq_data[index, :3])
-    arms = own if weld else own[::-1]
+    anchors = (model.eq_data[index, 3:6], model.eq_data[index, :3])
+    arms = anchors if weld else anchors[::-1]
     return [
         (b, _list(data.xpos[b] + np.reshape(data.xmat[b], (3, 3)) @ arm))
         for b, arm in zip((first, second), arms, strict=True)
     ]
 
 
-def _equalities(found: Compiled) -> Iterator[dict[str, Any]]:
-    import mujoco
-
-    model = found.model
+def _equalities(compiled: Compiled) -> Iterator[dict[str, Any]]:
+    model = compiled.model
     for i in range(model.neq):
         kind = mujoco.mjtEq(model.eq_type[i]).name.removeprefix("mjEQ_").lower()
-        told: dict[str, Any] = {
+        equality: dict[str, Any] = {
             "name": _name(model, "EQUALITY", i),
             "kind": kind,
             "active": bool(model.eq_active0[i]) and not _off(model, "EQUALITY", "CONSTRAINT"),
             "of": [int(model.eq_obj1id[i]), int(model.eq_obj2id[i])],
         }
         if kind in ("connect", "weld"):
-            told["ends"] = _ends(found, i)
-            told["turning"] = kind == "weld" and bool(model.eq_data[i, _TORQUE])
+            equality["ends"] = _ends(compiled, i)
+            equality["turning"] = kind == "weld" and bool(model.eq_data[i, _TORQUE])
         elif kind in ("joint", "tendon"):
-            told["polynomial"] = _list(model.eq_data[i, :5])
-        yield told
+            equality["polynomial"] = _list(model.eq_data[i, :5])
+        yield equality
 
 
-def _tendons(found: Compiled) -> Iterator[dict[str, Any]]:
-    import mujoco
-
-    model, data = found.model, found.data
+def _tendons(compiled: Compiled) -> Iterator[dict[str, Any]]:
+    model, data = compiled.model, compiled.data
     kinds = {int(kind): kind.name.removeprefix("mjWRAP_").lower() for kind in mujoco.mjtWrap.__members__.values()}
     for i in range(model.ntendon):
         path = []

@@ -95,11 +95,11 @@ class SketchMentions(NamedTuple):
         return tuple(curve for curve in self.curves if isinstance(curve, Round))
 
     def arms(self) -> tuple[Arrow, ...]:
-        """The vector from the start of each line to each point, in pairs."""
+        """Return the vector from the start of each line to each point, in pairs."""
         return tuple(Arrow(line.start, point) for line, point in zip(self.lines, self.points, strict=False))
 
     def directions(self) -> tuple[Arrow, ...]:
-        """The directions where its curves meet: the radius of an arc, the tangent of a cubic."""
+        """Return the directions where its curves meet: the radius of an arc, the tangent of a cubic."""
         directions = []
         for curve, end in zip(self.curves, (self.other, self.other2), strict=False):
             if isinstance(curve, Cubic):
@@ -191,13 +191,13 @@ def _equal_distances(m: SketchMentions) -> Iterable[Written]:
 
 
 def _equal_angle(m: SketchMentions) -> Iterable[Written]:
-    """The cosines of the two angles are equal, or opposite where the supplement is meant."""
+    """Yield the cosines of the two angles are equal, or opposite where the supplement is meant."""
     a, b, c, d = m.lines
     yield f"{_minus(m.other)}{dot(a, b)}*{c.length}*{d.length} = {dot(c, d)}*{a.length}*{b.length}"
 
 
 def _mirrored(m: SketchMentions) -> Iterable[Written]:
-    """The line through the points is across the line of symmetry, which goes through their midpoint."""
+    """Yield the line through the points is across the line of symmetry, which goes through their midpoint."""
     (p, q), line = m.points, m.line
     yield f"{dot(line, Arrow(p, q))} = 0"
     yield f"{cross(line, Arrow(line.start, p))} + {cross(line, Arrow(line.start, q))} = 0"
@@ -236,7 +236,7 @@ def _diameter(m: SketchMentions) -> Iterable[Written]:
 
 
 def _tangent_line(m: SketchMentions) -> Iterable[Written]:
-    """A line is across the radius at the end of an arc, and along the tangent at the end of a cubic."""
+    """Yield a line is across the radius at the end of an arc, and along the tangent at the end of a cubic."""
     for direction in m.directions():
         yield f"{(dot if m.rounds else cross)(direction, m.line)} = 0"
 

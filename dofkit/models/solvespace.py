@@ -198,10 +198,10 @@ class _SketchScene:
         if record.handle("workplane.v") not in (0, self.plane):
             raise UnreadError("it belongs to a workplane other than the one that is read")
         mentions = self._mentions(record)
-        given = len(mentions.points), len(mentions.lines), len(mentions.curves)
+        counts = len(mentions.points), len(mentions.lines), len(mentions.curves)
         named = sum(bool(record.handle(f"{key}.v")) for key in _MENTIONS)
         allowed = all(isinstance(curve, kind.curves) for curve in mentions.curves)
-        if given not in kind.needs or sum(given) != named or not allowed:
+        if counts not in kind.needs or sum(counts) != named or not allowed:
             raise UnreadError("it refers to something outside the plane that is read")
         written = list(kind.writes(mentions))
         if not written:

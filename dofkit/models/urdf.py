@@ -57,7 +57,7 @@ _BALLS = ("ball", "spherical")
 
 
 def read(file: ModelFile) -> ModelDocument:
-    """The scene of a URDF file. Raises SceneError with all that is at fault, each in its line."""
+    """Return the scene of a URDF file. Raises SceneError with all its faults, each in its line."""
     robot = read_robot(file)
     poses = robot.poses()
     places = [at.at for at in poses.pose.values()]
@@ -71,9 +71,9 @@ def read(file: ModelFile) -> ModelDocument:
 
 @dataclass
 class _UrdfScene:
-    """The scene as it grows: ``stands`` is the scene's body of each link, ``names`` the constraint of each joint.
+    """The scene while it is written: ``stands`` has the body of each link, ``names`` the constraint of each joint.
 
-    ``drawn``: how far joints have moved in the drawing.
+    ``drawn``: the joint values of the reference configuration.
     """
 
     robot: Robot
@@ -85,7 +85,7 @@ class _UrdfScene:
     names: dict[str, str] = field(default_factory=dict)
 
     def document(self, tolerance: float) -> ModelDocument:
-        """Everything, in the order of the tree."""
+        """Return the scene, its entries in the order of the tree."""
         robot, poses = self.robot, self.poses
         parents = {joint.parent for joint in robot.joints} | {end for loop in robot.loops for end, _ in loop.ends}
         markers = []
@@ -119,56 +119,56 @@ class _UrdfScene:
         link = self.robot.links[name]
         centre = pose.after(link.centre)
         rows = centre.turn @ link.inertia @ centre.turn.T
-        own = self.stands[name] = self.draft.body(name, link.line, mass=number(link.mass), inertia=inertia_of(rows))
-        self.draft.place(own, centre.at)
+        body = self.stands[name] = self.draft.body(name, link.line, mass=number(link.mass), inertia=inertia_of(rows))
+        self.draft.place(body, centre.at)
         if joint is None:
-            self.draft.constraint(name, "weld", link.line, between=[GROUND, own])
+            self.draft.constraint(name, "weld", link.line, between=[GROUND, body])
             self.draft.leave_out(f"the support of {name}, the root link: it is taken to be fixed")
 
     def _joint(self, joint: RobotJoint, frame: Transform) -> None:
         kind = _KINDS.get(joint.kind)
         if kind is None:
             return
-        given: dict[str, Any] = {"between": [self.stands[joint.parent], self.stands[joint.child]]}
+        fields: dict[str, Any] = {"between": [self.stands[joint.parent], self.stands[joint.child]]}
         if joint.kind != FIXED:
-            given["at"] = vector(frame.at)
+            fields["at"] = vector(frame.at)
         if joint.kind in WITH_AXIS:
-            given["axis"] = vector(frame.turn @ np.array(joint.axis))
-        self.names[joint.name] = self.draft.constraint(joint.name, kind, joint.line, **given)
+            fields["axis"] = vector(frame.turn @ np.array(joint.axis))
+        self.names[joint.name] = self.draft.constraint(joint.name, kind, joint.line, **fields)
 
     def _loop(self, loop: LoopJoint, pose: Mapping[str, Transform]) -> None:
-        """A joint that closes a loop, its place by the first link, its point by both."""
-        (one, first), (other, second) = loop.ends
-        frames = [pose[link].after(at) for link, at in ((one, first), (other, second))]
+        """Add a joint that closes a loop, its place by the first link, its point by both."""
+        (first_link, first), (other, second) = loop.ends
+        frames = [pose[link].after(at) for link, at in ((first_link, first), (other, second))]
         ends = [{"on": self.stands[link], "at": vector(f.at)} for (link, _), f in zip(loop.ends, frames, strict=True)]
         points = [end["at"] if end["on"] == GROUND else end for end in ends]
         kind = _KINDS[loop.kind]
         if loop.kind in ("ball", "spherical"):
             self.draft.constraint(loop.name, "coincident", loop.line, between=points)
             return
-        given: dict[str, Any] = {"between": [end["on"] for end in ends]}
+        fields: dict[str, Any] = {"between": [end["on"] for end in ends]}
         if loop.kind != FIXED:
-            given["at"] = vector(frames[0].at)
+            fields["at"] = vector(frames[0].at)
         if loop.kind in WITH_AXIS:
-            given["axis"] = vector(frames[0].turn @ np.array(loop.axis))
-        self.draft.constraint(loop.name, kind, loop.line, **given)
+            fields["axis"] = vector(frames[0].turn @ np.array(loop.axis))
+        self.draft.constraint(loop.name, kind, loop.line, **fields)
 
     def _mimics(self) -> None:
-        """What joints mimic; one that does not move leaves nothing free."""
+        """Add what joints mimic; a leader that does not move leaves nothing free."""
         kinds = {joint.name: joint.kind for joint in self.robot.joints}
         for joint in self.robot.joints:
             if joint.mimic is None or joint.kind == FIXED:
                 continue
             other = kinds[joint.mimic.joint]
             right = None if other == FIXED else JointSum(((self.names[joint.mimic.joint], 1.0),))
-            given = relation(JointSum(((self.names[joint.name], 1.0),)), right, [0.0, joint.mimic.factor])
-            self.draft.constraint(f"{joint.name} mimics {joint.mimic.joint}", "coupling", joint.mimic.line, **given)
+            fields = relation(JointSum(((self.names[joint.name], 1.0),)), right, [0.0, joint.mimic.factor])
+            self.draft.constraint(f"{joint.name} mimics {joint.mimic.joint}", "coupling", joint.mimic.line, **fields)
 
     def _ranges(self) -> None:
         ranged = [joint for joint in self.robot.joints if joint.range and joint.kind in SCALAR]
         if ranged and not self.limits:
-            shown = [f"{j.name} from {j.range[0]:.4g} to {j.range[1]:.4g}" for j in ranged if j.range]
-            self.draft.leave_out(f"the ranges of joints ({listed(shown)}): with `--limits` they become inequalities")
+            ranges = [f"{j.name} from {j.range[0]:.4g} to {j.range[1]:.4g}" for j in ranged if j.range]
+            self.draft.leave_out(f"the ranges of joints ({listed(ranges)}): with `--limits` they become inequalities")
             return
         for joint in ranged:
             stands, between = self.drawn.get(joint.name, 0.0), joint.range or ()
@@ -176,14 +176,14 @@ class _UrdfScene:
             if turns is None:
                 self.draft.leave_out(f"the range of {joint.name}: {OVER}")
                 continue
-            given = bounds(JointSum(((self.names[joint.name], 1.0),), stands + turns), between)
-            self.draft.constraint(f"{joint.name} range", "coupling", joint.line, **given)
+            fields = bounds(JointSum(((self.names[joint.name], 1.0),), stands + turns), between)
+            self.draft.constraint(f"{joint.name} range", "coupling", joint.line, **fields)
 
     def _rest(self) -> None:
         if any(body.get("mass") for body in self.draft.bodies):
             self.draft.forces.append({"type": "gravity", "acceleration": [0, 0, -9.81]})
-        for told in (*self.robot.unread, *_rounded_angles(self.robot)):
-            self.draft.leave_out(told)
+        for remark in (*self.robot.unread, *_rounded_angles(self.robot)):
+            self.draft.leave_out(remark)
 
 
 def _rounded_angles(robot: Robot) -> Iterator[str]:
@@ -202,15 +202,15 @@ def _rounded_angles(robot: Robot) -> Iterator[str]:
 
 
 def _written(robot: Robot) -> Iterator[str]:
-    """All that places something, as it is written."""
+    """Yield all positions and orientations as they are written."""
     for element in robot.root.every():
         yield from (element.attributes[key] for key in ("xyz", "rpy") if key in element.attributes)
 
 
 class Closure(NamedTuple):
-    """A joint that closes a loop, by its frames in the drawing as its two ends carry them; the axis is in the first.
+    """A joint that closes a loop, by its frames in the reference configuration; the axis is in the first.
 
-    ``turned``: the second frame is told with its axes; else only its place is.
+    ``turned``: the second frame has axes, and not only a position.
     """
 
     name: str
@@ -222,7 +222,7 @@ class Closure(NamedTuple):
     line: int
 
     def moved(self, size: float, tolerance: float) -> float | None:
-        """How far the joint has moved where it is drawn, 0 where no one number tells; None where it cannot be there.
+        """Return the joint value in the reference configuration, 0 for several; None where the ends do not meet.
 
         The drawing is right to within ``tolerance``, a fraction of its ``size``: lengths and angles to the last digit
         that is written, and places to what such angles move them by.
@@ -240,43 +240,43 @@ class Closure(NamedTuple):
         return along if self.kind == "prismatic" else 0.0
 
     def _twist(self, turn: Array, axis: Array) -> float:
-        """What the turn of one end against the other has that the joint does not allow."""
+        """Return the size of the relative rotation that the joint does not allow."""
         if self.kind in _BALLS:
             return 0.0
         return float(np.linalg.norm(turn @ axis - axis if self.kind in _TURNING else turn - np.eye(3)))
 
 
 def closures(robot: Robot, poses: Poses) -> Iterator[Closure]:
-    """The joints that close loops: those whose child hangs on another one, and those of extensions."""
+    """Yield the joints that close loops: those whose child another joint carries, and those of extensions."""
     for joint in poses.closing:
         if joint.kind != "floating":
             frame, child = poses.frame[joint.name], poses.pose[joint.child]
             yield Closure(joint.name, joint.kind, frame, child, joint.axis, True, joint.line)
     for loop in robot.loops:
         if loop.kind not in _BALLS:
-            (one, first), (other, second) = loop.ends
+            (first_link, first), (other, second) = loop.ends
             turned = not np.array_equal(second.turn, np.eye(3))
-            ends = poses.pose[one].after(first), poses.pose[other].after(second)
+            ends = poses.pose[first_link].after(first), poses.pose[other].after(second)
             yield Closure(loop.name, loop.kind, *ends, loop.axis, turned, loop.line)
 
 
 def drawn_joints(robot: Robot, poses: Poses, size: float, tolerance: float) -> tuple[dict[str, float], list[Fault]]:
-    """The angle or displacement of every joint in the drawing that is not 0, and what is at fault there.
+    """Return the joint values of the reference configuration that are not 0, and the faults there.
 
-    That are links which stand nowhere, and loops that are open.
+    The faults are links that no root carries, and loops that are open.
     """
     adrift = [name for name in robot.links if name not in poses.pose]
     if adrift:
-        told = f"the link '{adrift[0]}' is not connected to a root link: the joints above it form a cycle"
+        detail = f"the link '{adrift[0]}' is not connected to a root link: the joints above it form a cycle"
         hint = "let the joints lead from one root to every link"
-        return {}, [Fault(told, line=robot.links[adrift[0]].line, column=1, hint=hint)]
+        return {}, [Fault(detail, line=robot.links[adrift[0]].line, column=1, hint=hint)]
     drawn, faults = robot.drawn(), list[Fault]()
     for closure in closures(robot, poses):
         moved = closure.moved(size, tolerance)
         if moved is None:
             places = " and ".join(f"({', '.join(map(str, _short(f.at)))})" for f in (closure.first, closure.second))
-            told = f"its ends are at {places}, or in orientations that a {closure.kind} joint does not allow"
-            message = f"the loop that '{closure.name}' closes is open where every joint is at 0: {told}"
+            detail = f"its ends are at {places}, or in orientations that a {closure.kind} joint does not allow"
+            message = f"the loop that '{closure.name}' closes is open where every joint is at 0: {detail}"
             faults.append(Fault(message, line=closure.line, column=1, hint="change the origins so that its ends meet"))
         else:
             drawn[closure.name] = moved
@@ -288,7 +288,7 @@ def _short(values: Array) -> list[float | int]:
 
 
 def _open_mimics(robot: Robot, poses: Poses, drawn: Mapping[str, float], gap: float) -> Iterator[Fault]:
-    """Joints that close loops and stand elsewhere than where what they mimic, or what mimics them, lets them."""
+    """Yield a fault for each joint that closes a loop where what it mimics, or what mimics it, does not allow it."""
     closing = {joint.name for joint in poses.closing}
     for joint in robot.joints:
         mimic = joint.mimic
@@ -305,6 +305,6 @@ def _open_mimics(robot: Robot, poses: Poses, drawn: Mapping[str, float], gap: fl
 
 
 def _angle_about(turn: Array, axis: Array) -> float:
-    """The angle of a turn about the axis, right-handed."""
+    """Return the angle of a rotation about the axis, right-handed."""
     sine = float(axis @ np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])) / 2
     return math.atan2(sine, (float(np.trace(turn)) - 1) / 2)

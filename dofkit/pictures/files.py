@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 from xml.sax.saxutils import escape, quoteattr
 
-from dofkit.base.arguments import format_of_path
 from dofkit.base.display import schemes
 from dofkit.base.errors import DofkitError
+from dofkit.base.wording import format_of_path
 from dofkit.pictures.paper import Mark, Page
 from dofkit.pictures.shapes import ON_DARK
 
@@ -55,10 +55,10 @@ def svg_of(page: Page, width: float | None = None, script: str = "") -> str:
 
     In a dark page its colours are those of dark paper; programs without style sheets show light paper.
     """
-    shown = page.width if width is None else width
+    on_screen = page.width if width is None else width
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" class="{CLASS}" viewBox="0 0 {page.width:g} {page.height:g}" '
-        f'width="{shown:g}" height="{shown * page.height / page.width:g}" role="img" font-family="{FONT}">'
+        f'width="{on_screen:g}" height="{on_screen * page.height / page.width:g}" role="img" font-family="{FONT}">'
     )
     words = f"<title>{escape(page.title)}</title><desc>{escape(page.alternative)}</desc>"
     ground = f'<rect width="{page.width:g}" height="{page.height:g}" fill="#FFFFFF"/>'

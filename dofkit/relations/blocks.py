@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
 
-from dofkit.base.components import components
+from dofkit.base.libraries import components
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import coordinates_in
@@ -131,13 +131,13 @@ def blocks_of(coordinates: Sequence[str], rows: Sequence[Row], reductions: Reduc
 
 def expressions(block: Block) -> list[Expr]:
     """Everything the block evaluates."""
-    found: list[Expr] = []
+    result: list[Expr] = []
     for row in block.rows:
         if isinstance(row.piece, Pfaffian):
-            found += [*row.piece.coefficients.values(), row.piece.dt]
+            result += [*row.piece.coefficients.values(), row.piece.dt]
         else:
-            found.append(row.piece.expr)
-    return found
+            result.append(row.piece.expr)
+    return result
 
 
 def uses_time(block: Block) -> bool:
@@ -166,17 +166,17 @@ def about_constants(g: Expr, constants: Sequence[str]) -> bool:
 
 def fixed_constants(hidden: Sequence[Expr], constants: Sequence[str]) -> dict[str, Expr]:
     """The constants that linear relations among them give in terms of parameters and the other constants."""
-    found: dict[str, Expr] = {}
+    result: dict[str, Expr] = {}
     for g in hidden if constants else ():
         if not about_constants(g, constants):
             continue
-        left = substitute(g, {ex.coordinate(c): value for c, value in found.items()})
-        terms = linear_terms(left)
+        remaining = substitute(g, {ex.coordinate(c): value for c, value in result.items()})
+        terms = linear_terms(remaining)
         for c in reversed(constants):
             s = ex.coordinate(c)
             if s in terms and not any(s in u.symbols for u in terms if u != s):
-                value = ex.ZERO - (left - ex.mul(ex.num(terms[s]), s)) / ex.num(terms[s])
-                found = {k: substitute(v, {s: value}) for k, v in found.items()} | {c: value}
+                value = ex.ZERO - (remaining - ex.mul(ex.num(terms[s]), s)) / ex.num(terms[s])
+                result = {k: substitute(v, {s: value}) for k, v in result.items()} | {c: value}
                 break
     named = {ex.coordinate(c): ex.parameter(c) for c in constants}
-    return {c: substitute(value, named) for c, value in found.items()}
+    return {c: substitute(value, named) for c, value in result.items()}

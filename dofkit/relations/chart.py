@@ -79,7 +79,7 @@ def displacement_fields(chart: Chart) -> list[Displacement]:
     for c in here:
         by_owner.setdefault(str(c.owner), {})[c.role] = place[c.name]
     axes = sorted({r for roles_of in by_owner.values() for r in roles_of if r != "angle"})
-    found: list[Displacement] = [{o[a]: [(1, None)] for o in by_owner.values() if a in o} for a in axes]
+    result: list[Displacement] = [{o[a]: [(1, None)] for o in by_owner.values() if a in o} for a in axes]
     for a, b in combinations(axes, 2):
         turn: Displacement = {}
         for o in by_owner.values():
@@ -88,8 +88,8 @@ def displacement_fields(chart: Chart) -> list[Displacement]:
                 turn[o[b]] = [(1, o[a])]
             if "angle" in o:
                 turn[o["angle"]] = [(1, None)]
-        found.append(turn)
-    return found
+        result.append(turn)
+    return result
 
 
 def free_point(chart: Chart, seed: int) -> FieldPoint | None:
@@ -109,7 +109,7 @@ def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
     if not finite:
         return {}
     inside = {s for e in (*expressions(block), *finite) for s in _inside_functions(e)}
-    found: dict[Expr, Expr] = {}
+    result: dict[Expr, Expr] = {}
     for g in finite:
         if not any(s in inside for s in g.symbols):
             continue
@@ -117,19 +117,19 @@ def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
         for s in sorted(g.symbols & inside, key=repr):
             if s.args[0] != "coordinate" or s not in terms or any(s in u.symbols for u in terms if u != s):
                 continue
-            value = substitute((ex.mul(ex.num(terms[s]), s) - g) / ex.num(terms[s]), found)
+            value = substitute((ex.mul(ex.num(terms[s]), s) - g) / ex.num(terms[s]), result)
             if s not in value.symbols:
-                found = {k: substitute(v, {s: value}) for k, v in found.items()} | {s: value}
+                result = {k: substitute(v, {s: value}) for k, v in result.items()} | {s: value}
                 break
-    return found
+    return result
 
 
 def _inside_functions(e: Expr) -> frozenset[Expr]:
-    found: frozenset[Expr] = frozenset()
+    result: frozenset[Expr] = frozenset()
     for node in ex.nodes(e):
         if node.op == "fn" or (node.op == "pow" and node.args[1].op != "num"):
-            found |= node.symbols
-    return found
+            result |= node.symbols
+    return result
 
 
 def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more: Sequence[Expr] = ()) -> Chart:

@@ -21,14 +21,14 @@ def linear(e: Expr) -> Terms | None:
     """``e`` as a sum of numbers times symbols (`ONE` for the constant); None where it is not one."""
     terms: Terms = {}
     for term in e.args if e.op == "add" else (e,):
-        factor, rest = Fraction(1), term
+        factor, remainder = Fraction(1), term
         if term.op == "num":
-            factor, rest = term.args[0], ex.ONE
+            factor, remainder = term.args[0], ex.ONE
         elif term.op == "mul" and len(term.args) == 2 and term.args[0].op == "num":
-            factor, rest = term.args[0].args[0], term.args[1]
-        if rest.op != "sym" and rest != ex.ONE:
+            factor, remainder = term.args[0].args[0], term.args[1]
+        if remainder.op != "sym" and remainder != ex.ONE:
             return None
-        terms[rest] = terms.get(rest, Fraction(0)) + factor
+        terms[remainder] = terms.get(remainder, Fraction(0)) + factor
     return terms
 
 
@@ -51,19 +51,19 @@ def presolve(relations: Sequence[Expr]) -> Presolved:
     Coordinates and time are unknowns; parameters are generic constants, so x = a with x = b is a contradiction.
     Unknowns that occur in linear relations only are solved for first.
     """
-    found = {i: t for i, e in enumerate(relations) if (t := linear(e)) is not None}
-    if len(found) < 2:
+    result = {i: t for i, e in enumerate(relations) if (t := linear(e)) is not None}
+    if len(result) < 2:
         return Presolved((), frozenset(), frozenset(), False)
-    elsewhere = frozenset().union(*(e.symbols for i, e in enumerate(relations) if i not in found))
-    symbols = sorted({s for t in found.values() for s in t}, key=lambda s: (_place(s), s in elsewhere, repr(s)))
-    if len(found) * len(symbols) > MAX_ENTRIES:
+    elsewhere = frozenset().union(*(e.symbols for i, e in enumerate(relations) if i not in result))
+    symbols = sorted({s for t in result.values() for s in t}, key=lambda s: (_place(s), s in elsewhere, repr(s)))
+    if len(result) * len(symbols) > MAX_ENTRIES:
         return Presolved((), frozenset(), frozenset(), False)
-    rows = [[_fmpq(t.get(s, Fraction(0))) for s in symbols] for t in found.values()]
+    rows = [[_fmpq(t.get(s, Fraction(0))) for s in symbols] for t in result.values()]
     reduced, rank = fmpq_mat(rows).rref()
     unknown = sum(_place(s) < 2 for s in symbols)
     pivots = [next(c for c in range(len(symbols)) if reduced[r, c] != 0) for r in range(rank)]
     kept = _pivots(fmpq_mat([list(column) for column in zip(*rows, strict=True)]))
-    numbers = list(found)
+    numbers = list(result)
     superfluous = frozenset(numbers) - {numbers[c] for c in kept}
     echelon = tuple(_expression(reduced, r, symbols) for r in range(rank))
     return Presolved(echelon, frozenset(numbers), superfluous, any(c >= unknown for c in pivots))
@@ -87,10 +87,10 @@ def _fmpq(value: Fraction) -> fmpq:
 
 def _pivots(matrix: fmpq_mat) -> list[int]:
     reduced, rank = matrix.rref()
-    found, column = [], 0
+    result, column = [], 0
     for r in range(rank):
         while reduced[r, column] == 0:
             column += 1
-        found.append(column)
+        result.append(column)
         column += 1
-    return found
+    return result

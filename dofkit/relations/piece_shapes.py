@@ -25,10 +25,10 @@ class PieceShape(NamedTuple):
 def piece_shape(piece: Piece) -> PieceShape:
     """A piece without its names; kept with the piece, which never changes."""
     kept = vars(piece)
-    found: PieceShape | None = kept.get(_SHAPE)
-    if found is None:
-        found = kept[_SHAPE] = _form_shape(piece) if isinstance(piece, Pfaffian) else _shape(piece)
-    return found
+    result: PieceShape | None = kept.get(_SHAPE)
+    if result is None:
+        result = kept[_SHAPE] = _form_shape(piece) if isinstance(piece, Pfaffian) else _shape(piece)
+    return result
 
 
 def _shape(piece: Finite | Nonlinear | Inequality | DomainCondition) -> PieceShape:
@@ -85,13 +85,13 @@ class _PieceTemplate:
 
     def of(self, names: Sequence[str]) -> Piece:
         """The piece in other names."""
-        found = [(k, template.of([names[i] for i in own])) for k, template, own in self._parts]
+        result = [(k, template.of([names[i] for i in own])) for k, template, own in self._parts]
         made: Piece
         if isinstance(self._piece, Pfaffian):
-            made = Pfaffian({names[k]: e for k, e in found[:-1]}, found[-1][1])
+            made = Pfaffian({names[k]: e for k, e in result[:-1]}, result[-1][1])
         elif isinstance(self._piece, Finite):
-            made = Finite(found[0][1])
+            made = Finite(result[0][1])
         else:
-            made = replace(self._piece, expr=found[0][1])
+            made = replace(self._piece, expr=result[0][1])
         vars(made)[_SHAPE] = PieceShape(self._shape.key, tuple([names[k] for k in self._own]))
         return made

@@ -98,9 +98,9 @@ def _step(way: Way, positive: frozenset[Expr]) -> list[Way] | None:
     rows = way.rows
     if not any(isinstance(r.piece, Nonlinear) for r in rows):
         return None
-    told = {id(r): _ways(r, rows, positive) for r in rows if isinstance(r.piece, Nonlinear)}
-    by_linear, divided = {i: one.ways for i, one in told.items()}, any(one.divided for one in told.values())
-    if all(len(found) == 1 and len(found[0]) == 1 and id(found[0][0]) in by_linear for found in by_linear.values()):
+    answer = {id(r): _ways(r, rows, positive) for r in rows if isinstance(r.piece, Nonlinear)}
+    by_linear, divided = {i: one.ways for i, one in answer.items()}, any(one.divided for one in answer.values())
+    if all(len(result) == 1 and len(result[0]) == 1 and id(result[0][0]) in by_linear for result in by_linear.values()):
         return None
     options: list[list[RewrittenRow]] = []
     for slot in way.slots:
@@ -131,11 +131,11 @@ def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewritin
     except NoValueError:
         return _Rewriting([(row,)])
     if changed != there:
-        found = _branches(row, *_without_divisors(row.piece.expr, changed, divisors, positive), positive)
+        result = _branches(row, *_without_divisors(row.piece.expr, changed, divisors, positive), positive)
         sound = [
-            b for b in found if not any(isinstance(r.piece, Finite) and _divides(r.piece.expr, divisors) for r in b)
+            b for b in result if not any(isinstance(r.piece, Finite) and _divides(r.piece.expr, divisors) for r in b)
         ]
-        ways, divided = _one_that_holds(sound or found), not all(never_vanishes(d, positive) for d in divisors)
+        ways, divided = _one_that_holds(sound or result), not all(never_vanishes(d, positive) for d in divisors)
         if not (divided and any(isinstance(r.piece, Nonlinear) for w in ways for r in w)):
             return _Rewriting(ways, divided)
     return _Rewriting([(row,)] if there == row.piece.expr else _branches(row, there, (), positive))
@@ -188,16 +188,18 @@ def _divides(g: Expr, divisors: Sequence[Expr]) -> bool:
 def _rows_near(row: Row, rows: Sequence[Row]) -> list[Row]:
     """The finite and linear rows that are joined to a row through coordinates."""
     names = set(coordinates_of(row.piece))
-    found: list[Row] = []
+    result: list[Row] = []
     growing = True
     while growing:
         new = [
-            r for r in rows if r not in found and not isinstance(r.piece, Nonlinear) and coordinates_of(r.piece) & names
+            r
+            for r in rows
+            if r not in result and not isinstance(r.piece, Nonlinear) and coordinates_of(r.piece) & names
         ]
         growing = bool(new)
-        found += new
+        result += new
         names |= {n for r in new for n in coordinates_of(r.piece)}
-    return found
+    return result
 
 
 def _rates_of(rows: Sequence[Row]) -> list[Expr]:
@@ -213,30 +215,30 @@ def _rates_of(rows: Sequence[Row]) -> list[Expr]:
 
 def eliminated(e: Expr, linear: Sequence[Expr]) -> tuple[Expr, list[Expr]]:
     """``e`` with the velocities that the linear relations give put in, and what was divided by."""
-    left, divisors = list(linear), list[Expr]()
-    while left:
-        relation = left.pop(0)
+    remaining, divisors = list(linear), list[Expr]()
+    while remaining:
+        relation = remaining.pop(0)
         choice = _pivot(relation)
         if choice is None:
             continue
         v, coefficient = choice
         divisors += [coefficient] if coefficient.op != "num" else []
         value = -(substitute(relation, {v: ex.ZERO}) / coefficient)
-        left = [substitute(other, {v: value}) for other in left]
+        remaining = [substitute(other, {v: value}) for other in remaining]
         e = substitute(e, {v: value})
     return e, divisors
 
 
 def given_by(relations: Iterable[Expr]) -> Mapping[Expr, Expr]:
     """Return the coordinates that relations determine, as functions of others, each free of those solved for."""
-    found: dict[Expr, Expr] = {}
+    result: dict[Expr, Expr] = {}
     for g in relations:
-        own = substitute(g, found)
+        own = substitute(g, result)
         pivot = next(_coordinate_pivots(own), None)
         if pivot is not None:
             s, value = pivot
-            found = {k: substitute(v, {s: value}) for k, v in found.items()} | {s: value}
-    return found
+            result = {k: substitute(v, {s: value}) for k, v in result.items()} | {s: value}
+    return result
 
 
 def _coordinate_pivots(g: Expr) -> Iterator[tuple[Expr, Expr]]:
@@ -244,14 +246,14 @@ def _coordinate_pivots(g: Expr) -> Iterator[tuple[Expr, Expr]]:
     terms = linear_terms(g)
     for s, c in terms.items():
         if s.op == "sym" and s.args[0] == "coordinate" and not any(s in u.symbols for u in terms if u != s):
-            rest = ex.add(*(ex.mul(ex.num(-k / c), u) for u, k in terms.items() if u != s))
-            yield s, rest
+            remainder = ex.add(*(ex.mul(ex.num(-k / c), u) for u, k in terms.items() if u != s))
+            yield s, remainder
 
 
 def _pivot(relation: Expr) -> tuple[Expr, Expr] | None:
     """A velocity of a linear relation with a coefficient that is not identically 0; numbers first."""
-    found = [(v, diff(relation, v)) for v in velocities_of(relation)]
-    for v, c in found:
+    result = [(v, diff(relation, v)) for v in velocities_of(relation)]
+    for v, c in result:
         if c.op == "num" and not c.is_zero:
             return v, c
-    return next(((v, c) for v, c in found if not is_zero(c, frozenset())), None)
+    return next(((v, c) for v, c in result if not is_zero(c, frozenset())), None)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import Comparison, Names, UnknownNameError, parse_relations, to_text
 from dofkit.expressions.tree import parameter
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.scene import Scene
 
 #: Names that an answer may bring with it as constants of integration.
@@ -34,7 +34,7 @@ class Read:
 
 
 def read_equations(answer: str | Sequence[str], names: Names, constants: bool) -> Read:
-    """The equations of an answer, one text each; ``constants``: undeclared names may be constants of integration.
+    """Return the equations of an answer, one text each; ``constants``: undeclared names may be constants.
 
     Raises TextError, its column counted within the answer (of several, within the one at fault).
     """
@@ -43,12 +43,12 @@ def read_equations(answer: str | Sequence[str], names: Names, constants: bool) -
         raise TextError("there is no equation", 1, "write an equation such as x^2 + y^2 = l^2")
     if len(texts) > MAX_EQUATIONS:
         raise TextError(f"there are {len(texts)} equations", texts[MAX_EQUATIONS][0] + 1, "give fewer equations")
-    own: dict[str, None] = {}
-    found = [(text, _read(text, before, names, own, constants)) for before, text in texts if text.strip()]
-    shown = "; ".join(as_text(c) for _, relations in found for c in relations)
-    symbols = {s for _, relations in found for c in relations for side in (c.left, c.right) for s in side.symbols}
+    constants_found: dict[str, None] = {}
+    read = [(text, _read(text, before, names, constants_found, constants)) for before, text in texts if text.strip()]
+    text_read = "; ".join(as_text(c) for _, relations in read for c in relations)
+    symbols = {s for _, relations in read for c in relations for side in (c.left, c.right) for s in side.symbols}
     moving = any(s.args[0] not in ("coordinate", "parameter", "time") for s in symbols)
-    return Read(tuple(text for text, _ in found), frozenset(own), shown, moving)
+    return Read(tuple(text for text, _ in read), frozenset(constants_found), text_read, moving)
 
 
 def _parts(text: str) -> Iterator[tuple[int, str]]:
@@ -60,26 +60,28 @@ def _parts(text: str) -> Iterator[tuple[int, str]]:
     yield start, text[start:]
 
 
-def _read(text: str, before: int, names: Names, own: dict[str, None], constants: bool) -> tuple[Comparison, ...]:
+def _read(
+    text: str, before: int, names: Names, constants_found: dict[str, None], constants: bool
+) -> tuple[Comparison, ...]:
     while True:
-        known = Names(
+        extended = Names(
             names.coordinates,
-            {**names.parameters, **{name: parameter(name) for name in own}},
+            {**names.parameters, **{name: parameter(name) for name in constants_found}},
             names.functions,
             names.arguments,
         )
         try:
-            return parse_relations(text, known if own else names)
+            return parse_relations(text, extended if constants_found else names)
         except UnknownNameError as error:
-            if not constants or len(own) == MAX_CONSTANTS or not _may_be_constant(error.name, names):
+            if not constants or len(constants_found) == MAX_CONSTANTS or not _may_be_constant(error.name, names):
                 raise _moved(error, before) from None
-            own[error.name] = None
+            constants_found[error.name] = None
         except TextError as error:
             raise _moved(error, before) from None
 
 
 def _may_be_constant(name: str, names: Names) -> bool:
-    """Is it a short name of the student's own? ``x_A`` is none where x is declared: it is meant for a coordinate."""
+    """Return whether it is a short name of the student's own: ``x_A`` is none where x is declared."""
     stem, _, index = name.partition("_")
     declared = stem in names.coordinates or stem in names.parameters
     return bool(_CONSTANT.fullmatch(name)) and not (declared and index and not index.isdigit())
@@ -91,12 +93,12 @@ def _moved(error: TextError, before: int) -> TextError:
 
 
 def as_text(c: Comparison) -> str:
-    """A relation in the grammar of scenes."""
+    """Return a relation in the grammar of scenes."""
     return f"{to_text(c.left)} {c.relation} {to_text(c.right)}"
 
 
 def with_equations(scene: Scene, read: Read, called: str) -> Scene:
-    """The scene with the equations after its constraints; their names are ``called`` and a number from 1 on."""
+    """Return the scene with the equations after its constraints; their names are ``called`` and a number from 1 on."""
     more = tuple(Equation(name=f"{called} {i + 1}", text=text) for i, text in enumerate(read.texts))
     parameters = {**scene.parameters, **dict.fromkeys(read.constants, "real")}
     changes = {"constraints": (*scene.constraints, *more), "parameters": parameters, "expect": {}}

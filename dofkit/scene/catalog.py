@@ -131,40 +131,40 @@ class FoundFile(NamedTuple):
 
 def find(source: str | os.PathLike[str]) -> FoundFile:
     """Return the bytes of the file at a path, or of the catalog scene of that name. Raises SceneError for neither."""
-    shown = os.fsdecode(source)
-    path = Path(shown)
+    name = os.fsdecode(source)
+    path = Path(name)
     try:
         if path.exists() and not path.is_dir():
             with path.open("rb") as file:
                 return FoundFile(_printable(path.stem), file.read(MOST_BYTES + 1), path)
-        if shown in catalog_names():
-            return FoundFile(shown, catalog_text(shown))
+        if name in catalog_names():
+            return FoundFile(name, catalog_text(name))
         folder = path.is_dir()
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        message = f"'{_brief(shown)}' cannot be read: {reason[:1].lower()}{reason[1:]}"
-        raise SceneError((Fault(message, hint="check the path and the permissions"),), shown) from None
+        message = f"'{_brief(name)}' cannot be read: {reason[:1].lower()}{reason[1:]}"
+        raise SceneError((Fault(message, hint="check the path and the permissions"),), name) from None
     if folder:
-        fault = Fault(f"'{shown}' is a folder, not a scene", hint=f"write '{path / '*.yaml'}' for the files in it")
-        raise SceneError((fault,), shown)
-    raise SceneError((_missing(shown, path),), shown)
+        fault = Fault(f"'{name}' is a folder, not a scene", hint=f"write '{path / '*.yaml'}' for the files in it")
+        raise SceneError((fault,), name)
+    raise SceneError((_missing(name, path),), name)
 
 
-def _missing(shown: str, path: Path) -> Fault:
-    if "\n" in shown:
+def _missing(name: str, path: Path) -> Fault:
+    if "\n" in name:
         message = "this is the text of a scene, not a path or a name"
         return Fault(message, hint="read a text with dofkit.loads(text)")
     in_folder = path.parent != Path(".") or path.suffix in (".yaml", ".yml", ".json")
     beside = _beside(path)
     near = nearest_title(path.name, beside)
-    message = f"there is no file '{_brief(shown)}'"
+    message = f"there is no file '{_brief(name)}'"
     if not in_folder:
         message += ", and no scene of that name in the catalog"
     if near:
         return Fault(message, hint=f"did you mean '{path.parent / near}'?")
     if in_folder and not path.parent.is_dir():
         return Fault(message, hint=f"there is no folder '{path.parent}' either")
-    return Fault(message, hint=nearest_hint(path.stem if in_folder else shown))
+    return Fault(message, hint=nearest_hint(path.stem if in_folder else name))
 
 
 def _beside(path: Path) -> list[str]:

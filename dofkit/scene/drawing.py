@@ -48,13 +48,13 @@ def drawing_of(scene: Declarations, vocabulary: Vocabulary, mentioned: frozenset
     The faults of the configuration and of the particles' positions are added to ``faults``.
     """
     texts = Texts(vocabulary.texts, ("configuration",), faults)
-    known = {q.name: q for q in vocabulary.table.coordinates}
+    coordinates = {q.name: q for q in vocabulary.table.coordinates}
     configuration: dict[str, Expr] = {}
     for name, value in scene.configuration.items():
-        if name in known:
+        if name in coordinates:
             configuration[name] = texts.fixed(value, name)
         else:
-            texts.unknown("coordinate", name, known, name)
+            texts.unknown("coordinate", name, coordinates, name)
     points: list[Vec] = []
     particles: dict[str, Placed] = {}
     for index, particle in enumerate(scene.particles):
@@ -81,13 +81,13 @@ def drawing_of(scene: Declarations, vocabulary: Vocabulary, mentioned: frozenset
 def _place(texts: Texts, particle: Particle, names: tuple[str, ...], configuration: Mapping[str, Expr]) -> Vec | None:
     """Return the reference position of a particle."""
     place = None if particle.at is None else texts.vector(particle.at, len(names), "at")
-    given = [name for name in names if name in configuration]
-    if place is not None and given:
+    configured = [name for name in names if name in configuration]
+    if place is not None and configured:
         for name, part in zip(names, place, strict=True):
             if name in configuration and differs_from_zero(configuration[name] - part):
                 message = f"'{particle.name}' is given two positions: `at`, and {name} in `configuration`"
                 texts.fault(message, "at", hint="leave one of them out")
-    if place is None and len(given) == len(names):
+    if place is None and len(configured) == len(names):
         place = tuple(configuration[name] for name in names)
     return place
 
@@ -118,8 +118,8 @@ def centre_of(points: Sequence[Vec]) -> Vec | None:
 
 
 def _numbers(point: Vec) -> tuple[float, ...] | None:
-    parts = [approximate(part) for part in point]
-    return tuple(part for part in parts if part is not None) if None not in parts else None
+    numbers = [approximate(part) for part in point]
+    return tuple(part for part in numbers if part is not None) if None not in numbers else None
 
 
 def _diameter(points: list[tuple[float, ...]]) -> float:
@@ -189,7 +189,7 @@ def reference_of(
 
 def undrawn(drawing: Drawing, drawn: Set[str], pose: Mapping[Expr, Expr], touched: Set[str]) -> tuple[str, ...]:
     """Return the bodies, particles and coordinates that a constraint has ``touched`` and that are not drawn."""
-    table, known = drawing.vocabulary.table, frozenset(str(s.args[1]) for s in pose)
+    table, posed = drawing.vocabulary.table, frozenset(str(s.args[1]) for s in pose)
     bodies = [b for b, names in table.bodies.items() if b not in drawn and not touched.isdisjoint(names)]
-    others = (q for q in table.coordinates if q.name in touched and q.name not in known)
+    others = (q for q in table.coordinates if q.name in touched and q.name not in posed)
     return tuple(dict.fromkeys([*bodies, *(q.owner or q.name for q in others)]))

@@ -1,4 +1,4 @@
-"""What a scene expects of its report, held against what is told."""
+"""What a scene expects of its report, compared with the report."""
 
 from __future__ import annotations
 
@@ -19,26 +19,26 @@ from dofkit.scene.scene import Scene
 _SETS = frozenset({"redundant", "conflicting", "infeasible", "generalized_coordinates", "circuit"})
 
 
-def unmet(scene: Scene, told: Mapping[str, Any]) -> list[str]:
-    """Every field that the scene expects and a report does not have, as ``KEY: ... expected, but the report has ...``.
+def unmet(scene: Scene, report: Mapping[str, Any]) -> list[str]:
+    """Return every field that the scene expects and a report does not have, as ``KEY: ... expected, but ...``.
 
-    ``told``: the report as it is written in JSON.
+    ``report``: as it is written in JSON.
     """
-    entries = {entry["name"]: entry for entry in told["constraints"]}
+    entries = {entry["name"]: entry for entry in report["constraints"]}
     return [
-        f"{key}: {wanted} expected, but the report has {found}"
-        for key, wanted, found in _pairs(scene.expect, told, entries)
-        if not _agrees(scene, key.rpartition(".")[2], wanted, found)
+        f"{key}: {wanted} expected, but the report has {value}"
+        for key, wanted, value in _pairs(scene.expect, report, entries)
+        if not _agrees(scene, key.rpartition(".")[2], wanted, value)
     ]
 
 
 def _pairs(
-    expect: Mapping[str, Any], told: Mapping[str, Any], entries: Mapping[str, Any]
+    expect: Mapping[str, Any], report: Mapping[str, Any], entries: Mapping[str, Any]
 ) -> Iterator[tuple[str, Any, Any]]:
-    """(field, expected, told); fields of a constraint are ``NAME.FIELD``."""
+    """Yield the name of each field, what is expected and what the report has; of a constraint ``NAME.FIELD``."""
     for key, wanted in expect.items():
         if key != "constraints" or not isinstance(wanted, Mapping):
-            yield key, wanted, told.get(key)
+            yield key, wanted, report.get(key)
             continue
         for name, fields in wanted.items():
             if name not in entries or not isinstance(fields, Mapping):
@@ -47,20 +47,20 @@ def _pairs(
                 yield from ((f"{name}.{field}", value, entries[name].get(field)) for field, value in fields.items())
 
 
-def _agrees(scene: Scene, key: str, wanted: Any, found: Any) -> bool:
-    if wanted is None or found is None:
-        return wanted is found
+def _agrees(scene: Scene, key: str, wanted: Any, value: Any) -> bool:
+    if wanted is None or value is None:
+        return wanted is value
     if key in _SETS and isinstance(wanted, Sequence):
-        return sorted(map(str, wanted)) == sorted(map(str, found))
+        return sorted(map(str, wanted)) == sorted(map(str, value))
     if key == "count" and isinstance(wanted, Mapping):
-        return all(found.get(part) == value for part, value in wanted.items())
+        return all(value.get(part) == number for part, number in wanted.items())
     if key == "redundancies" and isinstance(wanted, Sequence):
-        return _groups(wanted) == _groups(found)
+        return _groups(wanted) == _groups(value)
     if key == "forces" and isinstance(wanted, Sequence):
-        return _force_names(wanted) == _force_names(found)
+        return _force_names(wanted) == _force_names(value)
     if key == "integral":
-        return str(wanted) == found or _one_family(scene, str(wanted), found)
-    return bool(wanted == found)
+        return str(wanted) == value or _one_family(scene, str(wanted), value)
+    return bool(wanted == value)
 
 
 def _groups(groups: Sequence[Any]) -> list[Any]:
@@ -71,11 +71,11 @@ def _force_names(forces: Sequence[Any]) -> list[str]:
     return sorted(str(force.get("name") if isinstance(force, Mapping) else force) for force in forces)
 
 
-def _one_family(scene: Scene, one: str, other: str) -> bool:
-    """Are f = C and g = C the same surfaces: are df and dg proportional?"""
+def _one_family(scene: Scene, first: str, second: str) -> bool:
+    """Return whether f = C and g = C are the same surfaces: df and dg are proportional."""
     vocabulary = vocabulary_of(scene)
     try:
-        f, g = (_level(text, vocabulary.names) for text in (one, other))
+        f, g = (_level(text, vocabulary.names) for text in (first, second))
         moving = [ex.TIME, *(ex.coordinate(c.name) for c in vocabulary.table.coordinates)]
         used = [s for s in moving if s in f.symbols | g.symbols]
         minors = (diff(f, a) * diff(g, b) - diff(f, b) * diff(g, a) for a, b in combinations(used, 2))
@@ -85,5 +85,5 @@ def _one_family(scene: Scene, one: str, other: str) -> bool:
 
 
 def _level(text: str, names: Names) -> Expr:
-    """f of ``f = C``."""
+    """Return f of ``f = C``."""
     return parse_expression(text.partition("=")[0], names)

@@ -77,24 +77,24 @@ def meant_key(word: object, known: tuple[str, ...]) -> str | None:
 
 
 def suggestion(word: object, known: Sequence[str], what: str) -> str:
-    """A sentence that names the nearest of ``known``, or lists them."""
-    found = meant_key(word, tuple(known)) if what == "keys" else nearest(word, known)
-    if found is not None:
-        return f"did you mean '{found}'?"
+    """Return a sentence that names the nearest of ``known``, or lists them."""
+    near = meant_key(word, tuple(known)) if what == "keys" else nearest(word, known)
+    if near is not None:
+        return f"did you mean '{near}'?"
     if not known:
         return f"there are no {what}"
-    shown = ", ".join(list(known)[:12]) + (", ..." if len(known) > 12 else "")
-    return f"the {what} are {shown}"
+    listed = ", ".join(list(known)[:12]) + (", ..." if len(known) > 12 else "")
+    return f"the {what} are {listed}"
 
 
 def fault_error(message: str, hint: str | None = None, **context: Any) -> PydanticCustomError:
-    """An error for a validator to raise; ``hint`` travels in its context."""
-    given = {"message": message, **({"hint": hint} if hint else {}), **context}
-    return PydanticCustomError(_OURS, "{message}", given)
+    """Return an error for a validator to raise; ``hint`` travels in its context."""
+    details = {"message": message, **({"hint": hint} if hint else {}), **context}
+    return PydanticCustomError(_OURS, "{message}", details)
 
 
 def faults_of(error: ValidationError) -> tuple[Fault, ...]:
-    """The faults of a validation error, each with its path as written."""
+    """Return the faults of a validation error, each with its path as written."""
     return tuple(
         Fault(
             detail["msg"],
@@ -125,9 +125,9 @@ def exact(value: object) -> Fraction:
     if isinstance(value, Decimal):
         return _from_decimal(value)
     if isinstance(value, str):
-        found = _literal(value)
-        if found is not None:
-            return found
+        number = _literal(value)
+        if number is not None:
+            return number
     raise fault_error(f"a number is needed, not {in_words(value)}")
 
 
@@ -151,8 +151,8 @@ def _value(value: object) -> Fraction | str:
         text = value.strip()
         if not text:
             raise fault_error("a number or a text is needed, not an empty text")
-        found = _literal(text)
-        return value if found is None else found
+        number = _literal(text)
+        return value if number is None else number
     if isinstance(value, (list, tuple, dict)):
         raise fault_error(f"a number or a text is needed, not {in_words(value)}")
     return exact(value)
@@ -169,7 +169,7 @@ def _text(value: object) -> str:
 
 
 def as_written(value: Fraction | str) -> str:
-    """A value as text: ``1/3``, but ``0.25`` where the decimals end.
+    """Return a value as text: ``1/3``, but ``0.25`` where the decimals end.
 
     >>> as_written(Fraction(-1, 4)), as_written(Fraction(1, 3))
     ('-0.25', '1/3')
@@ -189,7 +189,7 @@ def as_written(value: Fraction | str) -> str:
 
 
 def _number_out(value: Fraction | str) -> int | str:
-    """An integer stays one; other numbers are texts such as ``1/2``, which read back exactly."""
+    """Return an integer as it is, and any other number as a text such as ``1/2``, which reads back exactly."""
     if isinstance(value, str):
         return value
     return int(value) if value.denominator == 1 else str(value)
@@ -218,12 +218,12 @@ Vector = tuple[Value, ...]
 
 
 def listed(value: object) -> object:
-    """An empty YAML value (``particles:`` and nothing after it) as an empty list."""
+    """Return an empty YAML value (``particles:`` and nothing after it) as an empty list."""
     return () if value is None else value
 
 
 def named(value: object) -> object:
-    """A plain name as ``{name: ...}``."""
+    """Return a plain name as ``{name: ...}``."""
     return {"name": value} if isinstance(value, str) else value
 
 
@@ -259,7 +259,7 @@ _AS = {"a particle": "a name or a mapping", "a body": "a name or a mapping"}
 
 
 def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tuple[str, str | None]:
-    """One fault of Pydantic's in words for the person who wrote the scene, with a hint."""
+    """Return one fault of Pydantic's in words for the person who wrote the scene, with a hint."""
     kind, place = detail["type"], detail["loc"]
     context = detail.get("ctx") or {}
     if kind == "extra_forbidden":
@@ -288,7 +288,7 @@ def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tup
 
 
 def fault_at(place: tuple[int | str, ...], message: str, hint: str | None = None) -> ValidationError:
-    """An error for a validator to raise about something inside what it was given."""
+    """Return an error for a validator to raise about something inside what it was given."""
     detail = InitErrorDetails(type=fault_error(message, hint), loc=place, input=None)
     return ValidationError.from_exception_data("scene", [detail])
 
@@ -299,8 +299,8 @@ def retold(
     known: Sequence[str],
     place: Callable[[tuple[int | str, ...]], tuple[int | str, ...]] = lambda loc: loc,
 ) -> ValidationError:
-    """The same faults in our words, those that are already ours left as they are; ``place`` maps each path."""
-    told = []
+    """Return the same faults in our words, those that are already ours left as they are; ``place`` maps each path."""
+    details = []
     for detail in error.errors(include_url=False):
         context = dict(detail.get("ctx") or {})
         if detail["type"] != _OURS:
@@ -308,8 +308,8 @@ def retold(
             context = {"message": message, **({"hint": hint} if hint else {})}
         kind = PydanticCustomError(_OURS, "{message}", context)
         where = tuple(part for part in place(detail["loc"]) if part != "[key]")
-        told.append(InitErrorDetails(type=kind, loc=where, input=detail["input"]))
-    return ValidationError.from_exception_data(error.title, told)
+        details.append(InitErrorDetails(type=kind, loc=where, input=detail["input"]))
+    return ValidationError.from_exception_data(error.title, details)
 
 
 def untagged(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
@@ -337,7 +337,7 @@ class WrittenModel(BaseModel):
 
     @classmethod
     def called(cls) -> str:
-        """What a message calls it: ``a particle``."""
+        """Return what a message calls it: ``a particle``."""
         name = cls.__name__.lower()
         return f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
 
@@ -362,19 +362,19 @@ class TaggedUnion:
     advise: Callable[[object, Mapping[str, Any]], str | None] = lambda word, entry: None
 
     def validated(self, value: object, handler: ValidatorFunctionWrapHandler) -> Any:
-        """A member, its faults at paths free of the key. Raises as Pydantic's validators do."""
+        """Return a member, its faults at paths free of the key. Raises as Pydantic's validators do."""
         if isinstance(value, (dict, Mapping)):
-            given = value.get(self.key)
-            if given is not None and not isinstance(given, str):
+            word = value.get(self.key)
+            if word is not None and not isinstance(word, str):
                 raise fault_at(
-                    (self.key,), f"the `{self.key}` is a text, not {in_words(given)}", self.advise(None, value)
+                    (self.key,), f"the `{self.key}` is a text, not {in_words(word)}", self.advise(None, value)
                 )
-            if given is None:
+            if word is None:
                 hint = self.advise(None, value) or self.listing + ", ".join(self.known)
                 raise fault_error(f"{self.called} needs its `{self.key}`", hint)
-            if given not in self.known:
-                hint = self.advise(given, value) or suggestion(given, list(self.known), self.names)
-                raise fault_at((self.key,), self.unknown.format(given), hint)
+            if word not in self.known:
+                hint = self.advise(word, value) or suggestion(word, list(self.known), self.names)
+                raise fault_at((self.key,), self.unknown.format(word), hint)
         elif not isinstance(value, self.base):
             raise fault_error(*self.otherwise)
         try:

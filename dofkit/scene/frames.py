@@ -33,19 +33,19 @@ Chart = Literal["fixed", "line", "plane", "gibbs", "euler"]
 
 
 def turn_z(angle: Expr) -> Matrix:
-    """The rotation by ``angle`` about the z axis of space."""
+    """Return the rotation by ``angle`` about the z axis of space."""
     c, s = fn("cos", angle), fn("sin", angle)
     return ((c, mul(MINUS_ONE, s), ZERO), (s, c, ZERO), (ZERO, ZERO, ONE))
 
 
 def turn_x(angle: Expr) -> Matrix:
-    """The rotation by ``angle`` about the x axis of space."""
+    """Return the rotation by ``angle`` about the x axis of space."""
     c, s = fn("cos", angle), fn("sin", angle)
     return ((ONE, ZERO, ZERO), (ZERO, c, mul(MINUS_ONE, s)), (ZERO, s, c))
 
 
 def euler(phi: Expr, theta: Expr, psi: Expr) -> Matrix:
-    """The rotation Rz(phi) Rx(theta) Rz(psi)."""
+    """Return the rotation Rz(phi) Rx(theta) Rz(psi)."""
     return product(turn_z(phi), product(turn_x(theta), turn_z(psi)))
 
 
@@ -136,7 +136,7 @@ class Frame:
         return a if self.turn is None else apply(self.turn, a)
 
     def point(self, a: Vec, label: str = "") -> Placed:
-        """The material point that stands at ``a`` in the reference configuration."""
+        """Return the material point that stands at ``a`` in the reference configuration."""
         if self.fixed:
             return Placed(a, ONE, a, self.name, label)
         arm = minus(a, self.start)
@@ -145,7 +145,7 @@ class Frame:
         return Placed(plus(scaled(self.under, self.position), self.carry(arm)), self.under, a, self.name, label)
 
     def spin(self) -> tuple[Vec, Expr]:
-        """The angular velocity in world axes as numerator and denominator, velocities as symbols.
+        """Return the angular velocity in world axes as numerator and denominator, velocities as symbols.
 
         Gibbs: 2 (gdot + g x gdot) / (1 + g.g). Euler: phidot e_z + thetadot (cos phi, sin phi, 0)
         + psidot (sin phi sin theta, -cos phi sin theta, cos theta).
@@ -161,7 +161,7 @@ class Frame:
 
 
 def relative(first: Frame, second: Frame) -> tuple[Expr, Vec] | None:
-    """The rotation R1^T R2 as a quaternion (scalar, vector), up to a positive factor; None outside Gibbs charts.
+    """Return the rotation R1^T R2 as a quaternion (scalar, vector), up to a positive factor; None outside Gibbs charts.
 
     (1, -g1)(1, g2) = (1 + g1.g2, g2 - g1 - g1 x g2).
     """
@@ -175,5 +175,5 @@ def between(first: Placed, second: Placed) -> tuple[Vec, Expr]:
     """second - first as numerator and denominator."""
     if first.under == second.under:
         return minus(second.over, first.over), first.under
-    left, right = scaled(second.under, first.over), scaled(first.under, second.over)
-    return minus(right, left), mul(first.under, second.under)
+    first_over, second_over = scaled(second.under, first.over), scaled(first.under, second.over)
+    return minus(second_over, first_over), mul(first.under, second.under)

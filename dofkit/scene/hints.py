@@ -14,7 +14,7 @@ from dofkit.base.errors import Fault
 from dofkit.base.wording import nearest
 from dofkit.expressions.text.characters import LETTERS_OF_NAMES
 from dofkit.scene.constraints import TYPES
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.fields import meant_key
 from dofkit.scene.synonyms import Path, dimension_of, other_keys
 
@@ -99,14 +99,14 @@ def without_echoes(faults: Iterable[Fault], value: Mapping[str, Any]) -> list[Fa
 
 def _name_at(value: Any, where: Path) -> str:
     """Return the name that a path leads to, which is a key or a text; a name stands for its owner."""
-    found: Any = value
+    owner: Any = value
     for key in where:
-        if isinstance(found, Mapping):
-            part = found.get(key)
-            found = part if key == "name" or isinstance(part, (Mapping, list, tuple)) else key
-        elif isinstance(found, (list, tuple)) and isinstance(key, int):
-            found = found[key]
-    return str(found)
+        if isinstance(owner, Mapping):
+            part = owner.get(key)
+            owner = part if key == "name" or isinstance(part, (Mapping, list, tuple)) else key
+        elif isinstance(owner, (list, tuple)) and isinstance(key, int):
+            owner = owner[key]
+    return str(owner)
 
 
 def _undeclared_at_once(faults: list[Fault], value: Mapping[str, Any]) -> list[Fault]:
@@ -120,8 +120,10 @@ def _undeclared_at_once(faults: list[Fault], value: Mapping[str, Any]) -> list[F
         first, names = next(iter(missing)), list(dict.fromkeys(missing.values()))
         listed = ", ".join(names[:MOST_DECLARED]) + (", ..." if len(names) > MOST_DECLARED else "")
         message = first.message if len(names) == 1 else f"the {section} {listed} are not declared"
-        told = replace(first, message=message, hint=f"declare `{section}: [{listed}]`")
-        faults = [told if fault is first else fault for fault in faults if fault is first or fault not in missing]
+        joint_fault = replace(first, message=message, hint=f"declare `{section}: [{listed}]`")
+        faults = [
+            joint_fault if fault is first else fault for fault in faults if fault is first or fault not in missing
+        ]
     return faults
 
 
@@ -158,7 +160,7 @@ def _mended(value: Mapping[str, Any], where: Path) -> str | None:
     word = entry.get("type")
     kinds = [word] if isinstance(word, str) and word in TYPES else likely_types(word, entry)
     able = (with_right_keys(kind, entry) for kind in kinds if d in TYPES[kind].dimensions)
-    right = next((found for found in able if found is not None), None)
+    right = next((candidate for candidate in able if candidate is not None), None)
     if right is None or right == entry:
         return None
     line = on_one_line(right)
@@ -188,12 +190,12 @@ def meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
 
 def with_right_keys(kind: str, entry: Mapping[str, Any]) -> dict[str, Any] | None:
     """Return an entry as a constraint of a type, its keys and their form put right; None where that cannot be done."""
-    fields, given = TYPES[kind].model_fields, TYPES[kind].restated(entry)
+    fields, restated = TYPES[kind].model_fields, TYPES[kind].restated(entry)
     right: dict[str, Any] = {"type": kind}
-    for key, part in given.items():
+    for key, part in restated.items():
         if str(key).lower() == "type":
             continue
-        meant = key if key in fields else meant_key(key, tuple(field for field in fields if field not in given))
+        meant = key if key in fields else meant_key(key, tuple(field for field in fields if field not in restated))
         if meant is None or meant in right:
             return None
         right[meant] = part
@@ -215,15 +217,15 @@ def _in_form(key: str, part: Any) -> Any:
 
 
 def with_hint(fault: Fault, value: Mapping[str, Any] | None = None) -> Fault:
-    """A fault that says which field it is about, and what to do; ``value``: the document that it is about."""
+    """Return a fault that says which field it is about, and what to do; ``value``: the document that it is about."""
     message, keys = (
         re.sub(r"^Input should be (.*)", r"\1 is needed", fault.message),
         [key for key in fault.where if isinstance(key, str)],
     )
     if len(fault.where) > 2 and keys[-1] not in ("text", "name", "type") and keys[-1] not in message:
         message = f"`{keys[-1]}`: {message}"
-    given = {} if value is None else value
-    return replace(fault, message=message, hint=_hint(fault, given), see=_see(fault, given))
+    document = {} if value is None else value
+    return replace(fault, message=message, hint=_hint(fault, document), see=_see(fault, document))
 
 
 def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:
@@ -263,12 +265,12 @@ def _hint(fault: Fault, value: Mapping[str, Any]) -> str:
         return hint or "'dofkit schema' lists what can stand here"
     if mended and (hint is None or not hint.startswith(("did you mean", "the types"))):
         return f"write `{line}`"
-    shown = f"write `{line}`" if mended and hint and hint.endswith("?") else f"for example `{line}`"
-    return shown if hint is None else f"{hint}{'' if hint.endswith('?') else ';'} {shown}"
+    example = f"write `{line}`" if mended and hint and hint.endswith("?") else f"for example `{line}`"
+    return example if hint is None else f"{hint}{'' if hint.endswith('?') else ';'} {example}"
 
 
 def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:
-    """What to do about a key of a constraint that is another word for one which is given too."""
+    """Return what to do about a key of a constraint that is another word for one which is given too."""
     key = fault.where[-1] if fault.where and fault.message.startswith(UNKNOWN_KEY) else ""
     kind = _type_at(value, fault.where[1]) if fault.where[:1] == ("constraints",) and len(fault.where) == 3 else None
     meant = other_keys(kind).get(str(key)) if kind is not None else None
@@ -276,17 +278,17 @@ def _said_twice(fault: Fault, value: Mapping[str, Any]) -> str | None:
 
 
 def _direction(fault: Fault, value: Mapping[str, Any]) -> str | None:
-    """What a direction is, where something else is given for one."""
+    """Return what a direction is, where something else is given for one."""
     if fault.where[-1:] != ("axis",) or "a list is needed" not in fault.message:
         return None
     letters = ("x", "x or y", "x, y or z")[dimension_of(value) - 1]
     return f"a direction is {letters}, or its components"
 
 
-def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:
-    """A line that would work in the place of a fault: of a constraint, or of a key."""
+def _line(fault: Fault, hint: str, value: Mapping[str, Any]) -> str | None:
+    """Return a line that would work in the place of a fault: of a constraint, or of a key."""
     where, d = fault.where, dimension_of(value)
-    suggested = _SUGGESTED.fullmatch(told)
+    suggested = _SUGGESTED.fullmatch(hint)
     unknown = len(where) == 1 and fault.message.startswith(UNKNOWN_KEY) and not suggested
     if not where or unknown or (suggested and suggested[1] not in TYPES and suggested[1] not in LINES):
         return None
@@ -310,21 +312,21 @@ def _line(fault: Fault, told: str, value: Mapping[str, Any]) -> str | None:
 
 
 def _likely(entry: Any, dimension: int) -> str:
-    """The first type of a dimension that has all the keys of an entry; an equation where none has."""
-    given = set(entry) - {"type"} if isinstance(entry, Mapping) else set()
+    """Return the first type of a dimension that has all the keys of an entry; an equation where none has."""
+    keys = set(entry) - {"type"} if isinstance(entry, Mapping) else set()
     able = [(kind, cls.model_fields.keys()) for kind, cls in TYPES.items() if dimension in cls.dimensions]
-    named = (kind for kind, fields in able if given and given <= fields)
+    named = (kind for kind, fields in able if keys and keys <= fields)
     return next(named, Equation.kind())
 
 
 def _entry_at(value: Mapping[str, Any], index: object) -> Any:
     entries = value.get("constraints")
-    found = isinstance(entries, (list, tuple)) and isinstance(index, int) and index < len(entries)
-    return entries[index] if found and isinstance(entries, (list, tuple)) and isinstance(index, int) else None
+    is_there = isinstance(entries, (list, tuple)) and isinstance(index, int) and index < len(entries)
+    return entries[index] if is_there and isinstance(entries, (list, tuple)) and isinstance(index, int) else None
 
 
 def _type_at(value: Mapping[str, Any], index: object) -> str | None:
-    """The type of a constraint of a document, where it is one."""
+    """Return the type of a constraint of a document, where it is one."""
     entry = _entry_at(value, index)
     kind = entry.get("type") if isinstance(entry, Mapping) else None
     return kind if isinstance(kind, str) and kind in TYPES else None

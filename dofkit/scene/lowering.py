@@ -15,16 +15,15 @@ from typing import Any, TypeAlias
 
 from dofkit.base.deadline import check as out_of_time
 from dofkit.base.deadline import gc_rarely
-from dofkit.base.display import Companion
 from dofkit.base.errors import Fault, SceneError
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.renaming import Unwritten
 from dofkit.expressions.text import Names
 from dofkit.expressions.tree import MINUS_ONE, ZERO, Expr, mul, parameter, power
 from dofkit.expressions.vectors import Vec
-from dofkit.report import Report
+from dofkit.report import Companion, Report
 from dofkit.scene.constraints import ConstraintBase
-from dofkit.scene.constraints.equations import LETTERS
+from dofkit.scene.constraints.base import LETTERS
 from dofkit.scene.drawing import (
     Drawing,
     centre_of,

@@ -42,12 +42,14 @@ def coordinate_table(scene: Declarations) -> NameTable:
         (scene.particles, PARTICLE_ROLES[scene.dimension], particles),
         (scene.bodies, BODY_ROLES[scene.dimension], bodies),
     ):
-        told = ("x", "y", "angle") if planar and len(roles) == 3 else roles
+        kinds = ("x", "y", "angle") if planar and len(roles) == 3 else roles
         for owner in owners:
-            given, name = owner.coordinates, owner.name
-            names = given if given and len(given) == len(roles) else tuple([f"{r}_{subscript(name)}" for r in roles])
+            renamed, name = owner.coordinates, owner.name
+            names = (
+                renamed if renamed and len(renamed) == len(roles) else tuple([f"{r}_{subscript(name)}" for r in roles])
+            )
             owned[name] = names
-            coordinates += [Coordinate(q, name, role) for q, role in zip(names, told, strict=True)]
+            coordinates += [Coordinate(q, name, role) for q, role in zip(names, kinds, strict=True)]
     coordinates += [Coordinate(name) for name in scene.coordinates]
     return NameTable(tuple(coordinates), particles, bodies)
 
@@ -101,14 +103,14 @@ class Vocabulary:
 
 
 def vocabulary_of(scene: Declarations) -> Vocabulary:
-    """The names of a scene, read from what it declares."""
+    """Return the names of a scene, read from what it declares."""
     table = coordinate_table(scene)
     parameters, signs, faults = _parameters(scene)
     return Vocabulary(table, parameters, signs, ParsedTexts(_declared_names(scene, table, parameters)), faults)
 
 
 def _parameters(scene: Declarations) -> tuple[dict[str, Expr], dict[str, Sign], tuple[Fault, ...]]:
-    """What every parameter stands for, the signs of those that stay symbols, and the faults of their values.
+    """Return what every parameter stands for, the signs of those that stay symbols, and the faults of their values.
 
     A value may mention the parameters declared before it.
     """
@@ -147,13 +149,13 @@ def _declared_names(scene: Declarations, table: NameTable, parameters: Mapping[s
 
 
 def within_member(names: Names, letters: tuple[str, ...]) -> Names:
-    """The same names with ``letters`` standing for a member's coordinates, whatever else they may be."""
-    own = frozenset(letters)
+    """Return the same names with ``letters`` standing for a member's coordinates, whatever else they may be."""
+    own_names = frozenset(letters)
     return Names(
-        coordinates=names.coordinates | own,
-        parameters={name: value for name, value in names.parameters.items() if name not in own},
-        functions={name: arity for name, arity in names.functions.items() if name not in own},
-        arguments={name: given for name, given in names.arguments.items() if name not in own},
+        coordinates=names.coordinates | own_names,
+        parameters={name: value for name, value in names.parameters.items() if name not in own_names},
+        functions={name: arity for name, arity in names.functions.items() if name not in own_names},
+        arguments={name: given for name, given in names.arguments.items() if name not in own_names},
         allow_accelerations=True,
     )
 
@@ -162,7 +164,7 @@ Entry = tuple[str, str, tuple[str | int, ...]]
 
 
 def name_faults(scene: Declarations, table: NameTable) -> tuple[Fault, ...]:
-    """A fault for every name that is reserved, cannot be read in a text, is repeated or clashes."""
+    """Return a fault for every name that is reserved, cannot be read in a text, is repeated or clashes."""
     ledger = Ledger()
     _check_owners(scene, ledger)
     entries = [*_owned(scene, table), *_further(scene)]
@@ -170,15 +172,15 @@ def name_faults(scene: Declarations, table: NameTable) -> tuple[Fault, ...]:
     for name, what, where in entries:
         word = name if name.isascii() else spelled(name)
         if word in seen:
-            told = f"{what} and {seen[word]}" if what != seen[word] else f"each time as {what}"
+            detail = f"{what} and {seen[word]}" if what != seen[word] else f"each time as {what}"
             ledger.fault(
-                f"the name '{name}' is given twice: {told}", *where, hint=f"rename one of them, for example `{name}2`"
+                f"the name '{name}' is given twice: {detail}", *where, hint=f"rename one of them, for example `{name}2`"
             )
             continue
         seen[word] = what
         if name in RESERVED:
-            told = "time, and is never declared" if name == "t" else "the fixed world, and is never declared"
-            ledger.fault(f"'{name}' is {told}", *where, hint="choose another name")
+            detail = "time, and is never declared" if name == "t" else "the fixed world, and is never declared"
+            ledger.fault(f"'{name}' is {detail}", *where, hint="choose another name")
         else:
             why = valid_name(name)
             if why is not None:
@@ -199,15 +201,15 @@ def _check_owners(scene: Declarations, ledger: Ledger) -> None:
         ("particles", "particle", scene.particles, PARTICLE_ROLES[d]),
         ("bodies", "body", scene.bodies, BODY_ROLES[d]),
     )
-    for key, one, owners, roles in both:
+    for key, kind, owners, roles in both:
         for i, owner in enumerate(owners):
             name = owner.name
             if name in RESERVED:
-                told = "time" if name == "t" else "the fixed world"
-                ledger.fault(f"'{name}' is {told}, and never declared", key, i, "name", hint="choose another name")
+                meaning = "time" if name == "t" else "the fixed world"
+                ledger.fault(f"'{name}' is {meaning}, and never declared", key, i, "name", hint="choose another name")
             elif not _is_owner_name(name):
                 hint = f"write `{readable_name(name)}`: a name has letters, digits, `_` and hyphens"
-                ledger.fault(f"'{name}' cannot be the name of a {one}", key, i, "name", hint=hint)
+                ledger.fault(f"'{name}' cannot be the name of a {kind}", key, i, "name", hint=hint)
             if name in seen:
                 ledger.fault(
                     f"the name '{name}' is given twice",
@@ -216,9 +218,9 @@ def _check_owners(scene: Declarations, ledger: Ledger) -> None:
                     "name",
                     hint=f"rename it: `{name}` is a {seen[name]} already",
                 )
-            seen.setdefault(name, one)
+            seen.setdefault(name, kind)
             if owner.coordinates is not None and len(owner.coordinates) != len(roles):
-                message = f"a {one} has {len(roles)} coordinates in dimension {d}, not {len(owner.coordinates)}"
+                message = f"a {kind} has {len(roles)} coordinates in dimension {d}, not {len(owner.coordinates)}"
                 ledger.fault(message, key, i, "coordinates", hint=f"name them in the order {', '.join(roles)}")
 
 
@@ -228,20 +230,20 @@ def _is_owner_name(name: str) -> bool:
 
 
 def _owned(scene: Declarations, table: NameTable) -> Iterator[Entry]:
-    told: set[str] = set()
+    seen: set[str] = set()
     both: tuple[tuple[str, str, Owners, Mapping[str, tuple[str, ...]]], ...] = (
         ("particles", "particle", scene.particles, table.particles),
         ("bodies", "body", scene.bodies, table.bodies),
     )
-    for key, one, owners, owned in both:
+    for key, kind, owners, owned in both:
         for i, owner in enumerate(owners):
-            if owner.name in told:
+            if owner.name in seen:
                 continue
-            told.add(owner.name)
+            seen.add(owner.name)
             renamed = owner.coordinates is not None and owner.coordinates == owned[owner.name]
             if not renamed and not _is_owner_name(owner.name):
                 continue
-            what = f"a coordinate of {one} '{owner.name}'"
+            what = f"a coordinate of {kind} '{owner.name}'"
             for j, name in enumerate(owned[owner.name]):
                 yield name, what, (key, i, "coordinates", j) if renamed else (key, i, "name")
 
@@ -268,7 +270,7 @@ def _check_derived(entries: list[Entry], seen: Mapping[str, str], ledger: Ledger
 
 
 def _rates(name: str) -> Iterator[tuple[str, str]]:
-    """What a name is the differential, the velocity or the acceleration of."""
+    """Yield what a name is the differential, the velocity or the acceleration of."""
     if name.startswith("d"):
         yield name[1:], "differential"
     if name.endswith("dot"):

@@ -65,7 +65,7 @@ Values = Annotated[
 
 
 def show_point(point: str | Vector | BodyPoint) -> str:
-    """A point as a person reads it: ``A``, ``(0, 1)``, ``crank at (0, 1)``."""
+    """Return a point as a person reads it: ``A``, ``(0, 1)``, ``crank at (0, 1)``."""
     if isinstance(point, str):
         return point
     return f"{point.on} at {show_vector(point.at)}" if isinstance(point, BodyPoint) else show_vector(point)
@@ -162,7 +162,7 @@ class Energies(WrittenModel):
 
 
 def texts_of(value: Any) -> list[str]:
-    """Every text inside a value, a tuple of values, a point or a model's dump."""
+    """Return every text inside a value, a tuple of values, a point or a model's dump."""
     if isinstance(value, str):
         return [value]
     if isinstance(value, BodyPoint):
@@ -175,7 +175,7 @@ def texts_of(value: Any) -> list[str]:
 
 
 def _parameters(value: object) -> object:
-    """A list of names, or a mapping whose empty values mean `real`."""
+    """Return a list of names, or a mapping whose empty values mean `real`."""
     if value is None:
         return {}
     if isinstance(value, str):
@@ -191,16 +191,16 @@ def _parameters(value: object) -> object:
             seen.add(name)
         return dict.fromkeys(value, "real")
     if isinstance(value, Mapping):
-        return {name: "real" if given is None else given for name, given in value.items()}
+        return {name: "real" if entry is None else entry for name, entry in value.items()}
     return value
 
 
 def _functions(value: object) -> object:
-    """A mapping; a single argument needs no list."""
+    """Return a mapping; a single argument needs no list."""
     if value is None:
         return {}
     if isinstance(value, Mapping):
-        return {name: (given,) if isinstance(given, str) else given for name, given in value.items()}
+        return {name: (entry,) if isinstance(entry, str) else entry for name, entry in value.items()}
     return value
 
 

@@ -13,14 +13,14 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from dofkit.base.arguments import description_of
 from dofkit.base.deadline import gc_rarely
 from dofkit.base.documents import DEEPEST, Document, read_document
 from dofkit.base.errors import ArgumentError, Fault, SceneError
+from dofkit.base.wording import description_of
 from dofkit.models.formats import is_model, read_model
 from dofkit.models.model_document import ModelFile
 from dofkit.scene.catalog import find
-from dofkit.scene.constraints.equations import as_equation
+from dofkit.scene.constraints.base import as_equation
 from dofkit.scene.fields import faults_of
 from dofkit.scene.hints import UNKNOWN_KEY, UNKNOWN_TYPE, meant_section, with_hint, without_echoes
 from dofkit.scene.lowering import check
@@ -88,6 +88,8 @@ def load(source: SceneLike, *, name: str | None = None, limits: bool = False) ->
     if not isinstance(source, str | os.PathLike):
         raise ArgumentError(f"a scene is given as {_TAKEN}, not {description_of(source)}")
     found = find(source)
+    if found.path is None:
+        return SceneFile(read_document(found.data, name or found.name)).scene()
     return SceneFile.read(found.data, name or found.name, found.path, limits).scene()
 
 

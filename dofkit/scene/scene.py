@@ -11,10 +11,11 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator, Field, PrivateAttr, WrapValidator
 
-from dofkit.base.arguments import require_one_of
-from dofkit.base.display import Companion, Displayed
+from dofkit.base.display import Displayed
+from dofkit.base.wording import require_one_of
+from dofkit.report import Companion
 from dofkit.scene.constraints import TYPES, AnyConstraint, ConstraintBase
-from dofkit.scene.constraints.equations import as_equation
+from dofkit.scene.constraints.base import as_equation
 from dofkit.scene.fields import Listed, TaggedUnion
 from dofkit.scene.hints import type_advice
 from dofkit.scene.parts import Declarations, Energies, Force, Mapped

@@ -12,7 +12,7 @@ from typing import Any
 from pydantic import TypeAdapter
 
 from dofkit.scene.constraints import TYPES
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import other_keys, synonyms
 
@@ -23,27 +23,27 @@ _CONSTRAINT = "Constraint"
 
 
 def identified(schema: Mapping[str, Any], name: str) -> dict[str, Any]:
-    """A schema that says which dialect of JSON Schema it is in, and which schema it is."""
+    """Return a schema that says which dialect of JSON Schema it is in, and which schema it is."""
     return {"$schema": DIALECT, "$id": f"urn:dofkit:schema:{name}", **schema}
 
 
 def scene_schema() -> dict[str, Any]:
-    """The schema of a scene's file, with the other words that are read."""
+    """Return the schema of a scene's file, with the other words that are read."""
     schema = Scene.model_json_schema()
-    known = schema["$defs"]
+    definitions = schema["$defs"]
     for cls in TYPES.values():
-        known[cls.__name__] = _with_other_words(known[cls.__name__], cls.kind())
-    known["Force"]["properties"]["direction"] = _with_letters(known["Force"]["properties"]["direction"])
+        definitions[cls.__name__] = _with_other_words(definitions[cls.__name__], cls.kind())
+    definitions["Force"]["properties"]["direction"] = _with_letters(definitions["Force"]["properties"]["direction"])
     constraints = {**schema["properties"]["constraints"], "items": {"$ref": f"#/$defs/{_CONSTRAINT}"}}
     schema["properties"]["constraints"] = constraints
     schema["properties"]["joints"] = {**constraints, "description": "another section of constraints"}
-    found: dict[str, Any] = told_by_type(schema)
-    found["$defs"][_CONSTRAINT] = _any_constraint()
-    return identified(found, "scene")
+    schema_by_type: dict[str, Any] = told_by_type(schema)
+    schema_by_type["$defs"][_CONSTRAINT] = _any_constraint()
+    return identified(schema_by_type, "scene")
 
 
 def told_by_type(schema: Any) -> Any:
-    """A schema in which every union is told apart by the kind of JSON value."""
+    """Return a schema in which every union is told apart by the kind of JSON value."""
     if isinstance(schema, list):
         return [told_by_type(part) for part in schema]
     if not isinstance(schema, dict):
@@ -54,26 +54,29 @@ def told_by_type(schema: Any) -> Any:
 
 
 def _union(branches: list[dict[str, Any]]) -> dict[str, Any]:
-    """One schema for several, of which each takes another kind of JSON values."""
+    """Return one schema for several, of which each takes another kind of JSON values."""
     kinds = [_kinds(branch) for branch in branches]
-    if len({kind for own in kinds for kind in own}) < sum(map(len, kinds)):
+    if len({kind for group in kinds for kind in group}) < sum(map(len, kinds)):
         return {"anyOf": branches}
-    rest = [
-        {"if": {"type": own if len(own) > 1 else own[0]}, "then": branch}
-        for own, branch in zip(kinds, branches, strict=True)
+    branches_by_type = [
+        {"if": {"type": group if len(group) > 1 else group[0]}, "then": branch}
+        for group, branch in zip(kinds, branches, strict=True)
         if branch.keys() - {"type"}
     ]
-    return {"type": [kind for own in kinds for kind in own], **({"allOf": rest} if rest else {})}
+    return {
+        "type": [kind for group in kinds for kind in group],
+        **({"allOf": branches_by_type} if branches_by_type else {}),
+    }
 
 
 def _kinds(branch: Mapping[str, Any]) -> list[str]:
-    """The kinds of JSON values that a schema takes; what it refers to is an object."""
-    found = branch.get("type", "object" if "$ref" in branch else "any")
-    return [found] if isinstance(found, str) else list(found)
+    """Return the kinds of JSON values that a schema takes; what it refers to is an object."""
+    kinds = branch.get("type", "object" if "$ref" in branch else "any")
+    return [kinds] if isinstance(kinds, str) else list(kinds)
 
 
 def _any_constraint() -> dict[str, Any]:
-    """A text, or a mapping of which its `type` says the keys."""
+    """Return a text, or a mapping of which its `type` says the keys."""
     words: dict[str, list[str]] = {kind: [kind] for kind in TYPES}
     for word, kind in synonyms().items():
         words[kind].append(word)
@@ -91,7 +94,7 @@ def _any_constraint() -> dict[str, Any]:
         "else": {"required": ["type"]},
     }
     mapping = {
-        "properties": {"type": {"enum": [word for known in words.values() for word in known]}},
+        "properties": {"type": {"enum": [word for group in words.values() for word in group]}},
         "allOf": [{"if": untyped, "then": equation}, *by_type],
     }
     return {
@@ -103,23 +106,23 @@ def _any_constraint() -> dict[str, Any]:
 
 
 def _with_other_words(schema: dict[str, Any], kind: str) -> dict[str, Any]:
-    """The schema of a type with the other words for it and for its keys."""
+    """Return the schema of a type with the other words for it and for its keys."""
     properties = dict(schema["properties"])
     words = [kind, *(word for word, meant in synonyms().items() if meant == kind)]
     properties["type"] = {key: part for key, part in properties["type"].items() if key != "const"} | {"enum": words}
     if "axis" in properties:
         properties["axis"] = _with_letters(properties["axis"])
-    found = {**schema, "properties": properties}
+    extended = {**schema, "properties": properties}
     moved = dict(_moved(schema, other_keys(kind)))
     if moved:
-        found["required"] = [key for key in schema.get("required", ()) if key not in moved.values()]
-        found["allOf"] = [
+        extended["required"] = [key for key in schema.get("required", ()) if key not in moved.values()]
+        extended["allOf"] = [
             {"if": {"not": {"required": [other]}}, "then": {"required": [key]}} for other, key in moved.items()
         ]
     for other, key in other_keys(kind).items():
         if key in properties:
             properties.setdefault(other, {**properties[key], "description": f"synonym of `{key}`"})
-    return found
+    return extended
 
 
 def _moved(schema: Mapping[str, Any], others: Mapping[str, str]) -> Iterator[tuple[str, str]]:
@@ -130,5 +133,5 @@ def _moved(schema: Mapping[str, Any], others: Mapping[str, str]) -> Iterator[tup
 
 
 def _with_letters(vector: Mapping[str, Any]) -> dict[str, Any]:
-    """The schema of a direction that may also be a letter, such as ``-z``."""
+    """Return the schema of a direction that may also be a letter, such as ``-z``."""
     return {**vector, "anyOf": [*vector["anyOf"], _AXIS]}

@@ -40,24 +40,24 @@ class Symbol(NamedTuple):
 
 
 def arc(radius: float, start: float = 0.0, end: float = 360.0, x: float = 0.0) -> tuple[Spot, ...]:
-    """An arc across the axis of space at ``x`` along it, from one angle to another in degrees."""
+    """Return an arc across the axis of space at ``x`` along it, from one angle to another in degrees."""
     count = max(2, round(abs(end - start) / 15))
     angles = [math.radians(start + (end - start) * k / count) for k in range(count + 1)]
     return tuple((x, radius * math.cos(a), radius * math.sin(a)) for a in angles)
 
 
 def box(half: float, high: float) -> tuple[Spot, ...]:
-    """The corners of a rectangle about the origin, along and across the axis."""
+    """Return the corners of a rectangle about the origin, along and across the axis."""
     return ((-half, -high), (half, -high), (half, high), (-half, high))
 
 
 def rail(half: float, offset: float, member: int = 0) -> Stroke:
-    """A line along the axis."""
+    """Return a line along the axis."""
     return Stroke(((-half, offset), (half, offset)), member)
 
 
 def cylinder(radius: float, half: float, member: int = 0) -> tuple[Stroke, ...]:
-    """The outline of a cylinder about the axis of space."""
+    """Return the outline of a cylinder about the axis of space."""
     ends = tuple(Stroke(arc(radius, x=x), member, closed=True, filled=True) for x in (-half, half))
     sides = (0.0, 90.0, 180.0, 270.0)
     lines = tuple(Stroke((arc(radius, a, a + 1, -half)[0], arc(radius, a, a + 1, half)[0]), member) for a in sides)
@@ -65,14 +65,14 @@ def cylinder(radius: float, half: float, member: int = 0) -> tuple[Stroke, ...]:
 
 
 def prism(side: float, half: float, member: int = 0) -> tuple[Stroke, ...]:
-    """The edges of a square prism along the axis of space."""
+    """Return the edges of a square prism along the axis of space."""
     corners = ((-side, -side), (side, -side), (side, side), (-side, side))
     ends = tuple(Stroke(tuple((x, *c) for c in corners), member, closed=True, filled=True) for x in (-half, half))
     return (*ends, *(Stroke(((-half, *c), (half, *c)), member) for c in corners))
 
 
 def helix(radius: float, half: float, turns: int, member: int = 0) -> Stroke:
-    """A right-handed thread about the axis of space."""
+    """Return a right-handed thread about the axis of space."""
     count = 10 * turns
     angle = 2 * math.pi * turns / count
     spots = (
@@ -83,13 +83,13 @@ def helix(radius: float, half: float, turns: int, member: int = 0) -> Stroke:
 
 
 def plate(x: float, side: float, member: int = 0) -> Stroke:
-    """A square across the axis of space."""
+    """Return a square across the axis of space."""
     corners = ((-side, -side), (side, -side), (side, side), (-side, side))
     return Stroke(tuple((x, *c) for c in corners), member, closed=True, filled=True)
 
 
 def axle(half: float, member: int = 1) -> Stroke:
-    """The axis itself."""
+    """Return the axis itself."""
     return Stroke(((-half, 0.0, 0.0), (half, 0.0, 0.0)), member)
 
 

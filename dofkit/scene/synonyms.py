@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from dofkit.expressions.text.characters import GREEK_LETTERS, SUBSCRIPTS, without_latex
 from dofkit.scene.constraints import TYPES
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 
 Path = tuple[str | int, ...]
 
@@ -39,39 +39,40 @@ class StandardWords(NamedTuple):
     places: Mapping[Path, Path]
 
     def written(self, where: Path) -> Path:
-        """A path in the standard words as a path of what was written."""
+        """Return a path in the standard words as a path of what was written."""
         for size in range(len(where), 0, -1) if self.places else ():
-            found = self.places.get(where[:size])
-            if found is not None:
-                return (*found, *where[size:])
+            origin = self.places.get(where[:size])
+            if origin is not None:
+                return (*origin, *where[size:])
         return where
 
 
 def standard_words(value: Mapping[str, Any]) -> StandardWords:
-    """A scene's document with the words that people use replaced by the standard ones; nothing given is changed.
+    """Return a scene's document with the words that people use replaced by the standard ones; nothing given is changed.
 
     >>> standard_words({"joints": [{"type": "pin", "between": ["ground", "a"], "axis": "z"}]}).value
     {'constraints': [{'type': 'revolute', 'between': ['ground', 'a'], 'axis': [0, 0, 1]}]}
     """
     places: dict[Path, Path] = {}
-    found = dict(value)
+    standard = dict(value)
     if _has_decorated_names(value):
-        found = {key: part if key in SAID else _named(part, (key,), places) for key, part in value.items()}
-    if "joints" in found:
-        found = _one_section(found, places)
-    d = dimension_of(found)
-    for key, entry in (("constraints", _constraint), ("forces", _force)):
-        if isinstance(found.get(key), (list, tuple)):
-            found[key] = [
-                entry(one, (key, i), d, places) if isinstance(one, Mapping) else one for i, one in enumerate(found[key])
+        standard = {key: part if key in SAID else _named(part, (key,), places) for key, part in value.items()}
+    if "joints" in standard:
+        standard = _one_section(standard, places)
+    d = dimension_of(standard)
+    for key, rewrite in (("constraints", _constraint), ("forces", _force)):
+        if isinstance(standard.get(key), (list, tuple)):
+            standard[key] = [
+                rewrite(entry, (key, i), d, places) if isinstance(entry, Mapping) else entry
+                for i, entry in enumerate(standard[key])
             ]
-    return StandardWords(found, places)
+    return StandardWords(standard, places)
 
 
 def dimension_of(value: Mapping[str, Any]) -> int:
-    """The dimension that a document gives, 3 where it gives none that is one."""
-    given = value.get("dimension", 3)
-    return int(given) if not isinstance(given, str) and given in (1, 2, 3) else 3
+    """Return the dimension that a document gives, 3 where it gives none that is one."""
+    dimension = value.get("dimension", 3)
+    return int(dimension) if not isinstance(dimension, str) and dimension in (1, 2, 3) else 3
 
 
 def _one_section(value: dict[str, Any], places: dict[Path, Path]) -> dict[str, Any]:
@@ -110,9 +111,9 @@ def _constraint(entry: Mapping[str, Any], here: Path, dimension: int, places: di
         kind = kind if any(key in entry and key not in fields for key in _TELLING) else meant
     if kind != entry.get("type"):
         entry = {**entry, "type": kind}
-    known = other_keys(kind) if isinstance(kind, str) else {}
-    if not known.keys().isdisjoint(entry):
-        standard = {key: known[key] for key in entry if key in known and known[key] not in entry}
+    others = other_keys(kind) if isinstance(kind, str) else {}
+    if not others.keys().isdisjoint(entry):
+        standard = {key: others[key] for key in entry if key in others and others[key] not in entry}
         origin = places.get(here, here)
         places.update({(*here, key): (*origin, written) for written, key in standard.items()})
         entry = {standard.get(key, key): part for key, part in entry.items()}
@@ -156,17 +157,17 @@ def _vector(axis: Any, dimension: int) -> Any:
 
 def _has_decorated_names(value: Any) -> bool:
     """Return whether a subscript digit or a sign of LaTeX stands anywhere in a document."""
-    left = [value]
-    while left:
-        part = left.pop()
+    stack = [value]
+    while stack:
+        part = stack.pop()
         if isinstance(part, str):
             if _DECORATION.search(part):
                 return True
         elif isinstance(part, (list, tuple)):
-            left += part
+            stack += part
         elif isinstance(part, (dict, Mapping)):
-            left += part
-            left += part.values()
+            stack += part
+            stack += part.values()
     return False
 
 
@@ -178,16 +179,16 @@ def _named(value: Any, here: Path, places: dict[Path, Path]) -> Any:
     if isinstance(value, str):
         return standard_name(value)
     if isinstance(value, Mapping):
-        found = {}
+        standard = {}
         for key, part in value.items():
             name = standard_name(key) if isinstance(key, str) else key
             if name != key and name in value:
                 name = key
             if name != key:
                 places[(*here, name)] = (*places.get(here, here), key)
-            found[name] = _named(part, (*here, name), places)
-        same = all(a is b for a, b in zip(found, value, strict=True)) and all(found[k] is value[k] for k in value)
-        return value if same else found
+            standard[name] = _named(part, (*here, name), places)
+        same = all(a is b for a, b in zip(standard, value, strict=True)) and all(standard[k] is value[k] for k in value)
+        return value if same else standard
     if isinstance(value, (list, tuple)):
         listed = [_named(part, (*here, i), places) for i, part in enumerate(value)]
         return value if all(a is b for a, b in zip(listed, value, strict=True)) else listed
@@ -209,5 +210,5 @@ def standard_name(name: str) -> str:
 
 
 def with_plain_subscripts(text: str) -> str:
-    """A text with its subscript digits as ``_1``."""
+    """Return a text with its subscript digits as ``_1``."""
     return _BELOW.sub(lambda match: "_" + "".join(SUBSCRIPTS[digit] for digit in match[1]), text)

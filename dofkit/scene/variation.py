@@ -45,11 +45,11 @@ class Replacement(NamedTuple):
     aspect: Replaced
     fields: Mapping[str, Any]
     parameters: Mapping[str, str]
-    told: str
+    description: str
 
 
 def length_in_motion(written: Mapping[str, Any], names: NamesAtHand) -> Replacement | None:
-    """The same constraint with its `length` drawn in at a steady speed, or at rest where it was so."""
+    """Return the same constraint with its `length` drawn in at a steady speed, or at rest where it was so."""
     length = written.get("length")
     if length is None:
         return None
@@ -59,15 +59,15 @@ def length_in_motion(written: Mapping[str, Any], names: NamesAtHand) -> Replacem
     if re.search(r"\bt\b", str(length)):
         return None
     speed = names.fresh("v")
-    told = f"its length grows at the speed {speed}"
-    return Replacement("supports", {**written, "length": f"{length} + {speed}*t"}, {speed: "positive"}, told)
+    description = f"its length grows at the speed {speed}"
+    return Replacement("supports", {**written, "length": f"{length} + {speed}*t"}, {speed: "positive"}, description)
 
 
 def angle_for_turning(text: str, names: NamesAtHand) -> tuple[str, str, str] | None:
-    """A text with `omega t`: (with an angle instead, the rate, the angle); None where time enters otherwise."""
-    found = re.findall(r"\b([^\W\d]\w*)\s*\*?\s*\bt\b", text)
-    rates = set(found) & set(names.parameters)
-    if len(rates) != 1 or len(found) != len(re.findall(r"\bt\b", text)):
+    """Return a text with `omega t`: (with an angle instead, the rate, the angle); None where time enters otherwise."""
+    rates_in_text = re.findall(r"\b([^\W\d]\w*)\s*\*?\s*\bt\b", text)
+    rates = set(rates_in_text) & set(names.parameters)
+    if len(rates) != 1 or len(rates_in_text) != len(re.findall(r"\bt\b", text)):
         return None
     (rate,) = rates
     angle = names.fresh("alpha")

@@ -22,7 +22,7 @@ from dofkit.site.constraint_pages import constraint_pages
 from dofkit.site.gallery import FOLDER as GALLERY
 from dofkit.site.gallery import ShownScene, catalog_scenes, gallery_pages
 from dofkit.site.markdown import SitePage
-from dofkit.site.reference_pages import GLOSSARY, command_pages, readme_page, report_pages
+from dofkit.site.reference_pages import GLOSSARY, command_pages, readme_page, report_pages, rooms_page
 
 ROOT = Path(__file__).parents[2]
 WRITTEN = Path(__file__).parent / "pages"
@@ -43,12 +43,12 @@ def build(out: Path, kept: Path | None = None) -> None:
     """
     if not all(map(importlib.util.find_spec, ("material", "mkdocstrings"))):
         raise SiteError("mkdocs-material or mkdocstrings is missing: run pip install '.[docs]' in a clone")
-    beside = out.parent / f"{out.name}-sources"
-    sources(beside, kept or out.parent / f"{out.name}-answers")
-    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "-f", str(beside / "mkdocs.yml")]
-    told = subprocess.run([*command, "-d", str(out.resolve())], capture_output=True, text=True, check=False)
-    if told.returncode:
-        raise SiteError(f"mkdocs refused:\n{told.stdout}{told.stderr}")
+    sources_folder = out.parent / f"{out.name}-sources"
+    sources(sources_folder, kept or out.parent / f"{out.name}-answers")
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "-f", str(sources_folder / "mkdocs.yml")]
+    run = subprocess.run([*command, "-d", str(out.resolve())], capture_output=True, text=True, check=False)
+    if run.returncode:
+        raise SiteError(f"mkdocs refused:\n{run.stdout}{run.stderr}")
 
 
 def sources(folder: Path, kept: Path) -> None:
@@ -68,6 +68,7 @@ def sources(folder: Path, kept: Path) -> None:
 def generated(catalog: Sequence[ShownScene]) -> Iterator[SitePage]:
     """Return every page and picture that is generated from the package."""
     yield readme_page((ROOT / "README.md").read_text(encoding="utf-8"))
+    yield rooms_page()
     yield from constraint_pages(catalog)
     yield from report_pages((WRITTEN / GLOSSARY).read_text(encoding="utf-8"))
     yield from command_pages()
@@ -75,22 +76,21 @@ def generated(catalog: Sequence[ShownScene]) -> Iterator[SitePage]:
 
 
 def folders() -> dict[str, str]:
-    """What each folder of the catalog was taken from, by the catalog's own table."""
+    """Return the source of each folder of the catalog, from the catalog's own table."""
     text = (catalog_folder() / "README.md").read_text(encoding="utf-8")
-    return {
-        name: told.strip()[:1].upper() + told.strip()[1:] for name, told in re.findall(r"\| `(\w+)` \| ([^|]+)\|", text)
-    }
+    rows = re.findall(r"\| `(\w+)` \| ([^|]+)\|", text)
+    return {name: source.strip()[:1].upper() + source.strip()[1:] for name, source in rows}
 
 
 def settings(catalog: Sequence[ShownScene]) -> Any:
     """The settings with a line of the navigation for every type and every page of the gallery."""
-    found = yaml.safe_load(SETTINGS.read_text(encoding="utf-8"))
-    known = folders()
+    table = yaml.safe_load(SETTINGS.read_text(encoding="utf-8"))
+    names = folders()
     types = [f"{TYPE_FOLDER}/index.md", *({kind: f"{TYPE_FOLDER}/{kind}.md"} for kind in TYPES)]
     shelves = dict.fromkeys(scene.folder for scene in catalog)
-    gallery = [f"{GALLERY}/index.md", *({known.get(name, name): f"{GALLERY}/{name}.md"} for name in shelves)]
+    gallery = [f"{GALLERY}/index.md", *({names.get(name, name): f"{GALLERY}/{name}.md"} for name in shelves)]
     lists = {TYPES_HERE: types, GALLERY_HERE: gallery, PACKAGE_HERE: str(ROOT)}
-    return {key: _filled(value, lists) for key, value in found.items()}
+    return {key: _filled(value, lists) for key, value in table.items()}
 
 
 def _filled(entry: Any, lists: dict[str, Any]) -> Any:

@@ -1,4 +1,4 @@
-"""A page for every constraint type, told by its class: its equations, fields, other words, picture and one scene."""
+"""A page for every constraint type, from its class: its equations, fields, other words, picture and one scene."""
 
 from __future__ import annotations
 
@@ -41,11 +41,11 @@ def constraint_pages(catalog: Sequence[ShownScene]) -> Iterator[SitePage]:
     )
 
 
-def _pages_of(kind: str, cls: type[ConstraintBase], known: Sequence[ShownScene]) -> Iterator[SitePage]:
+def _pages_of(kind: str, cls: type[ConstraintBase], scenes: Sequence[ShownScene]) -> Iterator[SitePage]:
     written = scene_of(cls)
     scene = shown(kind, FOLDER, written)
     yield SitePage(f"{FOLDER}/{kind}.svg", scene.svg)
-    first, *rest = re.split(r"\n\s*\n", cleandoc(cls.__doc__ or ""))
+    first, *paragraphs = re.split(r"\n\s*\n", cleandoc(cls.__doc__ or ""))
     yield SitePage(
         f"{FOLDER}/{kind}.md",
         page(
@@ -53,7 +53,7 @@ def _pages_of(kind: str, cls: type[ConstraintBase], known: Sequence[ShownScene])
             f"{prose(_sentence(_meaning(cls)))}. It is defined {_spaces(cls)}.",
             "## Equations",
             f"{prose(first)}\n{{ .equation }}",
-            *(prose(part) for part in rest),
+            *(prose(part) for part in paragraphs),
             "## A scene",
             fence("yaml", written, f"{kind}.yaml"),
             picture(f"{kind}.svg", scene.alternative),
@@ -63,7 +63,7 @@ def _pages_of(kind: str, cls: type[ConstraintBase], known: Sequence[ShownScene])
             "## Fields",
             table(("field", "required", "meaning"), _fields(cls)),
             *_other_words(cls),
-            *_in_the_catalog(known),
+            *_in_the_catalog(scenes),
         ),
     )
 
@@ -121,22 +121,22 @@ def _fields(cls: type[ConstraintBase]) -> Iterator[tuple[str, str, str]]:
 
 
 def _other_words(cls: type[ConstraintBase]) -> Iterator[str]:
-    told = []
+    sentences = []
     if cls.synonyms:
-        told.append(f"{', '.join(map(code, cls.synonyms))} can be written instead of `{cls.kind()}`.")
-    told += [f"{code(word)} can be written instead of {code(key)}." for word, key in cls.other_keys.items()]
+        sentences.append(f"{', '.join(map(code, cls.synonyms))} can be written instead of `{cls.kind()}`.")
+    sentences += [f"{code(word)} can be written instead of {code(key)}." for word, key in cls.other_keys.items()]
     if cls.understood:
-        told.append(f"For {', '.join(map(code, cls.understood))} the error message suggests this type.")
-    if told:
+        sentences.append(f"For {', '.join(map(code, cls.understood))} the error message suggests this type.")
+    if sentences:
         yield "## Synonyms"
-        yield " ".join(told)
+        yield " ".join(sentences)
 
 
-def _in_the_catalog(known: Sequence[ShownScene]) -> Iterator[str]:
-    if not known:
+def _in_the_catalog(scenes: Sequence[ShownScene]) -> Iterator[str]:
+    if not scenes:
         return
     yield "## In the catalog"
-    nearest = min(known, key=lambda scene: (len(scene.types), len(scene.written)))
+    nearest = min(scenes, key=lambda scene: (len(scene.types), len(scene.written)))
     yield picture(f"../../gallery/{nearest.name}.svg", nearest.alternative)
-    links = [f"[{prose(s.title)}](../../gallery/{s.folder}.md#{s.name})" for s in (nearest, *known)]
+    links = [f"[{prose(s.title)}](../../gallery/{s.folder}.md#{s.name})" for s in (nearest, *scenes)]
     yield "\n".join(f"* {link}" for link in list(dict.fromkeys(links))[:MOST_NAMED])

@@ -90,18 +90,18 @@ def in_a_line(report: Report) -> str:
     """Return the freedom, the velocity freedom, the labels of the system and the verdict, in one line."""
     if report.consistent is False:
         return f"inconsistent: {', '.join(report.conflicting or ())} ({report.verdict})"
-    parts = [f"f = {'undecided' if report.dof is None else report.dof}"]
+    labels = [f"f = {'undecided' if report.dof is None else report.dof}"]
     if report.velocity_dof is not None and report.velocity_dof != report.dof:
-        parts.append(f"velocity freedom {report.velocity_dof}")
-    for told, yes, no in (
+        labels.append(f"velocity freedom {report.velocity_dof}")
+    for value, yes, no in (
         (report.holonomic, "holonomic", "non-holonomic"),
         (report.scleronomic, "scleronomic", "rheonomic"),
     ):
-        if told is not None and report.constraints:
-            parts.append(yes if told else no)
+        if value is not None and report.constraints:
+            labels.append(yes if value else no)
     if report.redundant:
-        parts.append(f"redundant: {', '.join(report.redundant)}")
-    return f"{', '.join(parts)} ({report.verdict})"
+        labels.append(f"redundant: {', '.join(report.redundant)}")
+    return f"{', '.join(labels)} ({report.verdict})"
 
 
 def gallery_pages(catalog: Sequence[ShownScene], sources: dict[str, str]) -> Iterator[SitePage]:
@@ -144,8 +144,8 @@ def _entry(scene: ShownScene) -> str:
 
 def _card(scene: ShownScene) -> str:
     drawn = picture(f"{scene.name}.svg", scene.alternative)
-    told = f"<strong>{_html(scene.title)}</strong><br>{_html(scene.answer)}"
-    return f'<a class="card" href="{scene.folder}.html#{scene.name}">{drawn}<span>{told}</span></a>'
+    value = f"<strong>{_html(scene.title)}</strong><br>{_html(scene.answer)}"
+    return f'<a class="card" href="{scene.folder}.html#{scene.name}">{drawn}<span>{value}</span></a>'
 
 
 def _html(text: str) -> str:

@@ -24,8 +24,8 @@ def prose(text: str) -> str:
     >>> prose("``x_1`` is |a_1|")
     '`x_1` is \\\\|a\\\\_1\\\\|'
     """
-    parts = _CODE.split(" ".join(text.split()))
-    return "".join(code(p.strip("`")) if p.startswith("`") else _escaped(p) for p in parts)
+    pieces = _CODE.split(" ".join(text.split()))
+    return "".join(code(p.strip("`")) if p.startswith("`") else _escaped(p) for p in pieces)
 
 
 def _escaped(text: str) -> str:
@@ -54,8 +54,8 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def _cell(text: str) -> str:
-    parts = _CODE.split(text.replace("\n", " "))
-    return "".join(p.replace("|", "\\|") if p.startswith("`") else p for p in parts)
+    pieces = _CODE.split(text.replace("\n", " "))
+    return "".join(p.replace("|", "\\|") if p.startswith("`") else p for p in pieces)
 
 
 def folded(title: str, text: str) -> str:
@@ -78,6 +78,6 @@ def anchor(text: str) -> str:
     return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-")
 
 
-def page(title: str, *parts: str) -> str:
+def page(title: str, *pieces: str) -> str:
     """A page of a title and blocks."""
-    return "\n\n".join([f"# {title}", *(part for part in parts if part)]) + "\n"
+    return "\n\n".join([f"# {title}", *(part for part in pieces if part)]) + "\n"

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterator
 from importlib import resources
+from pathlib import Path
 from typing import Any
 
 import typer.main
@@ -16,9 +18,10 @@ from dofkit.interface.cli import app
 from dofkit.interface.explanations import all_explanations
 from dofkit.interface.show.assurance import VERDICT_MEANS
 from dofkit.report import ConstraintEntry, Report
-from dofkit.site.markdown import SitePage, anchor, code, page, prose, table
+from dofkit.site.markdown import SitePage, anchor, code, fence, page, prose, table
 
-THEOREMS, GLOSSARY = "about/theorems.md", "reference/glossary.md"
+THEOREMS, GLOSSARY, ROOMS = "about/theorems.md", "reference/glossary.md", "about/rooms.md"
+PACKAGE = Path(__file__).parents[1]
 #: Where the written part of the glossary has the tables of the package.
 TABLES_HERE = "<!-- the tables of the package -->"
 #: The lines of its tables: the two of its head, and one for each theorem.
@@ -34,6 +37,19 @@ def readme_page(readme: str) -> SitePage:
     """
     return SitePage(
         "index.md", readme.replace("](dofkit/site/pages/", "](").replace("](dofkit/THEOREMS.md)", f"]({THEOREMS})")
+    )
+
+
+def rooms_page() -> SitePage:
+    """Return the page of the packages: the question of each, its types and its mechanisms, from its docstring."""
+    blocks = []
+    for path in sorted(PACKAGE.glob("*/__init__.py")):
+        docstring = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+        question, _, mechanisms = docstring.partition("\n")
+        blocks += [f"## {path.parent.name}", prose(question), fence("text", mechanisms)]
+    lead = "Each package says at its beginning which question it answers, with which types, and by which mechanisms."
+    return SitePage(
+        ROOMS, page("The packages", f"{lead} The [architecture](architecture.md) shows how they relate.", *blocks)
     )
 
 

@@ -6,7 +6,7 @@ import random
 
 import networkx as nx
 
-from dofkit.base.components import components
+from dofkit.base.libraries import components
 
 
 def test_by_hand() -> None:

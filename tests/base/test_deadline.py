@@ -191,7 +191,7 @@ def test_redundancy_that_there_was_no_time_for_is_not_denied(monkeypatch: pytest
 
     made = {"coordinates": ["x", "y", "z"], "constraints": ["x = y", "y = z", "x = z"]}
     assert within(60, **made)[0].redundant == ["c3"]
-    monkeypatch.setattr(sys.modules["dofkit.classification.dependence.rank_dependence"], "analyse", late)
+    monkeypatch.setattr(sys.modules["dofkit.classification.dependence.redundancy"], "analyse", late)
     report, _ = within(60, **made)
     assert (report.dof, report.redundant_equations, report.redundant) == (1, 1, None)
     assert report.verdict == "undecided"

@@ -20,11 +20,10 @@ from typing import Any, NamedTuple
 import pytest
 from shared import worker_jobs
 from shared.late import LONG, let_time_run_out
-from shared.work import counted
 
 import dofkit
 from dofkit.base.process_limits import SPARE
-from dofkit.base.runs import AHEAD, MOST_BYTES, Pool, StoppedError, in_order
+from dofkit.base.runs import AHEAD, Pool, StoppedError, in_order
 from dofkit.base.workers import Job, Worker
 
 HERE = Path(__file__).parents[1]
@@ -195,12 +194,6 @@ def test_a_worker_that_holds_much_memory_is_replaced_after_the_job() -> None:
 # -- several ---------------------------------------------------------------------------------------
 
 
-def test_threads_share_a_pool() -> None:
-    with Pool(2) as pool, ThreadPoolExecutor(8) as threads:
-        found = threads.map(lambda i: pool.run(Job(worker_jobs.same, i, 30)).value, range(200))
-        assert list(found) == list(range(200))
-
-
 class Number(NamedTuple):
     """Something of a size."""
 
@@ -221,19 +214,6 @@ def test_results_come_in_order_and_no_more_is_taken_than_is_needed_soon() -> Non
         assert next(stream) == (Number(0), 0)
         assert len(taken) <= 2 * AHEAD
         assert [value for _, value in stream] == list(range(1, 500))
-
-
-def test_few_large_things_wait() -> None:
-    taken = list[int]()
-
-    def numbers() -> Iterator[Number]:
-        for i in range(9):
-            taken.append(i)
-            yield Number(i, MOST_BYTES)
-
-    with Pool(1) as pool:
-        assert next(in_order(pool, lambda n: n.value, numbers()))[1] == 0
-    assert taken == [0]
 
 
 def test_bad_jobs_do_not_stop_the_others() -> None:
@@ -295,12 +275,6 @@ def test_a_worker_dies_with_its_parent_in_the_middle_of_a_job(job: str, tmp_path
     assert gone(pid)
 
 
-@posix
-def test_a_killed_worker_is_no_zombie() -> None:
-    waited = "try: os.waitpid(-1, os.WNOHANG)\nexcept ChildProcessError: print('none')"
-    assert script(LEFT + "worker.kill(); pool.close()\n" + waited).stdout.splitlines()[-1] == "none"
-
-
 @pytest.mark.sweep
 @posix
 def test_a_fork_of_the_parent_has_workers_of_its_own() -> None:
@@ -351,14 +325,6 @@ def test_work_that_hears_no_deadline_is_killed(monkeypatch: pytest.MonkeyPatch) 
     assert report.warnings == ["Nothing was decided: the worker process was killed after 125 s."]
     monkeypatch.undo()
     assert dofkit.classify(dofkit.load(GOOD), budget=LONG).dof == 1
-
-
-@pytest.mark.parametrize("equation", ["x^64 y^64 z^64 + 1 = u^64 v^64", "x^30 + y^24 = 1 + x^15 y^12"])
-def test_no_factorisation_is_long_work(equation: str) -> None:
-    scene = dofkit.load({"coordinates": ["x", "y", "z", "u", "v"], "constraints": [equation]})
-    report, calls = counted(lambda: dofkit.classify(scene))
-    assert report.dof == 4
-    assert calls < 300_000
 
 
 def test_faults_come_back_as_they_are() -> None:

@@ -54,7 +54,7 @@ def test_what_shows_an_answer_is_no_warning() -> None:
 
 def test_one_coordinate_and_one_equation_are_singular() -> None:
     report = dofkit.classify({"coordinates": ["x"], "constraints": ["x = 1", "2 x = 2"]})
-    assert "1 coordinate in 1 independent part" in report.modelled
+    assert "1 coordinate in 1 independent subsystem" in report.modelled
     assert "only 1 of the 2 geometric equations is independent" in (report.count.errs or "")
 
 

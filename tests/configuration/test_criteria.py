@@ -11,7 +11,7 @@ from flint import ctx
 from shared.germs import on_plane, through
 
 import dofkit
-from dofkit.configuration.local import dimension, first_order, higher_order, second_order
+from dofkit.configuration.local import conclusions, criteria
 from dofkit.configuration.local.criteria import CRITERIA, Criterion, decision
 from dofkit.configuration.local.germ import Germ
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
@@ -111,7 +111,7 @@ def test_a_row_decides_in_a_scene(key: str, scene: str, dof: int, monkeypatch: p
         asked.append(criterion.key if criterion else None)
         return criterion, told
 
-    monkeypatch.setattr(dimension, "decision", noted)
+    monkeypatch.setattr(criteria, "decision", noted)
     assert dofkit.classify(dofkit.load(FILES[scene])).dof == dof
     assert key in asked
 
@@ -122,10 +122,9 @@ def test_a_row_decides_in_a_scene(key: str, scene: str, dof: int, monkeypatch: p
 def test_every_function_of_a_germ_is_in_the_table() -> None:
     """A criterion that no row asks would decide nothing."""
     used = {f for criterion in CRITERIA for f in (criterion.applies, criterion.decide)}
-    for module in (first_order, second_order, higher_order):
-        for name, f in inspect.getmembers(module, inspect.isfunction):
-            if f.__module__ == module.__name__ and not name.startswith("_"):
-                assert f in used, name
+    for name, f in inspect.getmembers(conclusions, inspect.isfunction):
+        if f.__module__ == conclusions.__name__ and not name.startswith("_"):
+            assert f in used, name
 
 
 def test_every_decision_names_its_theorem() -> None:

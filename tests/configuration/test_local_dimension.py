@@ -14,7 +14,7 @@ from flint import arb, ctx, nmod
 from shared.germs import SYMBOLS, manifolds, on_plane, through
 
 import dofkit
-from dofkit.configuration.local.dimension import local_dimension, numeric_dimension
+from dofkit.configuration.local.criteria import local_dimension, numeric_dimension
 from dofkit.configuration.local.manifold import LocalDimension
 from dofkit.configuration.local.quadratic_cone import bound, definite_combination, signature_of
 from dofkit.exact.points.balls import PRECISION

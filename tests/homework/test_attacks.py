@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+import dofkit
 from dofkit.homework import hand_in
+from dofkit.homework.assignment import load_assignment
+from dofkit.homework.formats import gradescope, prairielearn
 from dofkit.homework.runs.run import GradingOptions, run
 
 LINE = {"coordinates": ["x", "y"], "constraints": ["x = y"]}
@@ -77,6 +81,37 @@ def test_the_later_row_of_a_form_counts(tmp_path: Path) -> None:
 
 def test_rows_without_times_are_both_in_doubt(tmp_path: Path) -> None:
     assert [one[2] for one in told(graded(tmp_path, {}, table="Email,p.f\nada@x,2\nada@x,1\n"))] == [True, True]
+
+
+#: Answers of one shape, of which only the first is right: a constant under another name, and two readings.
+ORACLES = [
+    ("eq", "x^2 + y^2 = r^2", "x^2 + y^2 = 2 r^2"),
+    ("eq", "1/2x^2 + 1/2y^2 = 1/2 l^2", "1/2x^2 + 1/2y^2 = 1/3 l^2"),
+    ("eq", "x = l sin(a), y = l cos(a)", "x = l sin(a), y = 2 l cos(a)"),
+    ("eq", "u^2 + v^2 = l^2", "u^2 + v^2 = 2 l^2"),
+    ("f", "1 or 2", "2 or 3"),
+    ("f", "1?", "2?"),
+    ("label", "holonomic? scleronomic", "non-holonomic? scleronomic"),
+]
+
+
+@pytest.mark.parametrize(("question", "right", "wrong"), ORACLES)
+def test_what_is_seen_before_points_does_not_tell_right_from_wrong(question: str, right: str, wrong: str) -> None:
+    scene = {"parameters": {"l": "positive"}, "coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = l^2"]}
+    asked = [
+        {"id": "f", "ask": "dof"},
+        {"id": "eq", "ask": "equation", "constraint": "c1"},
+        {"id": "label", "ask": "label", "constraint": "c1"},
+    ]
+    sheet = load_assignment({"title": "One", "problems": [{"id": "p", "scene": scene, "questions": asked}]})
+    shown = []
+    for answer in (right, wrong):
+        result = dofkit.grade(sheet, {"student": "eve", "answers": {"p": {question: answer}}})
+        grades = prairielearn.document(result)
+        early = [test for test in gradescope.document(result, "hidden")["tests"] if test["visibility"] == "visible"]
+        shown.append(json.dumps([grades.get("gradable"), grades.get("format_errors"), early]).replace(answer, "..."))
+    for text, other in zip(*(re.split(r"Read as: [^\"]*|declared: [^\"]*", text) for text in shown), strict=True):
+        assert text == other
 
 
 def test_a_line_of_json_holds_no_end_of_line(tmp_path: Path) -> None:

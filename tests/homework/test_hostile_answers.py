@@ -114,7 +114,7 @@ def test_is_refused_with_its_column(question: str, answer: str, tmp_path: Path, 
     monkeypatch.chdir(tmp_path)
     here = grader()
     item, calls = counted(lambda: graded(here, question, answer))
-    assert calls < (GRADED if item.would_read else QUICK)
+    assert calls < QUICK
     assert (item.status in ("unreadable", "needs_review"), item.score) == (True, None)
     assert item.status == "needs_review" or (item.column is not None and item.column >= 1)
     assert list(tmp_path.iterdir()) == []
@@ -126,7 +126,7 @@ def test_is_refused_with_its_column(question: str, answer: str, tmp_path: Path, 
 def test_nonsense_is_read_or_refused(question: str, answer: str) -> None:
     here = Grader(grader().prepared)
     item, calls = counted(lambda: graded(here, question, answer))
-    refused = item.status in ("unreadable", "missing") and not item.would_read
+    refused = item.status in ("unreadable", "missing")
     assert calls < (QUICK if refused else GRADED)
     assert item.status in ("unreadable", "wrong", "partly", "missing", "needs_review", "right")
     assert (item.status == "unreadable") == (item.column is not None)

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
+from dofkit.homework.answers.submission import FilePlace, of_text
+from dofkit.homework.assignment import load_assignment
 from dofkit.homework.key.key import Key
-from dofkit.homework.starting import best_questions
+from dofkit.homework.starting import best_questions, starting, template
 from dofkit.scene.catalog import catalog_names
 from dofkit.scene.reading import load
 
@@ -48,3 +52,15 @@ def test_five_questions_of_every_scene(name: str) -> None:
     assert 1 <= len(found) <= 5
     assert len(set(found)) == len(found)
     assert "dof" in found
+
+
+def test_a_template_is_a_submission_with_every_question(tmp_path: Path) -> None:
+    path = tmp_path / "sheet.yaml"
+    path.write_text(starting(["x-dy-plus-y-dx"]))
+    sheet = load_assignment(path)
+    (empty,) = of_text(template(sheet, "yaml"), "ada", FilePlace(), sheet.columns())
+    assert (empty.student, empty.error, empty.answers) == ("ada", None, {"x-dy-plus-y-dx": {}})
+    filled = template(sheet, "yaml").replace('"dof":', '"dof": 1')
+    (one,) = of_text(filled, "ada", FilePlace(), sheet.columns())
+    assert one.answers == {"x-dy-plus-y-dx": {"dof": 1}}
+    assert template(sheet, "csv").split(",")[:2] == ["student", "x-dy-plus-y-dx.dof"]

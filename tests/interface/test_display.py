@@ -97,7 +97,7 @@ def test_an_error_in_a_notebook_is_one_panel_with_the_location() -> None:
     assert lines[1] == '│ in  dofkit.classify({"coordinates": ["x"], "constraints": ["dz = 0"]})'
     assert lines[2] == "│ constraints[0]: `dz` is not declared"
     assert lines[3].startswith("│     hint: ")
-    assert len(lines) == 5
+    assert lines[4:] == ["│     see: dofkit explain equation", "╰─"]
     assert dofkit.TextError("a term is missing")._render_traceback_()[1] == "│ a term is missing"
 
 

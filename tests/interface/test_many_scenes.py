@@ -191,7 +191,7 @@ def test_what_is_undecided_is_not_said_to_be_the_same() -> None:
     report = dofkit.classify({"coordinates": ["x", "y"], "constraints": ["x = y"]})
     sure = {**report.verdicts, "dof": FieldVerdict(verdict="undecided")}
     unsure = report.model_copy(update={"dof": None, "verdicts": sure})
-    said = changed(unsure, unsure, ["c1"]).parts
+    said = changed(unsure, unsure, ["c1"]).content
     assert said == [Remark("undecided", "it is undecided whether these change: degrees of freedom")]
 
 
@@ -233,8 +233,8 @@ def test_undecided_fails_where_it_is_asked(capsys: pytest.CaptureFixture[str]) -
 @pytest.mark.parametrize(
     ("word", "kind", "said"),
     [
-        ("NH_HALF", "feedback code", "half a degree of freedom"),
-        ("nh-half", "feedback code", "half a degree of freedom"),
+        ("NH_HALF", "feedback code", "half of each"),
+        ("nh-half", "feedback code", "half of each"),
         ("velocity_dof", "field of a report", "non-holonomic constraints reduce it"),
         ("circuit", "field of a constraint", "minimal set"),
         ("proved", "verdict", "exact arithmetic"),

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.mobility.bridges import bridges
+from dofkit.mobility.joint_tree import bridges
 from dofkit.scene.lowering import lower
 
 Z = [0, 0, 1]

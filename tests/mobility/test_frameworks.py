@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.mobility.frameworks import METHOD
+from dofkit.mobility.general_position import METHOD
 
 Pair = tuple[str, str]
 

@@ -11,12 +11,11 @@ import pytest
 from shared.known_scenes import OURS, scene_of, stem
 
 import dofkit
-from dofkit.configuration.drawing import at_reference as local
+from dofkit.configuration import at_reference as local
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.interface.show.report import sheet_of_report
 from dofkit.interface.show.terminal import Screen, as_text
-from dofkit.mobility.placement import drawn_placement
-from dofkit.mobility.twists import rows_of
+from dofkit.mobility.placement import drawn_placement, rows_of
 from dofkit.report import Report
 from dofkit.scene.constraints import TYPES
 from dofkit.scene.lowering import lower

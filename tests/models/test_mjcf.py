@@ -127,7 +127,7 @@ def test_a_connect_closes_a_loop_of_parallel_axes() -> None:
     scene = load(LOOP)
     assert scene.tolerance is not None
     report = dofkit.classify(scene)
-    told = compiled(ModelFile(LOOP, "m")).told
+    told = compiled(ModelFile(LOOP, "m")).content
     assert told["left"] == report.instantaneous_dof == report.dof == 1
     assert report.redundant_equations == 1
 
@@ -157,14 +157,14 @@ HELD = {
 def test_welds_hold_as_far_as_they_are_in_force(rest: str) -> None:
     """A weld whose torque counts nothing holds a point, and not the turn."""
     text = model(FREE, rest)
-    assert dofkit.classify(load(text)).dof == HELD[rest] == compiled(ModelFile(text, "m")).told["left"]
+    assert dofkit.classify(load(text)).dof == HELD[rest] == compiled(ModelFile(text, "m")).content["left"]
 
 
 def test_rows_that_are_empty_do_not_stop_the_count() -> None:
     """Two bodies that slide as one, held together: three rows that MuJoCo leaves out, and keeps room for."""
     body = f"<body name='a'><joint type='slide'/>{GEOM}<body name='b'>{GEOM}</body></body>"
     text = model(body, "<equality><connect body1='a' body2='b' anchor='1 0 0'/></equality>")
-    assert compiled(ModelFile(text, "m")).told["left"] == dofkit.classify(load(text)).dof == 1
+    assert compiled(ModelFile(text, "m")).content["left"] == dofkit.classify(load(text)).dof == 1
 
 
 def test_a_tendon_from_site_to_site_is_a_string() -> None:

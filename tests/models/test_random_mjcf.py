@@ -59,7 +59,7 @@ def random_model(seed: int) -> str:
 def compared(seed: int) -> str:
     """Right, open, or what is wrong."""
     text = random_model(seed)
-    left = compiled(ModelFile(text, "m")).told["left"]
+    left = compiled(ModelFile(text, "m")).content["left"]
     report = dofkit.classify(dofkit.loads(text, "m"))
     if report.instantaneous_dof is None:
         return "open"

@@ -68,7 +68,7 @@ def models(wheel: str) -> Iterator[tuple[str, Path, int]]:
     """The models of a wheel that MuJoCo compiles, with its own count of each."""
     for path in sorted(folder(wheel).rglob("*.xml")):
         try:
-            told = compiled(ModelFile(path.read_bytes(), path.stem, path)).told
+            told = compiled(ModelFile(path.read_bytes(), path.stem, path)).content
         except SceneError:
             continue
         if told["nv"]:

@@ -92,4 +92,4 @@ def test_the_same_linkage_drawn_otherwise_is_another_block(asked: list[tuple[str
 def test_cost_is_the_sum_of_the_parts() -> None:
     """No part is seen together with another: the matrix of a block has its own columns only."""
     report = classified(**discs(3))
-    assert "3 independent parts" in report.modelled
+    assert "3 independent subsystems" in report.modelled

@@ -19,7 +19,7 @@ from shared.known_scenes import EVERY, SCENES, VARIED, dealt, few, report_of, sc
 import dofkit
 from dofkit.base.verdicts import weakest
 from dofkit.report import ConstraintEntry, Report
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.lowering import lower
 from dofkit.scene.names import Owners
 from dofkit.scene.scene import Scene

@@ -9,8 +9,7 @@ import pytest
 
 import dofkit
 from dofkit.exact.matrices.sparse import rank_of_rows
-from dofkit.mobility.placement import drawn_placement
-from dofkit.mobility.twists import rows_of
+from dofkit.mobility.placement import drawn_placement, rows_of
 from dofkit.scene.lowering import lower
 
 #: By dimension: the types, and which have a place and an axis.

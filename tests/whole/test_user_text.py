@@ -13,8 +13,7 @@ from shared.known_scenes import CATALOG, few, report_of, scene_of, stem
 
 import dofkit
 from dofkit.expressions.text.typesetting import typeset
-from dofkit.homework.handout.page import page_of
-from dofkit.homework.handout.paper import typst_of
+from dofkit.homework.handout.markup import page_of
 
 #: What formats, patterns, the terminal's markup, HTML, Markdown, LaTeX and templates would each take for their own.
 ODD = r"""{x} {0} {{body}} %s %(x)s \1 (a|b)* [red]b[/red] <script>alert(1)</script> "q" 'p' \d $z$ **b** `c` &lt;"""
@@ -71,7 +70,6 @@ def test_a_sheet_with_an_odd_title() -> None:
     page = page_of("text", ODD, "en", {})
     assert "{{body}}" in page
     assert "<script>alert" not in page
-    assert "{language}" in typst_of("text", '{language} " \\ {title}\n', "en")
 
 
 #: Files that format templates which they or their tables hold, under a name that does not say so.

@@ -78,13 +78,13 @@ class NearDrawing(BlockImplication):
 
     def follows(self, row: int, others: Sequence[int]) -> bool | None:
         """Does a relation that is dependent at the drawing vanish near it where the others do?"""
-        told = self.linearly(row, others)
-        return self._relations.follows(row, others) if told is None else told
+        answer = self.linearly(row, others)
+        return self._relations.follows(row, others) if answer is None else answer
 
     def seems(self, row: int, others: Sequence[int]) -> bool:
         """Does it vanish to some order near the drawing?"""
-        told = self.linearly(row, others)
-        return bool(self._relations.follows(row, others, False) if told is None else told)
+        answer = self.linearly(row, others)
+        return bool(self._relations.follows(row, others, False) if answer is None else answer)
 
     def needed(self, row: int, others: Sequence[int]) -> list[int]:
         """Those with a multiplier that is not 0 all along a curve of the set."""
@@ -92,8 +92,8 @@ class NearDrawing(BlockImplication):
 
     def imply(self, others: Sequence[int], rows: Sequence[int], a: Answer) -> bool:
         """Do some relations imply others near the drawing, as far as those that are independent there tell?"""
-        found = echelon([a.matrix[i] for i in others], a.modulus).independent
-        pivots = [others[k] for k in found]
+        result = echelon([a.matrix[i] for i in others], a.modulus).independent
+        pivots = [others[k] for k in result]
         return all(self.follows(i, pivots) for i in rows)
 
     def seem_to_imply(self, others: Sequence[int], rows: Sequence[int]) -> bool:
@@ -116,9 +116,9 @@ class Everywhere(BlockImplication):
 
         A row that depends on others at a generic point follows there, where no other row shares a coordinate with them.
         """
-        told = self.linearly(row, others)
-        if told is not None:
-            return told
+        answer = self.linearly(row, others)
+        if answer is not None:
+            return answer
         if self.beside([row, *others]) <= {row, *others}:
             return True
         return follows(_alone(self.block.rows[row]), [_alone(self.block.rows[i]) for i in others], self.setting)
@@ -207,15 +207,15 @@ class SufficientSets:
         spare = sorted({self.owners[i] for i in rows} - staying)
         size = max(1, len(spare) // 2)
         while spare:
-            left = list[int]()
+            remaining = list[int]()
             for end in range(len(spare), 0, -size):
                 some = spare[max(0, end - size) : end]
                 fewer = [i for i in kept if self.owners[i] not in some]
                 if self._ask(fewer) and self.implication.seems(row, fewer):
                     kept = fewer
                 else:
-                    left = [*some, *left]
+                    remaining = [*some, *remaining]
             if size == 1:
                 break
-            spare, size = left, max(1, size // 2)
+            spare, size = remaining, max(1, size // 2)
         return kept

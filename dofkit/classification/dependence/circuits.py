@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
-from dofkit.base.components import components
+from dofkit.base.libraries import components
 from dofkit.base.verdicts import About, Verdict
 from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets
 from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing
@@ -120,9 +120,9 @@ def _equations(parts: Sequence[OwnedRows], bases: Sequence[_Basis]) -> dict[int,
             of_owner = known.setdefault(owner, {})
             of_owner[equation] = of_owner.get(equation, True) and i in basis.supports
     return {
-        owner: tuple(sorted(e for e, follows in found.items() if follows))
-        for owner, found in known.items()
-        if -1 not in found
+        owner: tuple(sorted(e for e, follows in result.items() if follows))
+        for owner, result in known.items()
+        if -1 not in result
     }
 
 
@@ -151,21 +151,21 @@ class _Basis:
         Where it takes what was written later, the row does not follow from those before it, but maybe a later one does.
         """
         for i, support in self.supports.items():
-            found = sets.enough(i, support)
-            if found is None:
+            result = sets.enough(i, support)
+            if result is None:
                 self.open.add(self.owners[i])
             else:
-                self.supports[i] = found
-                later = {o for k in found if (o := self.owners[k]) > self.owners[i] and finite[k] == finite[i]}
+                self.supports[i] = result
+                later = {o for k in result if (o := self.owners[k]) > self.owners[i] and finite[k] == finite[i]}
                 self.uncounted |= {self.owners[i], *later} if later else set()
 
     def implies(self, kept: set[int], owner: int) -> bool:
         """Do the rows of some constraints imply those of another one that depend on others?"""
-        told = self.implication
-        if told is None:
+        answer = self.implication
+        if answer is None:
             return True
         others = self._first_rows(kept)
-        return all(told.follows(i, others) for i in self.supports if self.owners[i] == owner)
+        return all(answer.follows(i, others) for i in self.supports if self.owners[i] == owner)
 
     def _first_rows(self, kept: set[int]) -> list[int]:
         """The first independent rows of some constraints: also such as are no pivots beside those of others."""
@@ -186,9 +186,9 @@ class _Basis:
     @staticmethod
     def _by_elimination(rows: OwnedRows) -> tuple[list[int], dict[int, list[int]]]:
         numbers = _by_kind(rows)
-        found = echelon([rows.matrix[i] for i in numbers], rows.p, supports=True)
-        pivots = [numbers[k] for k in found.independent]
-        return pivots, {numbers[k]: [numbers[j] for j in support] for k, support in found.supports.items()}
+        result = echelon([rows.matrix[i] for i in numbers], rows.p, supports=True)
+        pivots = [numbers[k] for k in result.independent]
+        return pivots, {numbers[k]: [numbers[j] for j in support] for k, support in result.supports.items()}
 
 
 def _by_kind(rows: OwnedRows) -> list[int]:

@@ -133,25 +133,25 @@ class Equivalence:
         met = [self._follow(r.normals, kept) for r in self._wanted]
         if None in sound or None in met:
             return self._open(sound, met)
-        told = tuple(bool(m) for m in met)
-        if all(told) and all(sound):
-            return Compared(self._regularity(), told)
-        if all(told):
-            return Compared(self._too_strong(), told)
-        differentiated = all(sound) and not any(told) and self._differentiated()
+        answer = tuple(bool(m) for m in met)
+        if all(answer) and all(sound):
+            return Compared(self._regularity(), answer)
+        if all(answer):
+            return Compared(self._too_strong(), answer)
+        differentiated = all(sound) and not any(answer) and self._differentiated()
         if differentiated is not False:
-            return Compared(Sameness.DIFFERENTIATED if differentiated else Sameness.UNDECIDED, told)
+            return Compared(Sameness.DIFFERENTIATED if differentiated else Sameness.UNDECIDED, answer)
         if not self._possible:
-            return Compared(Sameness.EMPTY, tuple(False for _ in told))
+            return Compared(Sameness.EMPTY, tuple(False for _ in answer))
         integrated = self._integrated()
         if integrated is not None:
-            return Compared(integrated, told)
+            return Compared(integrated, answer)
         if all(sound):
-            return Compared(Sameness.WEAKER, told)
+            return Compared(Sameness.WEAKER, answer)
         implied = self._follow(self._all_wanted, self._answer)
         if implied is None:
-            return Compared(Sameness.UNDECIDED, told)
-        return Compared(self._too_strong() if implied else Sameness.DIFFERENT, told)
+            return Compared(Sameness.UNDECIDED, answer)
+        return Compared(self._too_strong() if implied else Sameness.DIFFERENT, answer)
 
     @cached_property
     def _given(self) -> list[Reduced]:
@@ -254,9 +254,9 @@ class Equivalence:
         if not moving or not finite or len(finite) != len(self._answer):
             return False
         rates = [_differential(g) for g in finite]
-        told = self._follow(rates, self._all_wanted)
-        told = self._follow(standing, self._answer) if told else told
-        return self._follow(moving, [*standing, *rates]) if told else told
+        answer = self._follow(rates, self._all_wanted)
+        answer = self._follow(standing, self._answer) if answer else answer
+        return self._follow(moving, [*standing, *rates]) if answer else answer
 
     def leaves(self, constants: frozenset[str]) -> Leaves:
         """Leaves of the forms: they vanish there, and as many velocities are free as the forms leave."""
@@ -268,9 +268,9 @@ class Equivalence:
             return Leaves.NONE
         named = {str(s.args[1]) for g in finite for s in g.symbols if s.args[0] == "coordinate"}
         moving = {q for n in self._all_wanted for p in n.pieces if isinstance(p, Pfaffian) for q in p.coefficients}
-        told = self._follow(self._all_wanted, self._answer)
-        if not told:
-            return Leaves.NONE if told is False else Leaves.OPEN
+        answer = self._follow(self._all_wanted, self._answer)
+        if not answer:
+            return Leaves.NONE if answer is False else Leaves.OPEN
         mine, asked = self._solved([*self._rest, *self._given]), self._solved([*self._rest, *self._wanted])
         if mine.velocity_dof is None or asked.velocity_dof is None:
             return Leaves.OPEN
@@ -283,8 +283,8 @@ class Equivalence:
     def _regularity(self) -> Sameness:
         """The same set: is the answer's gradient as good there, on every branch?"""
         names = [c.name for c in self.system.coordinates]
-        found = Regularity(self._others, self._all_wanted, self._given, self.setting, names).irregular()
-        return Sameness.UNDECIDED if found is None else Sameness.IRREGULAR if found else Sameness.SAME
+        result = Regularity(self._others, self._all_wanted, self._given, self.setting, names).irregular()
+        return Sameness.UNDECIDED if result is None else Sameness.IRREGULAR if result else Sameness.SAME
 
     # inequalities
 
@@ -297,8 +297,8 @@ class Equivalence:
         table = [[same_side(a, g, self._others, self.setting) for g in given] for a in asked]
         if any(True not in row and None in row for row in table):
             return Compared(Sameness.UNDECIDED)
-        found = {q: True in row for q, row in zip(asked, table, strict=True)}
-        met = tuple(all(found[q] for q in r.inequalities) for r in self._wanted)
+        result = {q: True in row for q, row in zip(asked, table, strict=True)}
+        met = tuple(all(result[q] for q in r.inequalities) for r in self._wanted)
         extra = [k for k in range(len(given)) if not any(row[k] for row in table)]
         if all(met):
             return Compared(Sameness.STRONGER if extra else Sameness.SAME, met)

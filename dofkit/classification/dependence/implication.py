@@ -54,7 +54,7 @@ def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool 
     choices = list(cartesian(*(branches_at_reference(o, setting).branches for o in others)))
     if len(choices) > MAX_CHOICES:
         return None
-    told: list[bool | None] = []
+    answer: list[bool | None] = []
     for choice in choices:
         rows = [Row(k, p) for k, b in enumerate(choice) for p in b]
         ways = ways_of(rows, setting.positive)
@@ -62,10 +62,10 @@ def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool 
             return None
         for way in ways:
             check()
-            told.append(_on(way, relation, here))
-            if told[-1] is False:
+            answer.append(_on(way, relation, here))
+            if answer[-1] is False:
                 return False
-    return all_of(told)
+    return all_of(answer)
 
 
 def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
@@ -161,15 +161,15 @@ def _vanishes_on_states(
         return False
     if seen and all(seen) and not asked and not states.chosen:
         return True
-    told = [
+    answer = [
         _some_hold(states, p, branches)
         for p in states.certain(MANY_STATES if asked or False in seen else STATES)
         if _all_vanish(states, p, written) and all(_satisfied(states, p, c) is not False for c in given)
     ]
-    if False in told:
+    if False in answer:
         return False
     sure = bool(seen) and all(seen) and not states.chosen
-    return True if told and all(told) and (sure or len(told) > 1 or not seen) else None
+    return True if answer and all(answer) and (sure or len(answer) > 1 or not seen) else None
 
 
 def _some_vanish(states: States, point: FieldPoint, branches: Sequence[AskedBranch]) -> bool | None:
@@ -193,8 +193,8 @@ def _any(found: Sequence[bool | None]) -> bool | None:
 
 def _all_vanish(states: States, point: FieldPoint | BallPoint, expressions: Sequence[Expr]) -> bool | None:
     """Are the expressions 0 at a state (where a ball does not tell)? None where one has no value."""
-    found = [value_at(states.ring, point, states.extra[e]) for e in expressions]
-    return all_of(None if v is None else vanishes(v) for v in found)
+    result = [value_at(states.ring, point, states.extra[e]) for e in expressions]
+    return all_of(None if v is None else vanishes(v) for v in result)
 
 
 def _satisfied(states: States, point: BallPoint, condition: DomainCondition) -> bool | None:

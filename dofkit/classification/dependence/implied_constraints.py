@@ -41,14 +41,14 @@ def _by_implication(reduced: Sequence[Reduced], setting: Setting, numbers: Seque
     until = time.process_time() + LEAVING_SECONDS
     kept, unknown = list(numbers), list[int]()
     for i in reversed(numbers):
-        told = (
+        answer = (
             None
             if time.process_time() > until
             else constraint_follows(reduced, i, [j for j in kept if j != i], setting)
         )
-        if told:
+        if answer:
             kept.remove(i)
-        elif told is None:
+        elif answer is None:
             unknown.append(i)
     dropped = _more(reduced, setting, numbers, [i for i in numbers if i not in kept], until)
     kept = [i for i in numbers if i not in dropped]
@@ -155,9 +155,9 @@ def conflict(system: System, reduced: Sequence[Reduced], setting: Setting, outco
     plain = replace(setting, grows=False, flag=False)
     guilty = next(b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.consistent is False)
     kept = sorted({row.constraint for row in guilty.rows})
-    shown = next(a.conflict for a in outcome.answers if a.consistent is False)
-    if shown and set(shown) <= set(kept):
-        return Conflict(list(shown), True)
+    text = next(a.conflict for a in outcome.answers if a.consistent is False)
+    if text and set(text) <= set(kept):
+        return Conflict(list(text), True)
     sets = ConstraintSets(system, reduced, plain)
     if not sets.inconsistent(kept):
         kept = [i for i, r in enumerate(reduced) if r.normals]
@@ -215,5 +215,5 @@ class ConstraintSets:
         if straight is not None:
             return not presolve(straight).contradiction, True
         some = [r if i in set(numbers) else Reduced(r.constraint, (), ()) for i, r in enumerate(self.reduced)]
-        found = solve(self.system, some, self.setting)
-        return found.consistent, all(a.exists or a.verdict == "proved" for a in found.answers)
+        result = solve(self.system, some, self.setting)
+        return result.consistent, all(a.exists or a.verdict == "proved" for a in result.answers)

@@ -70,8 +70,8 @@ def _signs(a: Expr, b: Expr, finite: Sequence[Expr], setting: Setting) -> Iterat
 def _point(ring: Ring, nodes: Sequence[int], symbols: Sequence[Expr], setting: Setting, seed: int) -> BallPoint | None:
     if nodes:
         moving = [s for s in symbols if s.args[0] != "parameter"]
-        found = RealSearch(ring, nodes, moving, setting.positive).search(seed)
-        return None if found is None else found.point
+        result = RealSearch(ring, nodes, moving, setting.positive).search(seed)
+        return None if result is None else result.point
     rng = random.Random(f"dofkit side {seed}")
     scale = SCALES[seed % len(SCALES)]
 

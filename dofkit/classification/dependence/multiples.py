@@ -28,10 +28,10 @@ def same_up_to_numbers(given: Sequence[Reduced], wanted: Sequence[Reduced], posi
     True is a proof that they say the same and are as regular; False says nothing.
     """
     asked = [_terms(n) for r in wanted for n in r.normals]
-    told = [terms for r in given for terms in _written(r)]
-    if not told or [] in asked or [] in told:
+    answer = [terms for r in given for terms in _written(r)]
+    if not answer or [] in asked or [] in answer:
         return False
-    table = [[_proportional(one, other, positive) for other in asked] for one in told]
+    table = [[_proportional(one, other, positive) for other in asked] for one in answer]
     return all(map(any, table)) and all(any(row[k] for row in table) for k in range(len(asked)))
 
 
@@ -42,12 +42,12 @@ def power_of(given: Sequence[Reduced], wanted: Sequence[Reduced], positive: froz
     A number is a proof; None says nothing.
     """
     asked = [n for r in wanted for n in r.normals]
-    told = [relation.expr for r in given for relation in r.constraint.relations]
-    terms = _terms(asked[0]) if len(asked) == len(told) == 1 else []
+    answer = [relation.expr for r in given for relation in r.constraint.relations]
+    terms = _terms(asked[0]) if len(asked) == len(answer) == 1 else []
     if not terms or terms[0][0]:
         return None
-    ring = Ring([told[0], terms[0][1]], positive)
-    nodes = ring.node(told[0]), ring.node(terms[0][1])
+    ring = Ring([answer[0], terms[0][1]], positive)
+    nodes = ring.node(answer[0]), ring.node(terms[0][1])
     if not _entire(ring):
         return None
     canon = Canon(ring)
@@ -63,18 +63,18 @@ def _digits(h: Poly, g: Poly) -> list[fmpq] | None:
     """The c_k of h = c_0 + c_1 g + c_2 g^2 + ..., where there are such numbers."""
     digits: list[fmpq] = []
     while h != 0:
-        h, rest = divmod(h, g)
-        if not rest.is_constant():
+        h, remainder = divmod(h, g)
+        if not remainder.is_constant():
             return None
-        digits.append(rest.leading_coefficient() if rest != 0 else fmpq(0))
+        digits.append(remainder.leading_coefficient() if remainder != 0 else fmpq(0))
     return digits
 
 
 def _only_root(p: fmpq_poly) -> int | None:
     """How often 0 is a root of p; None where it is none, or not the only real one."""
     low = next((k for k in range(p.degree() + 1) if p[k] != 0), 0)
-    rest = fmpq_poly([p[k] for k in range(low, p.degree() + 1)])
-    roots: Any = rest.numer().complex_roots()
+    remainder = fmpq_poly([p[k] for k in range(low, p.degree() + 1)])
+    roots: Any = remainder.numer().complex_roots()
     return low if low and not any(z.imag == 0 for z, _ in roots) else None
 
 
@@ -88,11 +88,11 @@ def _written(r: Reduced) -> list[list[tuple[str, Expr]]]:
     """The equations of a constraint before anything was taken out of them; an empty one for what is not looked at."""
     if len(r.normals) != len(r.constraint.relations) or any(n.notes for n in r.normals):
         return [[]]
-    found = []
+    result = []
     for normal, relation in zip(r.normals, r.constraint.relations, strict=True):
         terms = _terms(normal)
-        found.append([("", relation.expr)] if terms and terms[0][0] == "" else terms)
-    return found
+        result.append([("", relation.expr)] if terms and terms[0][0] == "" else terms)
+    return result
 
 
 def _terms(normal: Normal) -> list[tuple[str, Expr]]:
@@ -118,13 +118,13 @@ def _proportional(a: Sequence[tuple[str, Expr]], b: Sequence[tuple[str, Expr]], 
         return False
     canon = Canon(ring)
     try:
-        found = [(canon.quotient(x)[0], canon.quotient(y)[0]) for x, y in nodes]
+        result = [(canon.quotient(x)[0], canon.quotient(y)[0]) for x, y in nodes]
     except NoValueError:
         return False
-    if any((x == 0) != (y == 0) for x, y in found):
+    if any((x == 0) != (y == 0) for x, y in result):
         return False
-    left = [(x, y) for x, y in found if x != 0]
-    if not left:
+    remaining = [(x, y) for x, y in result if x != 0]
+    if not remaining:
         return False
-    c, d = (poly.leading_coefficient() for poly in left[0])
-    return all(x * d == y * c for x, y in left)
+    c, d = (poly.leading_coefficient() for poly in remaining[0])
+    return all(x * d == y * c for x, y in remaining)

@@ -8,8 +8,8 @@ from dataclasses import replace
 from functools import partial
 from typing import Literal
 
-from dofkit.base.components import components
 from dofkit.base.deadline import unless_late
+from dofkit.base.libraries import components
 from dofkit.base.verdicts import About
 from dofkit.classification.dependence import block_implication, removal
 from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse, undecided_dependence
@@ -34,19 +34,19 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
 
     Where there is no time or no way to tell, the constraints concerned are left open.
     """
-    found = _void(reduced)
+    result = _void(reduced)
     if not outcome.consistent:
-        return found
-    found += copied(reduced, outcome)
+        return result
+    result += copied(reduced, outcome)
     blocks: BlocksOf = defaultdict(list)
     for block, a in outcome.parts:
         for i in dict.fromkeys(r.constraint for r in block.rows):
             blocks[i].append((block, a))
     apart = outcome.bridged
-    found += [_independent(apart)] if apart else []
+    result += [_independent(apart)] if apart else []
     for numbers in _parts(reduced, outcome, apart):
-        found += _or_open(partial(_of_part, reduced, setting, blocks, numbers), numbers)
-    return found
+        result += _or_open(partial(_of_part, reduced, setting, blocks, numbers), numbers)
+    return result
 
 
 def _is_region(r: Reduced) -> bool:
@@ -61,8 +61,8 @@ def _is_conditional(n: Normal) -> bool:
 
 def _or_open(work: Callable[[], list[Redundancies]], numbers: Sequence[int]) -> list[Redundancies]:
     """What is found of some constraints; where there is no time for it they are left open."""
-    found = unless_late(work, None)
-    return [undecided_dependence(numbers)] if found is None else found
+    result = unless_late(work, None)
+    return [undecided_dependence(numbers)] if result is None else result
 
 
 def all_needed(found: Sequence[Redundancies], reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
@@ -73,11 +73,11 @@ def all_needed(found: Sequence[Redundancies], reduced: Sequence[Reduced], outcom
     several = any(len(b) > 1 for r in reduced for n in r.normals for b in n.branches)
     if several or any(a.hidden or a.degenerate for a in outcome.answers):
         return list(found)
-    told = []
+    answer = []
     for r in found:
         needed = {i: reduced[i].equations for i in r.undecided}
-        told.append(replace(r, independent={**r.independent, **needed}, undecided=()) if needed else r)
-    return told
+        answer.append(replace(r, independent={**r.independent, **needed}, undecided=()) if needed else r)
+    return answer
 
 
 def _parts(reduced: Sequence[Reduced], outcome: Outcome, apart: Collection[int]) -> list[list[int]]:
@@ -315,7 +315,7 @@ def _void(reduced: Sequence[Reduced]) -> list[Redundancies]:
 
     What only holds on a region takes no freedom away either; where it is a part of a constraint it is counted here.
     """
-    found = []
+    result = []
     for i, r in enumerate(reduced):
         void = tuple(k for k, normal in enumerate(r.normals) if normal.branches == ((),))
         partly = () if _is_region(r) else tuple(k for k, normal in enumerate(r.normals) if _is_conditional(normal))
@@ -324,5 +324,5 @@ def _void(reduced: Sequence[Reduced]) -> list[Redundancies]:
             redundant = [i] if len(void) == r.equations else []
             circuits: dict[int, list[int]] = {i: [] for i in redundant}
             named = {} if partly else {i: void}
-            found.append(Redundancies({i: 0}, redundant, [(idle, [i])], circuits, equations=named))
-    return found
+            result.append(Redundancies({i: 0}, redundant, [(idle, [i])], circuits, equations=named))
+    return result

@@ -73,15 +73,15 @@ class Regularity:
         rows = tuple(row for b in blocks for row in b.rows)
         whole = Block(tuple(n for n in self.coordinates if any(n in b.coordinates for b in blocks)), rows)
         chart = make_chart(whole, self.setting, more=list(chain(*sets)))
-        found = find(chart, {}, 7)
+        result = find(chart, {}, 7)
         nodes = [[chart.ring.node(e) for e in s] for s in sets]
         try:
-            if found.samples:
-                point = found.samples[0]
+            if result.samples:
+                point = result.samples[0]
                 return [rank_of_rows(field_jacobian(chart, point, some), point.p) for some in nodes]
-            if found.real is None or not found.real.certified:
+            if result.real is None or not result.real.certified:
                 return None
-            real, columns = found.real.point, [c for c in chart.columns if c >= 0]
+            real, columns = result.real.point, [c for c in chart.columns if c >= 0]
             at = values(chart.ring, real)
             slopes = [jacobian(chart.ring, at, real, some, columns, arb(0)) for some in nodes]
         except NoValueError:

@@ -23,8 +23,8 @@ from functools import cached_property
 from itertools import combinations, groupby
 from typing import NamedTuple
 
-from dofkit.base.components import components
 from dofkit.base.deadline import OutOfTimeError, check, limited
+from dofkit.base.libraries import components
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets, is_drawn
 from dofkit.classification.dependence.circuits import Redundancies
@@ -90,7 +90,7 @@ def _largest_redundant_set(removal: Removal, order: Sequence[int]) -> Redundanci
 
 def _circuits(removal: Removal, order: Sequence[int], redundant: Sequence[int]) -> dict[int, list[int]]:
     """For each constraint that can go a minimal set of those kept from which it follows; none where that is open."""
-    found = {}
+    result = {}
     for owner in redundant:
         kept = [o for o in order if o not in redundant]
         try:
@@ -99,8 +99,8 @@ def _circuits(removal: Removal, order: Sequence[int], redundant: Sequence[int]) 
                     kept = [o for o in kept if o != other]
         except OutOfTimeError:
             break
-        found[owner] = sorted(kept)
-    return found
+        result[owner] = sorted(kept)
+    return result
 
 
 def owners_of(block: Block) -> list[int]:
@@ -227,14 +227,14 @@ class _Counting:
         The rows of one constraint stand in no order: of those that say the same beside others any may be the first.
         """
         for owner, rows in groupby(sorted(self._dependent), key=self._owners.__getitem__):
-            left = self._left(rows)
-            if left is None or not (self._by_one(owner, left) or self._by_freedom(left)):
+            remaining = self._left(rows)
+            if remaining is None or not (self._by_one(owner, remaining) or self._by_freedom(remaining)):
                 return None
         return self.following
 
     def _left(self, rows: Iterable[int]) -> list[int] | None:
         """Those of some dependent rows that follow from no independent ones; None where that is not known of one."""
-        found = []
+        result = []
         for i in rows:
             check()
             pivots = [k for k in range(i) if k not in self._dependent]
@@ -244,8 +244,8 @@ class _Counting:
             elif self._near.follows(i, pivots) is None:
                 return None
             else:
-                found.append(i)
-        return found
+                result.append(i)
+        return result
 
     def _by_one(self, owner: int, rows: Sequence[int]) -> bool:
         """Do several rows of a constraint hold where one of them does beside those before, as far as numbers tell?"""

@@ -65,16 +65,16 @@ def feasibility(
 ) -> Feasibility:
     """Of a system with inequalities; ``conflicting``: what its constraints contradict each other by."""
     if outcome.consistent is False:
-        told = weakest(*(a.verdict for a in outcome.answers if a.consistent is False))
-        return Feasibility(False, tuple(conflicting), verdict=told)
+        answer = weakest(*(a.verdict for a in outcome.answers if a.consistent is False))
+        return Feasibility(False, tuple(conflicting), verdict=answer)
     if setting.engines != BOTH:
         return Feasibility(None)
     repeated = copies(reduced)
     numbers = [i for i, r in enumerate(reduced) if i not in repeated and (r.normals or r.inequalities)]
     judge = _Judge(reduced, setting, outcome)
     with limited(SECONDS):
-        found = unless_late(partial(judge.judged, numbers), Feasibility(None, reasons=(OPEN,)))
-    return found if found.feasible is not False else _minimal(judge, found)
+        result = unless_late(partial(judge.judged, numbers), Feasibility(None, reasons=(OPEN,)))
+    return result if result.feasible is not False else _minimal(judge, result)
 
 
 def _minimal(judge: _Judge, found: Feasibility) -> Feasibility:
@@ -83,32 +83,31 @@ def _minimal(judge: _Judge, found: Feasibility) -> Feasibility:
     What is left out leaves a set that is proved not to be met; what is kept is needed, where a point shows that the
     others can be met without it: then fewer of them can be as well.
     """
-    kept, needed, some = list(found.infeasible), set[int](), replace(judge, whole=False)
+    kept, needed = list(found.infeasible), set[int]()
     with limited(LEAVING_SECONDS):
         size = max(1, len(kept) // 2) if len(kept) > FEW else 1
         while size:
             for end in range(len(kept), 0, -size):
                 left_out = kept[max(0, end - size) : end]
                 fewer = [i for i in kept if i not in left_out]
-                told = unless_late(partial(some.judged, fewer), Feasibility(None)).feasible
-                kept = fewer if told is False else kept
-                needed |= set(left_out) if told and size == 1 else set()
+                answer = unless_late(partial(judge.judged, fewer), Feasibility(None)).feasible
+                kept = fewer if answer is False else kept
+                needed |= set(left_out) if answer and size == 1 else set()
             size //= 2
     open_ = [i for i in kept if i not in needed]
     names = [f"'{judge.reduced[i].constraint.name}'" for i in open_]
-    shown = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if names[MOST_NAMES:] else "")
-    reasons = (NOT_MINIMAL.format(names=shown),) if open_ else ()
+    text = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if names[MOST_NAMES:] else "")
+    reasons = (NOT_MINIMAL.format(names=text),) if open_ else ()
     return replace(found, infeasible=tuple(kept), reasons=reasons)
 
 
 @dataclass(frozen=True)
 class _Judge:
-    """Judges sets of the constraints of one system; ``whole``: all of them, of which the blocks' answers speak."""
+    """Judges sets of the constraints of one system."""
 
     reduced: Sequence[Reduced]
     setting: Setting
     outcome: Outcome
-    whole: bool = True
 
     def judged(self, numbers: Sequence[int]) -> Feasibility:
         """A point for every part with an inequality, at the same values of time and parameters; or a proof.
@@ -119,16 +118,16 @@ class _Judge:
         alone, joined = (parts_of(self.reduced, numbers, shared) for shared in (False, True))
         for part, fixed in [*((p, True) for p in alone), *((p, False) for p in joined)]:
             if not all(i in met for i in part.numbers):
-                found = self._of(part, fixed)
-                if found.feasible is False:
-                    return found
-                met |= dict.fromkeys(part.numbers, found) if found.feasible else {}
+                result = self._of(part, fixed)
+                if result.feasible is False:
+                    return result
+                met |= dict.fromkeys(part.numbers, result) if result.feasible else {}
         asked = {i for part in alone for i in part.numbers}
         beside = self._answers(set(numbers) - asked)
         if not asked <= met.keys() or None in [a.consistent for a in beside]:
             return Feasibility(None, reasons=(OPEN,))
-        at = {s: v for found in met.values() for s, v in found.at.items()}
-        sure = weakest(*(found.verdict for found in met.values()), *(a.verdict for a in beside))
+        at = {s: v for result in met.values() for s, v in result.at.items()}
+        sure = weakest(*(result.verdict for result in met.values()), *(a.verdict for a in beside))
         return Feasibility(True, at=at, verdict=sure)
 
     def _answers(self, numbers: set[int]) -> list[Answer]:
@@ -143,9 +142,9 @@ class _Judge:
         if not contradictory(claims, positive):
             for problem in self._problems(part):
                 given = {s: value_of(s) for s in problem.constants} if fixed else {}
-                found = witness(replace(problem, fixed=given), positive, self._drawn, self._codimension(part))
-                if found is not None:
-                    return Feasibility(True, at=found.at, verdict=found.verdict)
+                result = witness(replace(problem, fixed=given), positive, self._drawn)
+                if result is not None:
+                    return Feasibility(True, at=result.at, verdict=result.verdict)
             if not _refuted(part, positive):
                 return Feasibility(None)
         return Feasibility(False, part.numbers, verdict="proved")
@@ -163,17 +162,6 @@ class _Judge:
     @property
     def _drawn(self) -> Mapping[Expr, Expr]:
         return self.setting.pose if self.setting.reference is None else self.setting.reference
-
-    def _codimension(self, part: Part) -> int | None:
-        """Of the set that the finite relations of a part cut out, where the blocks' answers are those of one branch."""
-        plain = all(len(n.branches) == 1 for r in part.reduced for n in r.normals)
-        if not self.whole or not plain or not self.outcome.consistent:
-            return None
-        numbers, pairs = set(part.numbers), zip(self.outcome.blocks, self.outcome.answers, strict=True)
-        own = [(b, a) for b, a in pairs if not numbers.isdisjoint(row.constraint for row in b.rows)]
-        return (
-            sum(len(b.coordinates) - (a.dof or 0) for b, a in own) if all(a.dof is not None for _, a in own) else None
-        )
 
 
 def _turns_over(facts: TypeFacts, dimension: int) -> bool:
@@ -198,17 +186,17 @@ DIGITS = 15
 
 def inequalities_together(study: Study, told: Mapping[str, Any]) -> Mapping[str, Any]:
     """The report's fields, beside what is ``told`` already."""
-    found = feasibility(study.reduced, study.setting, study.outcome, study.dependence.conflicting.members)
-    at = _texts(study.system, found.at) if found.feasible else None
-    claims = {} if found.feasible is None else _claims(found)
+    result = feasibility(study.reduced, study.setting, study.outcome, study.dependence.conflicting.members)
+    at = _texts(study.system, result.at) if result.feasible else None
+    claims = {} if result.feasible is None else _claims(result)
     return {
-        "feasible": found.feasible,
-        "infeasible": [study.names[i] for i in found.infeasible],
+        "feasible": result.feasible,
+        "infeasible": [study.names[i] for i in result.infeasible],
         "feasible_at": at,
         "verdict": weakest(told["verdict"], *(v.verdict for v in claims.values())),
         "verdicts": {**told["verdicts"], **claims},
         "witness": _moved(told["witness"], at or {}),
-        "warnings": [*told["warnings"], *found.reasons],
+        "warnings": [*told["warnings"], *result.reasons],
     }
 
 
@@ -226,15 +214,15 @@ def _moved(witness: Mapping[str, str] | None, at: Mapping[str, str]) -> dict[str
 
 def _texts(system: System, at: Values) -> dict[str, str]:
     """The values of the scene's symbols, coordinates first; of angles that no text names only those drawn."""
-    told = {_name(s): v for s, v in at.items()}
+    answer = {_name(s): v for s, v in at.items()}
     for rotation in system.rotations:
         if rotation.chart == "gibbs":
-            values = [told.pop(name, None) for name in rotation.names]
+            values = [answer.pop(name, None) for name in rotation.names]
             if all(v == ex.ZERO for v in values):
-                told |= dict(zip(rotation.names, rotation.initial, strict=True))
+                answer |= dict(zip(rotation.names, rotation.initial, strict=True))
     order = [c.name for c in system.coordinates]
     named = [*order, *(f"{name}dot" for name in order), *system.parameters, "t"]
-    return {name: _text(told[name]) for name in named if name in told}
+    return {name: _text(answer[name]) for name in named if name in answer}
 
 
 def _name(s: Expr) -> str:
@@ -244,5 +232,5 @@ def _name(s: Expr) -> str:
 def _text(value: Expr | arb) -> str:
     if isinstance(value, Expr):
         return to_text(value)
-    shown = f"{float(value.mid()):.{DIGITS}f}".rstrip("0").rstrip(".")
-    return "0" if shown == "-0" else shown
+    text = f"{float(value.mid()):.{DIGITS}f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text

@@ -16,7 +16,7 @@ from itertools import combinations
 from itertools import product as cartesian
 from math import prod
 
-from dofkit.base.components import components
+from dofkit.base.libraries import components
 from dofkit.classification.feasibility.refutation import SignClaim
 from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
@@ -97,18 +97,18 @@ def problems_of(
     finite += [e for e in boundaries if not velocities_of(e)]
     others += [e for e in boundaries if velocities_of(e)]
     places = tuple(ex.coordinate(name) for name in names)
-    rest = {ex.velocity(name): ex.ZERO for name in names}
+    remainder = {ex.velocity(name): ex.ZERO for name in names}
     asked = [*finite, *others, *(c.expr for c in conditions)]
     finite = _independent(finite)
     timed = any(ex.TIME in e.symbols for e in asked)
-    if not timed and all(zero_and_verdict(substitute(e, rest), frozenset()) == (True, "proved") for e in others):
-        still = tuple(DomainCondition(substitute(c.expr, rest), c.sense) for c in conditions)
+    if not timed and all(zero_and_verdict(substitute(e, remainder), frozenset()) == (True, "proved") for e in others):
+        still = tuple(DomainCondition(substitute(c.expr, remainder), c.sense) for c in conditions)
         yield StateProblem(tuple(finite), still, places, still=True)
     elif not others and not any(map(velocities_of, asked)):
         yield StateProblem(tuple(finite), conditions, places)
     if any(map(velocities_of, asked)) and (timed or others or any(velocities_of(c.expr) for c in conditions)):
         moving = (*(rate(g) for g in finite), *others)
-        yield StateProblem((*finite, *moving), conditions, places, tuple(rest), moving)
+        yield StateProblem((*finite, *moving), conditions, places, tuple(remainder), moving)
 
 
 def _boundaries(conditions: Sequence[DomainCondition]) -> tuple[list[Expr], tuple[DomainCondition, ...]]:
@@ -139,8 +139,8 @@ class Choice:
     @property
     def names(self) -> list[str]:
         """The coordinates that occur."""
-        found = [*(coordinates_of(r.piece) for r in self.rows), *map(coordinates_of, self.conditions)]
-        return sorted(frozenset[str]().union(*found))
+        result = [*(coordinates_of(r.piece) for r in self.rows), *map(coordinates_of, self.conditions)]
+        return sorted(frozenset[str]().union(*result))
 
     def claims(self) -> list[SignClaim]:
         """What holds at every state of motion; what is only != 0 is left out."""

@@ -45,24 +45,21 @@ class Witness(NamedTuple):
     verdict: Verdict = "proved"
 
 
-def witness(
-    problem: StateProblem, positive: frozenset[Expr], drawn: Mapping[Expr, Expr], codimension: int | None = None
-) -> Witness | None:
+def witness(problem: StateProblem, positive: frozenset[Expr], drawn: Mapping[Expr, Expr]) -> Witness | None:
     """A point at which all of a problem holds, and through which a motion passes; None where none was found.
 
-    ``drawn``: values of places to try first. ``codimension``: of the set that the equations cut out, as far as it is
-    known otherwise: where some of them follow from the others, a zero of so many is taken for one of all.
+    ``drawn``: values of places to try first.
     """
     if problem.unknown_functions:
         return None
-    found = _at(problem, positive, drawn)
-    if found is not None or problem.drawn_only:
-        return found
+    result = _at(problem, positive, drawn)
+    if result is not None or problem.drawn_only:
+        return result
     if all(linear(e) is not None for e in problem.expressions) and not any(c.sense == "!=" for c in problem.conditions):
         return _linearly(problem, positive)
     if len(problem.expressions) > MAX_ROWS:
         return None
-    return _by_slacks(problem, positive, codimension)
+    return _by_slacks(problem, positive)
 
 
 def value_of(s: Expr) -> Fraction:
@@ -130,11 +127,11 @@ def _linearly(problem: StateProblem, positive: frozenset[Expr]) -> Witness | Non
     conditions = [_linear_condition(e, sense, order) for e, sense in zip(problem.expressions, senses, strict=True)]
     conditions += [_linear_condition(s, ">", order) for s in order if s in positive]
     conditions += [_linear_condition(s - ex.num(v), "=", order) for s, v in problem.fixed.items() if s in order]
-    found = solution(conditions)
-    if not found:
+    result = solution(conditions)
+    if not result:
         return None
     at: dict[Expr, Expr | arb] = dict.fromkeys(problem.unknowns, ex.ZERO)
-    return Witness(at | {s: ex.num(Fraction(int(v.p), int(v.q))) for s, v in zip(order, found, strict=True)})
+    return Witness(at | {s: ex.num(Fraction(int(v.p), int(v.q))) for s, v in zip(order, result, strict=True)})
 
 
 def _linear_condition(e: Expr, sense: str, order: Sequence[Expr]) -> LinearCondition:
@@ -185,31 +182,24 @@ class _Search:
         return all(arb(at[p]) > 0 for p in self.positive if p in at)
 
 
-def _by_slacks(problem: StateProblem, positive: frozenset[Expr], codimension: int | None) -> Witness | None:
+def _by_slacks(problem: StateProblem, positive: frozenset[Expr]) -> Witness | None:
     search = _Search(problem, positive)
     for seed in range(SEARCHES):
         check()
         point = search.found(seed)
-        verdict = None if point is None else _certified(problem, search, point, codimension)
-        if point is not None and verdict is not None:
+        if point is not None and _is_certified(problem, search, point):
             at = point.point.symbols
-            shown = {s: arb(at[s]) for s in (*problem.unknowns, *problem.constants) if s in at}
-            return Witness({**dict.fromkeys(problem.unknowns, ex.ZERO), **shown}, verdict)
+            text = {s: arb(at[s]) for s in (*problem.unknowns, *problem.constants) if s in at}
+            return Witness({**dict.fromkeys(problem.unknowns, ex.ZERO), **text})
     return None
 
 
-def _certified(problem: StateProblem, search: _Search, point: RealPoint, codimension: int | None) -> Verdict | None:
-    """How sure it is that all holds at the point and a motion passes through it; None where it is not known."""
-    if not _defined(problem, point.point):
-        return None
-    whole = point.solved == point.rank == len(search.rows)
+def _is_certified(problem: StateProblem, search: _Search, point: RealPoint) -> bool:
+    """Return whether all conditions hold at the point and a motion passes through it."""
+    if not _defined(problem, point.point) or not point.solved == point.rank == len(search.rows):
+        return False
     rows, columns = problem.independent
-    rank = _rank(search.ring, point.point, rows, columns)
-    if whole:
-        return "proved" if problem.rigidly or rank == len(rows) else None
-    regular = point.rank == len(search.slacks) + (codimension or 0)
-    known = codimension is not None and not problem.rates and regular and rank == codimension
-    return "probable" if known else None
+    return problem.rigidly or _rank(search.ring, point.point, rows, columns) == len(rows)
 
 
 def _rank(ring: Ring, point: BallPoint, rows: Sequence[Expr], columns: Sequence[Expr]) -> int:
@@ -231,10 +221,10 @@ def _defined(problem: StateProblem, point: BallPoint) -> bool:
             return False
     except (EmptyError, NoValueError, KeyError):
         return False
-    told = [at[e] for e in problem.expressions]
+    answer = [at[e] for e in problem.expressions]
     n = len(problem.equations)
-    zeros = all(low <= 0.0 <= high for low, high in told[:n])
-    return zeros and all(_agrees(v, c) for v, c in zip(told[n:], problem.conditions, strict=True))
+    zeros = all(low <= 0.0 <= high for low, high in answer[:n])
+    return zeros and all(_agrees(v, c) for v, c in zip(answer[n:], problem.conditions, strict=True))
 
 
 def _agrees(value: Interval, c: DomainCondition) -> bool:

@@ -8,15 +8,13 @@ from dataclasses import replace
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.bridged_blocks import bridged_answer
 from dofkit.configuration import distance_geometry
+from dofkit.configuration.at_reference import at_reference
 from dofkit.configuration.components import is_graph, is_irreducible
-from dofkit.configuration.drawing.at_reference import at_reference
-from dofkit.configuration.finite_blocks import finite_answer
-from dofkit.configuration.level_bodies import LEVEL, level_angle
+from dofkit.configuration.finite_blocks import LEVEL, finite_answer, level_angle
 from dofkit.configuration.linear_blocks import confirmed, eliminated
 from dofkit.configuration.measured.equations import is_measured
 from dofkit.configuration.search import find
-from dofkit.configuration.variety import Variety
-from dofkit.configuration.witness import of_real_point, of_reference
+from dofkit.configuration.variety import Variety, of_real_point, of_reference
 from dofkit.exact.errors import NoPointError
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
@@ -33,7 +31,7 @@ from dofkit.integrability.pfaffian_system import (
 )
 from dofkit.integrability.prolongation import confinements, prolong
 from dofkit.integrability.row_labels import ball_labels, field_labels
-from dofkit.mobility.frameworks import framework_answer
+from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.setting import Setting
@@ -65,15 +63,15 @@ def answer(block: Block, setting: Setting) -> Answer:
     bridged = bridged_answer(block, setting, answer) if setting.bridges else None
     if bridged is not None:
         return bridged
-    found = _engines(block, setting)
-    level = None if found.dof is None or setting.reference is not None else level_angle(block, setting)
+    result = _engines(block, setting)
+    level = None if result.dof is None or setting.reference is not None else level_angle(block, setting)
     if level is not None:
-        reasons = [*found.reasons, LEVEL.format(level)]
-        found = replace(found, dof=None, velocity_dof=None, growth=None, verdict="undecided", reasons=reasons)
+        reasons = [*result.reasons, LEVEL.format(level)]
+        result = replace(result, dof=None, velocity_dof=None, growth=None, verdict="undecided", reasons=reasons)
     differential = bool(block.forms or block.nonlinear)
     tested = differential or "closed" not in setting.reductions
     own = Size(len(block.coordinates), len(block.finite), len(block.rows) if tested else 0)
-    return replace(found, size=own)
+    return replace(result, size=own)
 
 
 def _engines(block: Block, setting: Setting) -> Answer:
@@ -88,15 +86,15 @@ def _engines(block: Block, setting: Setting) -> Answer:
             return unmet
     alone = replace(setting, engines=BALLS, grows=False, flag=False)
     try:
-        found = _answer(block, setting)
+        result = _answer(block, setting)
     except NoPointError:
         if setting.engines != BOTH:
             raise
         balls = _answer(block, alone)
         return replace(balls, verdict=weakest(balls.verdict, "numeric"), growth=None, derived=None)
-    if found.doubt and setting.engines == BOTH and setting.tolerance is None:
-        return _confirmed_by_balls(found, _answer(block, alone))
-    return found
+    if result.doubt and setting.engines == BOTH and setting.tolerance is None:
+        return _confirmed_by_balls(result, _answer(block, alone))
+    return result
 
 
 def _confirmed_by_balls(field: Answer, balls: Answer) -> Answer:
@@ -154,10 +152,10 @@ def _mixed_answer(block: Block, setting: Setting) -> Answer:
     result = _prolonged(block, setting, Answer())
     if setting.reference is not None:
         if block.nonlinear:
-            told = first_order_beside_bends(block, setting, result)
+            answers = first_order_beside_bends(block, setting, result)
         else:
-            told = first_order_freedom(block, setting, setting.reference)
-        result.instantaneous, result.first_order_sure = told
+            answers = first_order_freedom(block, setting, setting.reference)
+        result.instantaneous, result.first_order_sure = answers
         result.verdict = weakest(result.verdict, "numeric" if is_measured(block, setting) else "proved")
     return result
 
@@ -201,8 +199,8 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
     """Points to look at the forms: of the reference's part where one is given, else generic ones."""
     alike = is_irreducible(forms.chart) if setting.reference is None else is_graph(forms.chart)
     if setting.reference is None or alike:
-        found = find(forms.chart, setting.pose)
-        return found if alike else replace(found, about="component")
+        result = find(forms.chart, setting.pose)
+        return result if alike else replace(result, about="component")
     if "field" not in forms.chart.engines:
         return Variety(None, None, "undecided", reasons=[IRREGULAR])
     there = is_on_variety(forms, setting.reference)

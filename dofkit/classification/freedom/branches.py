@@ -63,10 +63,10 @@ class Outcome:
 
     @property
     def consistent(self) -> bool | None:
-        told = [a.consistent for a in self.answers]
-        if self.impossible or False in told:
+        answers = [a.consistent for a in self.answers]
+        if self.impossible or False in answers:
             return False
-        return None if self.unsettled or None in told else True
+        return None if self.unsettled or None in answers else True
 
     @property
     def parts(self) -> list[AnsweredPart]:
@@ -186,14 +186,14 @@ def _one_sided(reduced: Sequence[Reduced], positive: frozenset[Expr]) -> tuple[l
 def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> Outcome:
     """The largest of the branches; one that is open where it may be larger, and undecided where not all were seen."""
     best = max(outcomes, key=lambda o: o.size)
-    left = [o for o in outcomes if o.consistent is not False]
-    most = max(left, key=lambda o: o.most, default=None)
+    remaining = [o for o in outcomes if o.consistent is not False]
+    most = max(remaining, key=lambda o: o.most, default=None)
     if best.dof is not None and most is not None and most.most > best.dof:
         best = most
     if why or (len(outcomes) > 1 and any(a.late for o in outcomes for a in o.answers)):
         best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
     elif best.consistent is not False:
-        best.answers = _of_its_part(best, [o for o in left if o is not best])
+        best.answers = _of_its_part(best, [o for o in remaining if o is not best])
         best.answers = with_reductions_checked(best.reduced, best.blocks, best.answers, setting)
     elif not best.impossible and any(o.divided for o in outcomes):
         best.answers = [Answer(None, verdict="undecided", reasons=[NOT_EQUIVALENT]) for _ in best.answers]
@@ -210,11 +210,11 @@ def _of_its_part(best: Outcome, others: Sequence[Outcome]) -> list[Answer]:
 def _confirmed(only: Outcome, setting: Setting) -> list[Answer]:
     """The answers of the only choice, as proved where exact elimination says the same."""
     written = Counter(row.constraint for row in only.rows)
-    told = []
+    answers = []
     for block, a in zip(only.blocks, only.answers, strict=True):
         alone = all(written[row.constraint] == 1 for row in block.rows)
-        told.append(unless_late(partial(confirmed, block, a, setting, alone), a))
-    return told
+        answers.append(unless_late(partial(confirmed, block, a, setting, alone), a))
+    return answers
 
 
 def _answered(
@@ -226,10 +226,10 @@ def _answered(
     known: AnsweredBlocks,
 ) -> Outcome:
     blocks, untouched = blocks_of(names, rows, setting.reductions)
-    found = at_one_point(blocks, known.answers(blocks, setting), domain, setting, partial(in_time, setting=setting))
-    never = [*impossible, *found.nowhere]
+    result = at_one_point(blocks, known.answers(blocks, setting), domain, setting, partial(in_time, setting=setting))
+    never = [*impossible, *result.nowhere]
     return Outcome(
-        rows, found.blocks, found.answers, untouched, never, unsettled=[*found.unsettled], witness=found.witness
+        rows, result.blocks, result.answers, untouched, never, unsettled=[*result.unsettled], witness=result.witness
     )
 
 
@@ -256,8 +256,8 @@ class AnsweredBlocks:
         same = tuple([id(row.piece) for row in block.rows] + [id(c) for c in block.conditions])
         if same not in self._answers:
             twins = _shape(block) in self._shapes and not any(isinstance(r.piece, JointEquation) for r in block.rows)
-            found = self._twin(block, setting, likenesses) if twins and likenesses else in_time(block, setting)
-            self._answers[same] = block, found
+            result = self._twin(block, setting, likenesses) if twins and likenesses else in_time(block, setting)
+            self._answers[same] = block, result
         return self._answers[same][1]
 
     def _twin(self, block: Block, setting: Setting, likenesses: Likenesses) -> Answer:
@@ -265,10 +265,10 @@ class AnsweredBlocks:
         known = self._alike.get(key)
         if known is not None:
             return known.answer_of_twin(block, names)
-        found = in_time(block, setting)
-        found.kind = len(self._alike)
-        self._alike[key] = AnsweredBlock(block, names, found)
-        return found
+        result = in_time(block, setting)
+        result.kind = len(self._alike)
+        self._alike[key] = AnsweredBlock(block, names, result)
+        return result
 
 
 def _shape(block: Block) -> Hashable:

@@ -1,4 +1,4 @@
-"""A block that joints which close no loop hold together: its parts are answered apart (`dofkit.mobility.bridges`)."""
+"""A block held together by joints that close no loop (`dofkit.mobility.joint_tree`): its parts are answered apart."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from dofkit.base.verdicts import VERDICTS, weakest
 from dofkit.configuration.generic_points import field_jacobian, pose_point
-from dofkit.configuration.witness import of_reference
+from dofkit.configuration.variety import of_reference
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.vectors import difference
@@ -38,9 +38,9 @@ def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setti
     parts = [AnsweredPart(core, _core_answer(core, within, solve)) for core in cores]
     if any(p.answer.consistent is not True or p.answer.about != "reference" for p in parts):
         return None
-    found = _together(block, setting, parts, len(loose) - len(joints))
-    moves = found.dof if setting.reference is None else found.instantaneous
-    return replace(found, looked=_looked(block, parts)) if moves else None
+    result = _together(block, setting, parts, len(loose) - len(joints))
+    moves = result.dof if setting.reference is None else result.instantaneous
+    return replace(result, looked=_looked(block, parts)) if moves else None
 
 
 def _core_answer(core: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer:
@@ -61,9 +61,9 @@ def _core_answer(core: Block, setting: Setting, solve: Callable[[Block, Setting]
     point = pose_point(chart, {**(setting.reference or {}), ex.TIME: ex.ZERO}, 3)
     if point is None or any(p.answer.consistent is not True or p.answer.about != "reference" for p in parts):
         return solve(core, setting)
-    found = _together(core, setting, parts, len(loose) + len(host))
+    result = _together(core, setting, parts, len(loose) + len(host))
     looked = _looked(core, parts)
-    return replace(found, looked=looked, parts=None, matrix=field_jacobian(chart, point), modulus=point.p)
+    return replace(result, looked=looked, parts=None, matrix=field_jacobian(chart, point), modulus=point.p)
 
 
 def _host(core: Block, setting: Setting) -> tuple[str, ...] | None:
@@ -117,7 +117,7 @@ def _together(block: Block, setting: Setting, parts: Sequence[AnsweredPart], fre
     answers = [p.answer for p in parts]
     dependent = [a for a in answers if a.argument != "independent relations"] or answers
     weak = max(dependent, key=lambda a: VERDICTS.index(a.verdict), default=None)
-    found = Answer(
+    result = Answer(
         dof=_total([a.dof for a in answers], free),
         velocity_dof=_total([a.velocity_dof for a in answers], free),
         verdict=weakest(*(a.verdict for a in answers)),
@@ -135,9 +135,9 @@ def _together(block: Block, setting: Setting, parts: Sequence[AnsweredPart], fre
         parts=tuple(parts),
     )
     if answers:
-        found.bits, found.gap = min(a.bits for a in answers), min(a.gap for a in answers)
-    found.derived = None if found.dof is None else (len(block.coordinates) - found.dof,)
-    return found
+        result.bits, result.gap = min(a.bits for a in answers), min(a.gap for a in answers)
+    result.derived = None if result.dof is None else (len(block.coordinates) - result.dof,)
+    return result
 
 
 def _total(numbers: Sequence[int | None], free: int) -> int | None:
@@ -147,9 +147,9 @@ def _total(numbers: Sequence[int | None], free: int) -> int | None:
 
 def _looked(block: Block, parts: Sequence[AnsweredPart]) -> FollowedClasses:
     """What was looked at; all equations but those of the parts were left out, where classes were looked at apart."""
-    told = [p.answer.looked for p in parts]
-    whole = FollowedClasses(*map(sum, zip(FollowedClasses(), *told, strict=True)))
-    if any(not (k.left_out or k.rigid or k.followed) for k in told):
+    answer = [p.answer.looked for p in parts]
+    whole = FollowedClasses(*map(sum, zip(FollowedClasses(), *answer, strict=True)))
+    if any(not (k.left_out or k.rigid or k.followed) for k in answer):
         return whole._replace(left_out=0, rigid=0, followed=0)
     return whole._replace(left_out=whole.left_out + len(block.rows) - sum(len(p.block.rows) for p in parts))
 

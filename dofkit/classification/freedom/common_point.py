@@ -14,13 +14,13 @@ from typing import NamedTuple
 
 from flint import arb
 
-from dofkit.base.components import components
+from dofkit.base.libraries import components
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.block import answer
 from dofkit.configuration.components import explicit_relations
 from dofkit.configuration.finite_blocks import OFF_REFERENCE
-from dofkit.configuration.reality import BALL_COLUMNS
-from dofkit.configuration.witness import Witness, of_real_point
+from dofkit.configuration.generic_dimension import BALL_COLUMNS
+from dofkit.configuration.variety import Witness, of_real_point
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealPoint, RealSearch
@@ -197,10 +197,10 @@ def at_one_point(
     put beside the rows that share a coordinate with it, and these are ``answered`` again.
     """
     written = _with_conditions(blocks, domain)
-    kept, found = list(blocks), simultaneous(written, answers, setting, answered)
-    if any(a.consistent is not True for a in found):
-        return CommonPoint(kept, found)
-    point = _point(found, setting)
+    kept, result = list(blocks), simultaneous(written, answers, setting, answered)
+    if any(a.consistent is not True for a in result):
+        return CommonPoint(kept, result)
+    point = _point(result, setting)
     outside = [(i, c) for i, c in domain if not _holds_strictly(c, point)]
     names = [*(_names(block) for block in written), *(_names_of(c, i) for i, c in outside)]
     own: dict[Expr, str] = {}
@@ -212,19 +212,21 @@ def at_one_point(
             continue
         conditions = tuple(dict.fromkeys(c for _, c in added))
         merged = _merged([written[i] for i in members], conditions, setting)
-        told = answered(merged)
+        values_of = answered(merged)
         free = len(merged.coordinates) - sum(len(blocks[i].coordinates) for i in members)
-        if told.consistent and told.dof == free + sum(found[i].dof or 0 for i in members):
-            own |= told.witness or {}
+        if values_of.consistent and values_of.dof == free + sum(result[i].dof or 0 for i in members):
+            own |= values_of.witness or {}
             for i in members:
-                found[i] = replace(found[i], witness=told.witness, verdict=weakest(found[i].verdict, told.verdict))
+                result[i] = replace(
+                    result[i], witness=values_of.witness, verdict=weakest(result[i].verdict, values_of.verdict)
+                )
             continue
-        consistent = False if told.consistent is False else None
+        consistent = False if values_of.consistent is False else None
         if not members:
             failed[consistent] += [i for i, _ in added]
         for i in members:
-            kept[i], found[i] = written[i], _not_consistent(found[i], told, OUTSIDE)
-    together = simultaneous(written, found, setting, answered)
+            kept[i], result[i] = written[i], _not_consistent(result[i], values_of, OUTSIDE)
+    together = simultaneous(written, result, setting, answered)
     return CommonPoint(kept, together, own, tuple(failed[False]), tuple(failed[None]))
 
 
@@ -239,14 +241,14 @@ def _names_of(c: DomainCondition, owner: int) -> frozenset[Hashable]:
 
 def _with_conditions(blocks: Sequence[Block], domain: Sequence[tuple[int, DomainCondition]]) -> list[Block]:
     """The blocks with the conditions that hold no other coordinates than theirs, or none beside their constraints."""
-    found = list(blocks)
+    result = list(blocks)
     for owner, c in domain:
         names = coordinates_in(c.expr)
-        for k, block in enumerate(found):
+        for k, block in enumerate(result):
             own = names <= {*block.coordinates} if names else any(row.constraint == owner for row in block.rows)
             if own and c not in block.conditions:
-                found[k] = replace(block, conditions=(*block.conditions, c))
-    return found
+                result[k] = replace(block, conditions=(*block.conditions, c))
+    return result
 
 
 def _point(answers: Sequence[Answer], setting: Setting) -> dict[Expr, arb]:
@@ -345,9 +347,9 @@ def _as_one(
 def _not_consistent(a: Answer, together: Answer, why: str) -> Answer:
     """Return the answer to a block where it is inconsistent together with others, or it is not known whether it is."""
     impossible = together.consistent is False
-    told = Answer(False if impossible else None, verdict=together.verdict if impossible else "undecided")
+    answers = Answer(False if impossible else None, verdict=together.verdict if impossible else "undecided")
     reasons = [*together.reasons, why]
-    return replace(told, argument=together.argument if impossible else None, reasons=reasons, method=a.method)
+    return replace(answers, argument=together.argument if impossible else None, reasons=reasons, method=a.method)
 
 
 def _merged(blocks: Sequence[Block], conditions: Sequence[DomainCondition], setting: Setting) -> Block:

@@ -64,11 +64,11 @@ class Likenesses:
 
     def _roles_of(self, block: Block) -> Hashable:
         owners: dict[str | None, int] = {None: -1}
-        roles, tilts, found = self._roles, self._setting.tilts, []
+        roles, tilts, result = self._roles, self._setting.tilts, []
         for name in block.coordinates:
             owner, role = roles.get(name, _FREE)
-            found.append((owners.setdefault(owner, len(owners)), role, name in tilts))
-        return tuple(found)
+            result.append((owners.setdefault(owner, len(owners)), role, name in tilts))
+        return tuple(result)
 
 
 def _by_name(values: Mapping[Expr, Expr]) -> dict[str, Expr]:

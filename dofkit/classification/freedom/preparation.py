@@ -12,7 +12,7 @@ from itertools import chain, count
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import Fault, SceneError, TextError
-from dofkit.configuration.drawing.at_reference import ball_matrix, ball_point
+from dofkit.configuration.at_reference import ball_matrix, ball_point
 from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.errors import NoValueError
@@ -22,8 +22,8 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import Unwritten, kinds_in, shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.integrability import accelerations
-from dofkit.mobility.bridges import Bridges, bridges
-from dofkit.mobility.rows_at_drawing import RowsAtDrawing
+from dofkit.mobility.joint_tree import Bridges, bridges
+from dofkit.mobility.placement import RowsAtReference
 from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.chart import make_chart
 from dofkit.relations.normal.domain import DomainCondition, arguments_of, holds_at
@@ -74,17 +74,17 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
         tilts=frozenset(r.names[1] for r in system.rotations if r.chart == "euler"),
         bridges=apart.joints,
         afloat=apart.afloat,
-        joint_rows=RowsAtDrawing(system, positive).of if apart.joints else None,
+        joint_rows=RowsAtReference(system, positive).of if apart.joints else None,
     )
     return reduced, setting
 
 
 def _links(system: System) -> dict[int, list[tuple[str, str]]]:
     """The particles that rigid links join, by constraint."""
-    found: dict[int, list[tuple[str, str]]] = {}
+    result: dict[int, list[tuple[str, str]]] = {}
     for i, a, b in system.links:
-        found.setdefault(i, []).append((a, b))
-    return found
+        result.setdefault(i, []).append((a, b))
+    return result
 
 
 def reduce_all(system: System, positive: frozenset[Expr], apart: frozenset[int] = frozenset()) -> list[Reduced]:
@@ -92,11 +92,11 @@ def reduce_all(system: System, positive: frozenset[Expr], apart: frozenset[int] 
 
     Those of joints ``apart`` are not written out where they are not yet.
     """
-    found, faults = [], []
+    result, faults = [], []
     read = _Normals(system, positive)
     for i, constraint in enumerate(system.constraints):
         if i in apart and isinstance(constraint.relations, Unwritten):
-            found.append(Reduced(constraint, unwritten(constraint.relations), (), constraint.relations))
+            result.append(Reduced(constraint, unwritten(constraint.relations), (), constraint.relations))
             continue
         normals, inequalities, written = [], [], []
         for relation in constraint.relations:
@@ -110,10 +110,10 @@ def reduce_all(system: System, positive: frozenset[Expr], apart: frozenset[int] 
                 written.append(relation)
             except TextError as error:
                 faults.append(Fault(f"'{constraint.name}': {error.message}", ("constraints", i), hint=error.hint))
-        found.append(Reduced(constraint, tuple(normals), tuple(inequalities), tuple(written)))
+        result.append(Reduced(constraint, tuple(normals), tuple(inequalities), tuple(written)))
     if faults:
         raise SceneError(tuple(faults), system.name)
-    return found
+    return result
 
 
 class _Normals:
@@ -137,9 +137,9 @@ class _Normals:
         key = (shape.skeleton, shape.order)
         if key in self._known:
             return self._known[key].of(shape.names)
-        found = without_instants(normalise(e, self._positive, written), self._positive)
-        self._known[key] = NormalTemplate(found, shape.names)
-        return found
+        result = without_instants(normalise(e, self._positive, written), self._positive)
+        self._known[key] = NormalTemplate(result, shape.names)
+        return result
 
 
 def _fresh(system: System) -> Iterator[str]:
@@ -249,15 +249,15 @@ def copies(reduced: Sequence[Reduced]) -> dict[int, int]:
         if r.normals and not r.inequalities and not any(_says_nothing(normal) for normal in r.normals):
             alike.setdefault(_mentioned(r.normals), []).append(i)
     seen: dict[Hashable, int] = {}
-    found = {}
+    result = {}
     for i in sorted(i for numbers in alike.values() if len(numbers) > 1 for i in numbers):
         keys = [_up_to_a_number(normal) for normal in reduced[i].normals]
         key: Hashable = keys[0] if len(keys) == 1 else frozenset(Counter(keys).items())
         if key in seen:
-            found[i] = seen[key]
+            result[i] = seen[key]
         else:
             seen[key] = i
-    return found
+    return result
 
 
 def _mentioned(normals: Sequence[Normal]) -> Hashable:

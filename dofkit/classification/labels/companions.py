@@ -103,11 +103,11 @@ def _largest(i: int, r: Reduced, parts: AnsweredParts) -> Answer | None:
         if number == MAX_CHOICES:
             seen_all = False
             break
-        found = _in_time(with_rows(rows, constants), parts, mentioned)
-        seen_all = seen_all and (found.consistent is False or found.dof is not None)
-        size = int(found.consistent is not False), found.dof or 0, found.velocity_dof or 0
+        result = _in_time(with_rows(rows, constants), parts, mentioned)
+        seen_all = seen_all and (result.consistent is False or result.dof is not None)
+        size = int(result.consistent is not False), result.dof or 0, result.velocity_dof or 0
         if best is None or size > best[0]:
-            best = size, found, any(isinstance(row.piece, Pfaffian) for row in rows)
+            best = size, result, any(isinstance(row.piece, Pfaffian) for row in rows)
     if not seen_all and (best is None or best[1].dof != len(mentioned)):
         return Answer(None, verdict="undecided")
     return best[1] if best is not None and best[2] else None
@@ -234,8 +234,8 @@ class Companionship:
                 i for i, r in enumerate(part.rows) if r.constraint == constraint and isinstance(r.piece, Pfaffian)
             ]
             if linear:
-                found = self.parts.of(part)
-                if not found.consistent or any(not _true(found, i) for i in linear):
+                result = self.parts.of(part)
+                if not result.consistent or any(not _true(result, i) for i in linear):
                     return False
         return True
 
@@ -330,13 +330,13 @@ def integrable_part(
     for block, a in blocks:
         known = len(block.finite) + len(a.hidden)
         finite = rank_of_rows(a.matrix[:known], a.modulus) if a.matrix else known
-        left = len(block.coordinates) - (a.dof or 0) - finite
-        left -= _constants(block)
-        found = _integrals(block, left, entries, company) if left > 0 else []
-        if found is None or basis is None:
+        remaining = len(block.coordinates) - (a.dof or 0) - finite
+        remaining -= _constants(block)
+        result = _integrals(block, remaining, entries, company) if remaining > 0 else []
+        if result is None or basis is None:
             basis = None
         else:
-            basis += [f"{to_text(g)} = 0" for g in a.hidden] + found
+            basis += [f"{to_text(g)} = 0" for g in a.hidden] + result
     return IntegrablePart(rank=coordinates - outcome.dof, basis=basis)
 
 
@@ -353,5 +353,5 @@ def _integrals(
     alone = [entries[i].integral for i in owners]
     if number == len(alone) == 1 and alone[0] is not None:
         return [alone[0]]
-    found = company.basis(block)
-    return found if len(found) == number else None
+    result = company.basis(block)
+    return result if len(result) == number else None

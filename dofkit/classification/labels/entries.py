@@ -42,21 +42,21 @@ def entries_of(
 ) -> list[ConstraintEntry]:
     """An entry for every constraint, in order; one that there is no time for says so."""
     known = _dependence(dependent, outcome)
-    told = _labelled_rows(len(reduced), outcome, setting)
+    answer = _labelled_rows(len(reduced), outcome, setting)
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
     entries = list[ConstraintEntry]()
     traits_of = partial(_traits_of, setting)
     for i, r in enumerate(reduced):
-        number = known.independent.get(i, None if told[i] else 0)
+        number = known.independent.get(i, None if answer[i] else 0)
         circuit = None if i not in known.circuits else [names[j] for j in known.circuits[i]]
         try:
             check()
-            beside = partial(_with_others, i, told[i], company, names)
-            alone = by_itself(i, r, told[i], company.parts)
+            beside = partial(_with_others, i, answer[i], company, names)
+            alone = by_itself(i, r, answer[i], company.parts)
             copied = i in outcome.copies
-            evidence = Evidence(told[i], alone, number, circuit, constants, traits_of, beside, copied)
+            evidence = Evidence(answer[i], alone, number, circuit, constants, traits_of, beside, copied)
             entries.append(_with_dependence(entry(r, evidence, setting, outcome.consistent), i, r, known))
         except OutOfTimeError as error:
             entries.append(unfinished(r, str(error)))
@@ -88,18 +88,18 @@ class _Dependence(NamedTuple):
 def _dependence(dependent: Sequence[Redundancies], outcome: Outcome) -> _Dependence:
     """What was found part by part, put together."""
     independent: Counter[int] = Counter()
-    for found in dependent:
-        independent.update(found.independent)
-    uncounted = {i for found in dependent for i in found.uncounted}
-    known = {i for found in dependent for i in found.independent} - _unmeasured(outcome) - uncounted
+    for result in dependent:
+        independent.update(result.independent)
+    uncounted = {i for result in dependent for i in result.uncounted}
+    known = {i for result in dependent for i in result.independent} - _unmeasured(outcome) - uncounted
     return _Dependence(
         {i: independent[i] for i in known},
-        {i: c for found in dependent for i, c in found.circuits.items() if all(j < i for j in c)},
-        {i: found.verdict for found in dependent for i in found.redundant},
-        dict.fromkeys(uncounted, UNCOUNTED) | {i: OPEN for found in dependent for i in found.undecided},
+        {i: c for result in dependent for i, c in result.circuits.items() if all(j < i for j in c)},
+        {i: result.verdict for result in dependent for i in result.redundant},
+        dict.fromkeys(uncounted, UNCOUNTED) | {i: OPEN for result in dependent for i in result.undecided},
         _following(dependent),
-        frozenset(i for found in dependent for i in found.seen),
-        frozenset(i for found in dependent if found.about == "component" for i in found.redundant),
+        frozenset(i for result in dependent for i in result.seen),
+        frozenset(i for result in dependent if result.about == "component" for i in result.redundant),
     )
 
 
@@ -125,17 +125,17 @@ def labels_in_system(
     reduced: Sequence[Reduced], setting: Setting, outcome: Outcome
 ) -> list[tuple[bool | None, Verdict]]:
     """Whether each constraint is holonomic in the system, and how sure; what needs an integral found is left None."""
-    told = _labelled_rows(len(reduced), outcome, setting)
+    answer = _labelled_rows(len(reduced), outcome, setting)
     if not outcome.consistent:
         return [(None, "undecided")] * len(reduced)
-    return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(told, reduced, strict=True)]
+    return [label_in_system(rows, r.inequalities, (), ()) for rows, r in zip(answer, reduced, strict=True)]
 
 
 def _following(dependent: Sequence[Redundancies]) -> dict[int, set[int]]:
     """The scalar equations of each constraint that follow from those before them, by their numbers."""
     following: dict[int, set[int]] = {}
-    for found in dependent:
-        for i, equations in found.equations.items():
+    for result in dependent:
+        for i, equations in result.equations.items():
             following.setdefault(i, set()).update(equations)
     return following
 
@@ -167,9 +167,9 @@ def _with_others(
     only = next(iter(blocks.values())) if len(blocks) == 1 else None
     if only is None or only.block is None or not (in_system or any(t.label and t.label.modulo for t in told)):
         return Others()
-    found = (company.of if in_system else company.modulo)(i, only.block, only.answer)
-    companions = None if found.companions is None else tuple(f"'{names[k]}'" for k in found.companions)
-    return Others(companions, found.integral, found.identically, found.timed)
+    result = (company.of if in_system else company.modulo)(i, only.block, only.answer)
+    companions = None if result.companions is None else tuple(f"'{names[k]}'" for k in result.companions)
+    return Others(companions, result.integral, result.identically, result.timed)
 
 
 def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list[LabelledRow]]:
@@ -177,19 +177,19 @@ def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list
 
     What the other constraints reduce is labelled as it was written.
     """
-    told: list[list[LabelledRow]] = [[] for _ in range(number)]
+    answer: list[list[LabelledRow]] = [[] for _ in range(number)]
     replaced = {id(row) for slot in outcome.reduced for row in slot.rows}
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
         linear = [r for r in block.rows if not isinstance(r.piece, Nonlinear)]
         for i, row in enumerate(linear):
             if id(row) not in replaced:
-                told[row.constraint].append(LabelledRow(row, a.labels.get(i), a, block))
+                answer[row.constraint].append(LabelledRow(row, a.labels.get(i), a, block))
         for row in block.rows:
             if isinstance(row.piece, Nonlinear):
-                told[row.constraint].append(LabelledRow(row, None, a, block))
+                answer[row.constraint].append(LabelledRow(row, None, a, block))
     for slot in outcome.reduced:
-        found, a = label_modulo_others(slot, outcome.blocks, outcome.answers, setting)
-        told[slot.written.constraint].append(LabelledRow(slot.written, found, a, reduced=True))
+        result, a = label_modulo_others(slot, outcome.blocks, outcome.answers, setting)
+        answer[slot.written.constraint].append(LabelledRow(slot.written, result, a, reduced=True))
     for i, original in outcome.copies.items():
-        told[i] = [LabelledRow(Row(i, t.row.piece), t.label, t.answer, t.block, t.reduced) for t in told[original]]
-    return told
+        answer[i] = [LabelledRow(Row(i, t.row.piece), t.label, t.answer, t.block, t.reduced) for t in answer[original]]
+    return answer

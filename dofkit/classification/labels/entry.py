@@ -7,17 +7,14 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from dofkit.base.verdicts import OPEN, VERDICTS, Claim, Verdict, weakest
-from dofkit.classification.freedom.preparation import all_of
 from dofkit.classification.labels.reasons import (
     EntryLabels,
     EntryTraits,
-    FoundLabels,
     Ground,
     Labels,
     Others,
     branches_of_time,
     claim_of_dependence,
-    claims_of_labels,
     declared_functions,
     joined,
     reason_of,
@@ -36,6 +33,9 @@ from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Normal, Pfaffian, Reduced, Still, with_constants
 from dofkit.relations.setting import Setting
 from dofkit.report import FORMS, ConstraintEntry, FieldVerdict, Form
+
+#: Whether something is holonomic, and how certain that is.
+HolonomyVerdict = tuple[bool | None, Verdict]
 
 
 class LabelledRow(NamedTuple):
@@ -86,20 +86,20 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
     forms = _integrable_forms(normals, evidence.rows)
     own_constants = {c: evidence.constants.get(c, ex.parameter(c)) for c in reduced.constants}
-    shown = [*(with_constants(p, own_constants) for n in normals for p in n.pieces), *reduced.inequalities]
+    text = [*(with_constants(p, own_constants) for n in normals for p in n.pieces), *reduced.inequalities]
     own_forms = [p for f in forms if isinstance(p := with_constants(f, own_constants), Pfaffian)]
     proofs = _proofs(form, own_forms, evidence.by_itself, setting)
     labels = _labels_of(reduced, evidence, form, proofs, forms, consistent)
     integrals = _integrals_of(form, labels, proofs, evidence, bool(consistent))
-    own_traits = _traits_of(pieces, shown, normals, evidence)
-    single = evidence.rows[0] if len(evidence.rows) == len(shown) == 1 else None
-    timed = timed_in_system(shown[0], single.block, single.answer, integrals.others, setting) if single else None
+    own_traits = _traits_of(pieces, text, normals, evidence)
+    single = evidence.rows[0] if len(evidence.rows) == len(text) == 1 else None
+    timed = timed_in_system(text[0], single.block, single.answer, integrals.others, setting) if single else None
     every = _of_every_form(labels, evidence.rows, normals)
     traits = traits_together([*own_traits, *branches_of_time(normals, bool(consistent))], form, every, timed)
     reasons = _labels(labels.in_system, labels.alone, evidence.rows)
     sentences = reason_of(form, reasons, proofs, evidence.circuit, integrals.others)
     reason = _once(normals) + sentences + reason_of_time(traits)
-    claims = _claims(form, labels, traits, integrals, evidence, bool(proofs) and all(p.proved for p in proofs))
+    claims = _claims(form, labels, traits, integrals.integral, evidence, bool(proofs) and all(p.proved for p in proofs))
     return ConstraintEntry(
         name=constraint.name,
         type=constraint.type,
@@ -187,31 +187,35 @@ def _claims(
     form: Form,
     labels: EntryLabels,
     traits: EntryTraits,
-    integrals: _EntryIntegrals,
+    integral: str | None,
     evidence: Evidence,
-    by_themselves: bool,
+    on_their_own: bool,
 ) -> dict[str, Claim]:
-    """How sure every label is."""
+    """Return the claim of every label; ``on_their_own``: all forms were proved to integrate without other constraints.
+
+    A claim about the system is one about the points at which its blocks were answered.
+    """
+    ground = Ground(form, [t.answer for t in evidence.rows], [t.label for t in evidence.rows if t.label is not None])
     in_system, alone = labels.verdicts
-    values: dict[str, bool | str | None] = {
-        "holonomic": labels.in_system,
-        "holonomic_alone": labels.alone,
-        "scleronomic": traits.scleronomic,
+    holonomy = {
+        "holonomic": (labels.in_system, in_system),
+        "holonomic_alone": (labels.alone, alone),
+        **({} if integral is None else {"integral": (True, in_system)}),
     }
-    if form in ("pfaffian", "nonlinear"):
-        values["catastatic"] = traits.catastatic
-    if form == "pfaffian":
-        values["exact"] = traits.exact
-    if integrals.integral is not None:
-        values["integral"] = integrals.integral
-    verdicts = {"holonomic": in_system, "holonomic_alone": alone, "integral": in_system, **traits.verdicts}
-    rows = evidence.rows
-    ground = Ground(form, [t.answer for t in rows], [t.label for t in rows if t.label is not None])
-    claims = claims_of_labels(ground, FoundLabels(values, verdicts, by_themselves))
+    claims = {}
+    for name, (value, verdict) in holonomy.items():
+        argument = ground.argument(value, on_their_own)
+        claims[name] = OPEN if value is None else ground.claim(verdict, argument, name != "holonomic_alone")
+    time = {"scleronomic": traits.scleronomic}
+    time |= {"catastatic": traits.catastatic} if form in ("pfaffian", "nonlinear") else {}
+    time |= {"exact": traits.exact} if form == "pfaffian" else {}
+    for name, value in time.items():
+        argument = "identity" if value else "zero with another derivative"
+        claims[name] = OPEN if value is None else ground.claim(traits.verdicts[name], argument, False)
     if traits.by is not None and traits.scleronomic is not None:
         claims["scleronomic"] = ground.claim(traits.verdicts["scleronomic"], claims[traits.by].argument or "identity")
     if evidence.independent is not None:
-        all_needed = evidence.circuit is None and evidence.independent >= len(rows)
+        all_needed = evidence.circuit is None and evidence.independent >= len(evidence.rows)
         claims["independent"] = claim_of_dependence(ground, all_needed, evidence.copied)
     if evidence.circuit is not None:
         claims["circuit"] = claims.get("independent", OPEN)
@@ -269,44 +273,33 @@ def _labels(in_system: bool | None, own: bool | None, told: Sequence[LabelledRow
 
 
 def label_in_system(
-    told: Sequence[LabelledRow],
+    rows: Sequence[LabelledRow],
     inequalities: Sequence[Clause],
     proofs: Sequence[Integrability],
     forms: Sequence[Pfaffian],
-) -> tuple[bool | None, Verdict]:
-    """(holonomic, verdict): all rows are consequences of finite relations; an inequality never is."""
+) -> HolonomyVerdict:
+    """Return whether all rows are consequences of finite equations, which an inequality never is."""
     if inequalities:
         return False, "proved"
-    proved = [f for f, p in zip(forms, proofs, strict=False) if p.proved]
-    labels: list[bool | None] = []
-    verdicts: list[Verdict] = []
-    for t in told:
-        if isinstance(t.row.piece, (Finite, Still)) or t.row.piece in proved:
-            labels.append(True)
-        elif isinstance(t.row.piece, Nonlinear) and not t.reduced:
-            labels.append(False if t.answer.curved else None)
-            verdicts.append("proved" if t.answer.curved else "undecided")
-        elif t.label is None:
-            labels.append(None)
-            verdicts.append("undecided")
-        else:
-            labels.append(t.label.holonomic)
-            verdicts.append(t.label.verdict)
-    together = all_of(labels)
-    if together is False:
-        return False, _strongest(told, proved)
-    return together, weakest(*verdicts)
+    integrable = [f for f, p in zip(forms, proofs, strict=False) if p.proved]
+    return _together([_label_of_row(t, integrable) for t in rows])
 
 
-def _strongest(told: Sequence[LabelledRow], proved: Sequence[Pfaffian]) -> Verdict:
-    """How sure the surest row is that it is not holonomic."""
-    found: list[Verdict] = []
-    for t in told:
-        if isinstance(t.row.piece, Nonlinear) and t.answer.curved:
-            found.append("proved")
-        elif t.label is not None and t.label.holonomic is False and t.row.piece not in proved:
-            found.append(t.label.verdict)
-    return min(found, key=VERDICTS.index, default="proved")
+def _label_of_row(t: LabelledRow, integrable: Sequence[Pfaffian]) -> HolonomyVerdict:
+    if isinstance(t.row.piece, (Finite, Still)) or t.row.piece in integrable:
+        return True, "proved"
+    if isinstance(t.row.piece, Nonlinear) and not t.reduced:
+        return (False, "proved") if t.answer.curved else (None, "undecided")
+    return (None, "undecided") if t.label is None else (t.label.holonomic, t.label.verdict)
+
+
+def _together(labels: Sequence[HolonomyVerdict]) -> HolonomyVerdict:
+    """Return the label of several rows; it is as sure that they are not all holonomic as for the surest of them."""
+    against = [verdict for holonomic, verdict in labels if holonomic is False]
+    if against:
+        return False, min(against, key=VERDICTS.index)
+    undecided = any(holonomic is None for holonomic, _ in labels)
+    return (None, "undecided") if undecided else (True, weakest(*(verdict for _, verdict in labels)))
 
 
 def _alone(
@@ -315,7 +308,8 @@ def _alone(
     proofs: Sequence[Integrability],
     forms: Sequence[Pfaffian],
     inequalities: Sequence[Clause],
-) -> tuple[bool | None, Verdict]:
+) -> HolonomyVerdict:
+    """Return whether the constraint is holonomic, the other constraints forgotten."""
     if inequalities:
         return False, "proved"
     if form == "nonlinear":
@@ -323,10 +317,6 @@ def _alone(
         return (False, "proved") if curved else (None, "undecided")
     if by_itself is None or (forms and all(p.proved for p in proofs)):
         return True, "proved"
-    labels = list(by_itself.labels.values())
-    if by_itself.consistent is not True or not labels:
+    if by_itself.consistent is not True or not by_itself.labels:
         return None, "undecided"
-    together = all_of(label.holonomic for label in labels)
-    if together is False:
-        return False, min((x.verdict for x in labels if x.holonomic is False), key=VERDICTS.index, default="proved")
-    return together, weakest(*(x.verdict for x in labels))
+    return _together([(label.holonomic, label.verdict) for label in by_itself.labels.values()])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from dofkit.base.verdicts import OPEN, ArgumentKey, Claim, Verdict, least, together, weakest
 from dofkit.expressions import tree as ex
@@ -58,8 +58,8 @@ class Labels:
 
 def joined(parts: Sequence[str | None]) -> str | None:
     """The parts in one text; None unless every one is there."""
-    found = [p for p in parts if p is not None]
-    return "; ".join(found) if found and len(found) == len(parts) else None
+    result = [p for p in parts if p is not None]
+    return "; ".join(result) if result and len(result) == len(parts) else None
 
 
 def reason_of(
@@ -124,9 +124,9 @@ def _pfaffian(labels: Labels, proofs: Sequence[Integrability], others: Others) -
 
 
 def _integrable(proofs: Sequence[Integrability], others: Others) -> str:
-    found = joined([p.integral for p in proofs]) or (others.integral and others.text)
-    if found:
-        return f"It integrates to {found}: holonomic; {_INITIAL}."
+    result = joined([p.integral for p in proofs]) or (others.integral and others.text)
+    if result:
+        return f"It integrates to {result}: holonomic; {_INITIAL}."
     how = next((p.reason for p in proofs if p.reason), "d(omega) ^ omega = 0")
     return f"It is integrable ({how}), though no integral was found in closed form: holonomic; {_INITIAL}."
 
@@ -164,12 +164,12 @@ def in_words(relation: Relation, otherwise: str) -> str:
     >>> in_words(Relation(ZERO, part="axis", vector=(ONE, ZERO, ZERO)), "")
     'no rotation about (1, 0, 0)'
     """
-    word, _, rest = relation.part.partition(" ")
-    told = _SAYS[word].format(rest) if word in _SAYS else relation.part or otherwise
+    word, _, remainder = relation.part.partition(" ")
+    answer = _SAYS[word].format(remainder) if word in _SAYS else relation.part or otherwise
     if word not in _ABOUT or not relation.vector or not _given(relation.vector):
-        return told
+        return answer
     about = _ABOUT[word].format(f"({', '.join(to_text(part) for part in relation.vector)})")
-    return told + about if about.startswith(" ") else about
+    return answer + about if about.startswith(" ") else about
 
 
 def _given(vector: tuple[Expr, ...]) -> bool:
@@ -208,9 +208,9 @@ def timed_in_system(
         return others.timed, sure
     finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)]
     for g in (*finite, *answer.hidden):
-        still, found = vanishes_on(g, piece.dt, setting.positive)
+        still, result = vanishes_on(g, piece.dt, setting.positive)
         if still:
-            return False, found
+            return False, result
     return others.timed, sure
 
 
@@ -292,14 +292,6 @@ BY_FORM: Mapping[Form, ArgumentKey] = {
 }
 
 
-class FoundLabels(NamedTuple):
-    """Labels by their fields, and how sure each is; of forms, whether all were proved to integrate by themselves."""
-
-    values: Mapping[str, Any]
-    verdicts: Mapping[str, Verdict]
-    by_themselves: bool
-
-
 class Ground(NamedTuple):
     """What the claims of one constraint rest on: the answers of its blocks, and the labels of its rows there."""
 
@@ -314,27 +306,16 @@ class Ground(NamedTuple):
         about = least(*(a.about for a in self.answers)) if local else "everywhere"
         return OPEN if verdict == "undecided" else Claim(verdict, argument, bits, gap, about)
 
-
-def claims_of_labels(ground: Ground, found: FoundLabels) -> dict[str, Claim]:
-    """The claims of the labels that were decided, and of those that are open."""
-    claims = {}
-    for name, value in found.values.items():
-        verdict: Verdict = "undecided" if value is None else found.verdicts[name]
-        claims[name] = ground.claim(verdict, _argument(ground, found, name, value), name in ("holonomic", "integral"))
-    return claims
-
-
-def _argument(ground: Ground, found: FoundLabels, name: str, value: Any) -> ArgumentKey:
-    if name in ("scleronomic", "catastatic", "exact"):
-        return "identity" if value else "zero with another derivative"
-    if found.by_themselves and value:
-        return "form by itself"
-    if ground.form in BY_FORM:
-        return BY_FORM[ground.form]
-    if value is False:
-        return "outside the integrable part"
-    line = all(label.reason == "line" for label in ground.labels)
-    return "line field" if ground.labels and line else "in the integrable part"
+    def argument(self, value: bool | None, on_their_own: bool) -> ArgumentKey:
+        """Return the argument by which the constraint is holonomic, or is not."""
+        if on_their_own and value:
+            return "form by itself"
+        if self.form in BY_FORM:
+            return BY_FORM[self.form]
+        if value is False:
+            return "outside the integrable part"
+        is_line = all(label.reason == "line" for label in self.labels)
+        return "line field" if self.labels and is_line else "in the integrable part"
 
 
 def claim_of_dependence(ground: Ground, all_needed: bool, copied: bool) -> Claim:

@@ -1,9 +1,11 @@
-"""Where the answers change: loci on which a rank drops or the curvature vanishes, and special parameter values.
+"""Where the answers change: loci on which a rank drops or the curvature vanishes, and branches of other dimensions.
 
-Every answer elsewhere is the generic one. Candidates are the common real zeros of the largest minors of the rows, of
-the curvature d(omega) on their kernel, and of coefficients' denominators; those between parameters alone are put into
-the scene, which is answered again. Only what is confirmed to differ from the generic answer is listed, and it is not
-claimed that the list is complete: large blocks are not searched.
+Every answer elsewhere is the generic one. `minors` writes the rows of a small block as polynomials; `common_zeros`
+finds the real zeros of their largest minors, and of the curvature d(omega) on their kernel, as conditions that a person
+can read; `loci` confirms each at a point over GF(p) and at a certified real one; `cases` states what changes there.
+Where the answer belongs to one of several branches, the set outside it is answered again [Rabinowitsch1929].
+Only what is confirmed to differ is listed, and it is not claimed that the list is complete: large blocks are not
+searched.
 """
 
 from __future__ import annotations

@@ -43,19 +43,19 @@ def branch_dimensions(
     if system.reference is not None or not report.dof or claim is None or claim.about == "component":
         return
     for h in list(dict.fromkeys(_separating(reduced, outcome)))[:MAX_EXPRESSIONS]:
-        rest = None if expired() else again(where_nonzero(system, h))
-        elsewhere = None if rest is None else rest.verdicts.get("dof")
-        if rest is None or rest.dof is None or elsewhere is None or elsewhere.about == "component":
+        remainder = None if expired() else again(where_nonzero(system, h))
+        elsewhere = None if remainder is None else remainder.verdicts.get("dof")
+        if remainder is None or remainder.dof is None or elsewhere is None or elsewhere.about == "component":
             continue
         sure = weakest(claim.verdict, elsewhere.verdict)
-        if rest.consistent and rest.dof < report.dof and sure != "undecided":
-            shown = to_text(in_order(h, order_of(system)))
+        if remainder.consistent and remainder.dof < report.dof and sure != "undecided":
+            text = to_text(in_order(h, order_of(system)))
             concerned = (c for c in system.constraints if any(h.symbols & r.expr.symbols for r in c.relations))
             yield SpecialCase(
-                where=f"{shown} = 0",
+                where=f"{text} = 0",
                 kind="branch",
                 what=f"only this branch has {many(report.dof, 'degree')} of freedom; "
-                f"where {shown} is not 0 there {verb(rest.dof)} {rest.dof}",
+                f"where {text} is not 0 there {verb(remainder.dof)} {remainder.dof}",
                 constraints=[c.name for c in concerned],
                 verdict=sure,
             )
@@ -78,8 +78,8 @@ def _separating(reduced: Sequence[Reduced], outcome: Outcome) -> Iterator[Expr]:
     """Yield expressions that vanish on the branch that was answered, and may not do so on others."""
     products = [n for r in reduced for n in r.normals if len(n.branches) > 1]
     factors = {p.expr for n in products for branch in n.branches for p in branch if isinstance(p, Finite)}
-    found = [r.piece.expr for r in outcome.rows if isinstance(r.piece, Finite) and r.piece.expr in factors]
-    for h in [*found, *(h for a in outcome.answers for h in a.separating)]:
+    result = [r.piece.expr for r in outcome.rows if isinstance(r.piece, Finite) and r.piece.expr in factors]
+    for h in [*result, *(h for a in outcome.answers for h in a.separating)]:
         yield number_and_rest(h)[1]
 
 
@@ -152,18 +152,18 @@ def special_cases(
     """
     if setting.tolerance is not None or len(outcome.blocks) > MAX_BLOCKS:
         return {}
-    told = GenericAnswer(system, setting, report, order_of(system), [q for r in reduced for q in r.inequalities])
+    answer = GenericAnswer(system, setting, report, order_of(system), [q for r in reduced for q in r.inequalities])
     cases: list[SpecialCase] = []
     with limited(MAX_SECONDS):
         with suppress(*_UNFINISHED):
             cases.extend(branch_dimensions(system, reduced, outcome, report, again))
         blocks = zip(outcome.blocks, outcome.answers, strict=True)
-        found = [s for b, a in blocks if _is_searched(b, a, told) and (s := _search(b, a, told)) is not None]
-        if not found:
+        result = [s for b, a in blocks if _is_searched(b, a, answer) and (s := _search(b, a, answer)) is not None]
+        if not result:
             return {"special_cases": cases} if cases else {}
-        for block in found:
+        for block in result:
             with suppress(*_UNFINISHED):
-                cases.extend(_places(block, told))
+                cases.extend(_places(block, answer))
     return {"special_cases": _merged(cases), "method": f"{report.method}; {SEARCHED}"}
 
 
@@ -253,10 +253,10 @@ def _located(found: SearchedBlock, told: GenericAnswer) -> Iterator[tuple[Leaf, 
 
 def _locus_of(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, grows: int) -> Locus | None:
     canon, reals = found.table.canon, found.table.reals
-    left = [g for g in found.table.relations if not reals.vanishes_on(leaf, g)]
-    if len(leaf.conditions(canon)) + len(left) > len(found.block.coordinates):
+    remaining = [g for g in found.table.relations if not reals.vanishes_on(leaf, g)]
+    if len(leaf.conditions(canon)) + len(remaining) > len(found.block.coordinates):
         return None
-    conditions, relations = ([canon.to_expr(p) for p in polys] for polys in (leaf.conditions(canon), left))
+    conditions, relations = ([canon.to_expr(p) for p in polys] for polys in (leaf.conditions(canon), remaining))
     try:
         return place(found.block, found.answer, told.setting, conditions, relations, grows)
     except _UNFINISHED:

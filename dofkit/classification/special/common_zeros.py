@@ -54,11 +54,11 @@ class Reals:
         ring = canon.ring
         self.never = self.signs.positive | {v.index for v in ring.vars if v.kind == "symbol" and v.key in nonzero}
         self.free = {v.index for v in ring.vars if v.kind == "symbol"} - self.never
-        shown = [e.symbols for e in ring.var_expr]
-        self.moving = {i for i, s in enumerate(shown) if any(x.args[0] in ("coordinate", "time") for x in s)}
+        text = [e.symbols for e in ring.var_expr]
+        self.moving = {i for i, s in enumerate(text) if any(x.args[0] in ("coordinate", "time") for x in s)}
         self.moving |= {v.index for v in ring.vars if v.kind == "call"}
         self.inside = frozenset().union(
-            *(s for v, s in zip(ring.vars, shown, strict=True) if v.kind != "symbol"), frozenset[Expr]()
+            *(s for v, s in zip(ring.vars, text, strict=True) if v.kind != "symbol"), frozenset[Expr]()
         )
 
     def never_zero(self, poly: Poly) -> bool:
@@ -88,13 +88,13 @@ class Reals:
             return [self.canon.gens[i] for i in self.canon.generators_in(poly) if i not in self.never]
         if poly.total_degree() == 1:
             return [] if self.never_zero(poly) else [poly]
-        found = [f for f, _ in poly.factor()[1] if not self.never_zero(f)]
+        result = [f for f, _ in poly.factor()[1] if not self.never_zero(f)]
         for var in self.canon.ring.vars:
             if var.kind in ("cos", "sin"):
                 ends = [self.canon.gens[var.index] - 1, self.canon.gens[var.index] + 1]
-                if all(end in found for end in ends):
-                    found = [f for f in found if f not in ends] + [self.canon.gens[var.partner]]
-        return found
+                if all(end in result for end in ends):
+                    result = [f for f in result if f not in ends] + [self.canon.gens[var.partner]]
+        return result
 
     def put(self, poly: Poly, values: Sequence[tuple[int, Poly]]) -> Poly:
         """A polynomial with generators replaced by their values."""
@@ -113,8 +113,8 @@ class Reals:
 
     def vanishes_on(self, leaf: Leaf, poly: Poly) -> bool:
         """Return whether a polynomial is shown to vanish wherever the conditions of a leaf hold."""
-        left = self.on(leaf, poly)
-        return left == 0 or any(divmod(left, condition)[1] == 0 for condition in leaf.others)
+        remaining = self.on(leaf, poly)
+        return remaining == 0 or any(divmod(remaining, condition)[1] == 0 for condition in leaf.others)
 
     def largest(self, leaves: Sequence[Leaf]) -> list[Leaf]:
         """Return the leaves that lie in no other one; of equal leaves the first."""
@@ -143,13 +143,13 @@ class Reals:
             return [(var.partner, zero)] if value**2 == 1 else []
         if var.key not in self.inside:
             return []
-        found = []
+        result = []
         for other in ring.vars:
             if other.kind != "symbol" and var.key in ring.var_expr[other.index].symbols:
                 if value != 0 or other.kind not in ("cos", "sin") or other.key[0] != var.key:
                     return None
-                found.append((other.index, self.canon.one if other.kind == "cos" else zero))
-        return found
+                result.append((other.index, self.canon.one if other.kind == "cos" else zero))
+        return result
 
     # -- one condition ------------------------------------------------------------------------
 
@@ -213,37 +213,37 @@ class CommonZeros:
         self.steps += 1
         if self.steps > MAX_STEPS or len(self.leaves) > MAX_LEAVES:
             raise TooLargeError
-        left: list[Poly] = []
+        remaining: list[Poly] = []
         for poly in polys:
             if len(poly) > MAX_LONG:
                 raise TooLargeError
-            if poly == 0 or poly in left:
+            if poly == 0 or poly in remaining:
                 continue
             if self.reals.never_zero(poly):
                 return
-            left.append(poly)
-        if not left:
+            remaining.append(poly)
+        if not remaining:
             self.leaves.append(leaf)
             return
-        first = min(left, key=lambda p: (len(p), int(p.total_degree())))
-        rest = [p for p in left if p is not first]
+        first = min(remaining, key=lambda p: (len(p), int(p.total_degree())))
+        remainder = [p for p in remaining if p is not first]
         for factor in self.reals.factors(first):
             for together in self.reals.splits(factor):
-                self._take(together, rest, leaf)
+                self._take(together, remainder, leaf)
 
     def _take(self, together: list[Poly], rest: list[Poly], leaf: Leaf) -> None:
         if not together:
             self.follow(rest, leaf)
             return
         condition, more = together[0], together[1:]
-        found = self.reals.solved(condition)
-        if self.short and (len(condition) > MAX_READ or (found is None and leaf.others)):
+        result = self.reals.solved(condition)
+        if self.short and (len(condition) > MAX_READ or (result is None and leaf.others)):
             return
-        if found is None:
+        if result is None:
             kept = [p for p in rest if divmod(p, condition)[1] != 0]
             self._take(more, kept, Leaf(leaf.solved, (*leaf.others, condition)))
             return
-        index, value = found
+        index, value = result
         partner = self.canon.ring.vars[index].partner
         if any(i == partner and self.reals.never_zero(value**2 + v**2 - 1) for i, v in leaf.solved):
             return
@@ -255,7 +255,7 @@ class CommonZeros:
         others = tuple(p for p in map(put, leaf.others) if p != 0)
         if any(self.reals.never_zero(p) for p in (*after, *others)):
             return
-        solved = (*((i, put(v)) for i, v in leaf.solved), found)
+        solved = (*((i, put(v)) for i, v in leaf.solved), result)
         self._take(after, [put(p) for p in rest], Leaf(solved, others))
 
 
@@ -280,10 +280,10 @@ def where(canon: Canon, leaf: Leaf, order: Mapping[Expr, int]) -> str:
     last = len(order)
     solved = []
     for i, value in leaf.solved:
-        left, right = canon.ring.var_expr[i], canon.to_expr(value)
-        if right.op == "sym" and order.get(right, last) < order.get(left, last):
-            left, right = right, left
-        solved.append((_first(left, order), f"{to_text(left)} = {to_text(right)}"))
+        remaining, right = canon.ring.var_expr[i], canon.to_expr(value)
+        if right.op == "sym" and order.get(right, last) < order.get(remaining, last):
+            remaining, right = right, remaining
+        solved.append((_first(remaining, order), f"{to_text(remaining)} = {to_text(right)}"))
     return " and ".join([text for _, text in sorted(solved)] + [_equation(canon, poly, order) for poly in leaf.others])
 
 
@@ -299,8 +299,8 @@ def _equation(canon: Canon, poly: Poly, order: Mapping[Expr, int]) -> str:
     terms: Sequence[Expr] = e.args if e.op == "add" else (e,)
     number = next((term for term in terms if term.op == "num"), ex.ZERO)
     if len(terms) == 2 and sorted(poly.coeffs()) == [-1, 1] and number.is_zero:
-        left, right = sorted((t if _positive(t) else -t for t in terms), key=lambda t: _first(t, order))
-        return f"{to_text(left)} = {to_text(right)}"
+        remaining, right = sorted((t if _positive(t) else -t for t in terms), key=lambda t: _first(t, order))
+        return f"{to_text(remaining)} = {to_text(right)}"
     return f"{to_text(e - number)} = {to_text(-number)}"
 
 
@@ -334,11 +334,11 @@ def flag(
 
     ``own`` and ``there`` are the block's dimensions; the scene's have as many more as it has other coordinates.
     """
-    told = f"the first Lie brackets add {'no direction' if vanishes else 'fewer directions'} there"
+    answer = f"the first Lie brackets add {'no direction' if vanishes else 'fewer directions'} there"
     if not scene or not own or there[-1] != own[-1] or [g + scene[0] - own[0] for g in own] != list(scene):
-        return told, False
+        return answer, False
     special = [g + scene[0] - own[0] for g in there]
-    return f"{told}: the growth vector is {tuple_of(special)} instead of {tuple_of(scene)}", True
+    return f"{answer}: the growth vector is {tuple_of(special)} instead of {tuple_of(scene)}", True
 
 
 def tuple_of(numbers: Sequence[int]) -> str:

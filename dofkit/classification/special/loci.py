@@ -178,14 +178,14 @@ def place(
     ``relations``: the finite relations that do not hold there anyway; ``grows``: the rank at which D's growth is asked.
     """
     rows, chart = _rows(block, a, setting, conditions, relations)
-    found = points_of(chart)
-    if found is None:
+    result = points_of(chart)
+    if result is None:
         return None
-    n, point = chart.coordinates, found.field
+    n, point = chart.coordinates, result.field
     try:
         matrix = rows.matrix(values(chart.ring, point), point.number(ex.ZERO.args[0]))
         with ctx.workprec(PRECISION):
-            balls = rows.matrix(values(chart.ring, found.real), arb(0))
+            balls = rows.matrix(values(chart.ring, result.real), arb(0))
             certified = certified_rank(_part(balls, n)), certified_rank(balls)
     except NoValueError:
         return None
@@ -195,8 +195,8 @@ def place(
     owners = _owners(block, a, _dependent(a, _part(matrix, n), point.p))
     frame = field_frame(matrix, len(rows.columns), point.p)
     if not rank == whole == grows or not frame.rows or not frame.free:
-        return Locus(rank, whole == rank, owners, found.regular)
-    return Locus(rank, True, owners, found.regular, _growth(rows, frame, point, a))
+        return Locus(rank, whole == rank, owners, result.regular)
+    return Locus(rank, True, owners, result.regular, _growth(rows, frame, point, a))
 
 
 def _part(matrix: list[list[Any]], n: int) -> list[list[Any]]:
@@ -270,8 +270,8 @@ def _growth(rows: FormRows, frame: Pivots, point: FieldPoint, a: Answer) -> tupl
 
 def _dimensions(flows: Sequence[AdmissibleCurve]) -> tuple[int, ...]:
     vectors: list[tuple[Any, ...]] = []
-    found = []
+    result = []
     for k in range(LONGEST):
         vectors += [v for flow in flows for v in columns_of(flow.pulled[k])]
-        found.append(rank_over(vectors, flows[0].sample))
-    return tuple(found)
+        result.append(rank_over(vectors, flows[0].sample))
+    return tuple(result)

@@ -64,17 +64,17 @@ class Derivation:
         return self.lowest(self.canon.reduce(total), below)
 
     def _of_generator(self, index: int, symbol: Expr) -> Quotient:
-        var, shown = self.canon.ring.vars[index], self.canon.ring.var_expr[index]
-        if symbol not in shown.symbols:
+        var, text = self.canon.ring.vars[index], self.canon.ring.var_expr[index]
+        if symbol not in text.symbols:
             return self.zero
         if var.kind == "symbol":
             return self.canon.one, self.canon.one
-        found = self._known.get((index, symbol))
-        if found is None:
+        result = self._known.get((index, symbol))
+        if result is None:
             inner = self.of(self.canon.quotient(var.args[0]), symbol)
             top, bottom = self._outer(var)
-            found = self._known[index, symbol] = self.lowest(self.canon.reduce(inner[0] * top), inner[1] * bottom)
-        return found
+            result = self._known[index, symbol] = self.lowest(self.canon.reduce(inner[0] * top), inner[1] * bottom)
+        return result
 
     def _outer(self, var: Var) -> Quotient:
         """The derivative of a generator by its argument."""
@@ -163,17 +163,17 @@ def _curl(
     slopes: Derivation, form: Mapping[Expr, Expr], values: Mapping[Expr, Quotient], symbols: Sequence[Expr]
 ) -> dict[tuple[int, int], Quotient]:
     """d(omega): the coefficient of dq_i ^ dq_j for i < j, where it is not 0."""
-    found: dict[tuple[int, int], Quotient] = {}
+    result: dict[tuple[int, int], Quotient] = {}
     for j, i in ((j, i) for j, s in enumerate(symbols) if s in form for i in range(len(symbols)) if i != j):
         entry = form[symbols[j]]
         if symbols[i] not in entry.symbols:
             continue
         key, (top, below) = (min(i, j), max(i, j)), slopes.of(values[entry], symbols[i])
-        old, under = found.get(key, slopes.zero)
+        old, under = result.get(key, slopes.zero)
         top = top if i < j else -top
         total = old + top if below == under else old * below + top * under
-        found[key] = slopes.lowest(slopes.canon.reduce(total), below if below == under else below * under)
-    return {key: found[key] for key in sorted(found) if found[key][0] != 0}
+        result[key] = slopes.lowest(slopes.canon.reduce(total), below if below == under else below * under)
+    return {key: result[key] for key in sorted(result) if result[key][0] != 0}
 
 
 class EliminatedTable:
@@ -237,7 +237,7 @@ class EliminatedTable:
         """Vectors that span the kernel wherever the rank is not smaller (Cramer). Raises TooLargeError."""
         if comb(len(self.free), size + 1) * comb(len(self.rest), size) > MAX_VECTORS:
             raise TooLargeError
-        zero, found = self.canon.one * 0, []
+        zero, result = self.canon.one * 0, []
         for rows in combinations(self.rest, size):
             for columns in combinations(self.free, size + 1):
                 vector = [zero] * len(self.table.symbols)
@@ -245,8 +245,8 @@ class EliminatedTable:
                     others = [d for d in columns if d != c]
                     value = self._minor(rows, others) if size else self.canon.one
                     vector[c] = value if k % 2 == 0 else -value
-                found.append(self._lifted(vector))
-        return found
+                result.append(self._lifted(vector))
+        return result
 
     def _lifted(self, vector: list[Poly]) -> list[Poly]:
         """With the pivots' components, all times the pivots that are no numbers."""
@@ -267,7 +267,7 @@ class EliminatedTable:
 
 def curvatures(table: MinorTable, vectors: Sequence[Sequence[Poly]]) -> list[list[Poly]]:
     """Of every form d(omega)(u, v) for all pairs of vectors; no pairs where it is closed."""
-    canon, found = table.canon, []
+    canon, result = table.canon, []
     for curl in table.curls:
         values = []
         for u, v in combinations(vectors, 2) if curl else ():
@@ -280,5 +280,5 @@ def curvatures(table: MinorTable, vectors: Sequence[Sequence[Poly]]) -> list[lis
                 if area != 0:
                     total = total + coefficient * area
             values.append(canon.reduce(total))
-        found.append(values)
-    return found
+        result.append(values)
+    return result

@@ -1,7 +1,7 @@
-"""The criteria for finite motion and rigidity, in the order in which they are asked.
+"""The criteria for finite motion and rigidity, in the order in which they are asked, and their driver.
 
 The first row whose hypotheses hold and whose function comes to a conclusion decides. A new criterion is a function of
-the germ (`germ.Germ`) and a row here; its theorem is a line of `dofkit/THEOREMS.md`.
+the germ (`germ.Germ`) in `conclusions` and a row here; its theorem is a line of `dofkit/THEOREMS.md`.
 """
 
 from __future__ import annotations
@@ -10,10 +10,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
+from flint import ctx
+
 from dofkit.base.verdicts import ArgumentKey, Verdict, weakest
-from dofkit.configuration.local import first_order, higher_order, second_order
+from dofkit.configuration.generic_points import frame_at
+from dofkit.configuration.local import conclusions
 from dofkit.configuration.local.germ import Conclusion, Germ
-from dofkit.configuration.local.manifold import LocalDimension
+from dofkit.configuration.local.manifold import LocalDimension, Manifold
+from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.exact.points.balls import BallPoint, precision
+from dofkit.exact.points.field import FieldPoint
+from dofkit.relations.chart import Chart
 
 UNDECIDED = LocalDimension(
     None, "undecided", "the equations are dependent here and their lowest-order terms do not decide"
@@ -50,140 +57,140 @@ CRITERIA: tuple[Criterion, ...] = (
         "independent relations",
         "ImplicitFunctions",
         "all equations are independent at the point (k = 0)",
-        first_order.independent,
+        conclusions.independent,
         "motion",
         "proved",
-        first_order.manifold,
+        conclusions.manifold,
     ),
     Criterion(
         "rigid to first order",
         "AsimowRoth1978",
         "the equations allow only the velocities of rigid motions of the system (m = mu)",
-        first_order.rigid_to_first_order,
+        conclusions.rigid_to_first_order,
         "rigidity",
         "proved",
-        first_order.orbit,
+        conclusions.orbit,
     ),
     Criterion(
         "degree too high",
         "SchwartzZippel",
         "a dependent equation has a degree beyond the orders that are examined",
-        first_order.of_high_degree,
+        conclusions.of_high_degree,
         "nothing",
         "undecided",
-        first_order.unfollowed,
+        conclusions.unfollowed,
     ),
     Criterion(
         "zero along a curve",
         "SchwartzZippel",
         "the dependent equations vanish along a random curve of M to an order above their degree, and at a "
         "finite distance",
-        first_order.vanishing,
+        conclusions.vanishing,
         "motion",
         "probable",
-        first_order.whole_manifold,
+        conclusions.whole_manifold,
     ),
     Criterion(
         "flat along a curve",
         "SchwartzZippel",
         "the dependent equations vanish along a random curve of M, but not, or not verifiably, at a finite distance",
-        first_order.vanishing_here,
+        conclusions.vanishing_here,
         "nothing",
         "undecided",
-        first_order.flat,
+        conclusions.flat,
     ),
     Criterion(
         "isolated zero of one variable",
         "IsolatedZeros",
         "one motion remains besides the rigid motions of the system (m = mu + 1), and a dependent equation "
         "is not zero along it",
-        first_order.of_one_variable,
+        conclusions.of_one_variable,
         "rigidity",
         "proved",
-        first_order.isolated_zero,
+        conclusions.isolated_zero,
     ),
     Criterion(
         "indefinite form",
         "HurewiczWallman1941",
         "one dependent equation, whose second order has certified squares of both signs; time, if any, moves on M",
-        second_order.one_form,
+        conclusions.one_form,
         "motion",
         "proved",
-        second_order.indefinite,
+        conclusions.indefinite,
     ),
     Criterion(
         "definite form",
         "MorseBott",
         "one dependent equation, whose second order has m - mu certified squares, all of one sign",
-        second_order.one_form,
+        conclusions.one_form,
         "rigidity",
         "proved",
-        second_order.definite,
+        conclusions.definite,
     ),
     Criterion(
         "definite combination",
         "ConnellyWhiteley1996",
         "several dependent equations, of whose second orders a combination has m - mu certified squares of one sign",
-        second_order.several_forms,
+        conclusions.several_forms,
         "rigidity",
         "proved",
-        second_order.prestress_stable,
+        conclusions.prestress_stable,
     ),
     Criterion(
         "least along a motion",
         "GromollMeyer1969",
         "one dependent equation, of second order of one sign, and which vanishes on its critical set N as "
         "far as examined",
-        higher_order.split_form,
+        conclusions.split_form,
         "motion",
         "probable",
-        higher_order.least_along_a_motion,
+        conclusions.least_along_a_motion,
     ),
     Criterion(
         "change of sign",
         "HurewiczWallman1941",
         "one dependent equation, whose second order and lowest order on N together take both signs",
-        higher_order.split_form,
+        conclusions.split_form,
         "motion",
         "probable",
-        higher_order.changing_sign,
+        conclusions.changing_sign,
     ),
     Criterion(
         "definite at a higher order",
         "GromollMeyer1969",
         "one dependent equation, whose second order and lowest order on N are of one sign, and N has dimension mu + 1",
-        higher_order.split_form,
+        conclusions.split_form,
         "rigidity",
         "probable",
-        higher_order.definite_at_higher_order,
+        conclusions.definite_at_higher_order,
     ),
     Criterion(
         "no second-order flex",
         "TangentCone",
         "several dependent equations, whose second orders have a cone of common zeros of dimension mu, and no more",
-        second_order.several_forms_over_both,
+        conclusions.several_forms_over_both,
         "rigidity",
         "proved",
-        second_order.no_second_order_flex,
+        conclusions.no_second_order_flex,
     ),
     Criterion(
         "critical branch",
         "TangentCone",
         "several dependent equations, all zero on N as far as examined, which has the dimension of their "
         "second-order cone",
-        second_order.several_forms_over_both,
+        conclusions.several_forms_over_both,
         "motion",
         "probable",
-        higher_order.critical_branch,
+        conclusions.critical_branch,
     ),
     Criterion(
         "branch followed",
         "TangentCone",
         "several dependent equations; a branch of the dimension of their second-order cone was found numerically",
-        second_order.several_forms_over_both,
+        conclusions.several_forms_over_both,
         "motion",
         "numeric",
-        higher_order.branch_followed,
+        conclusions.branch_followed,
     ),
 )
 
@@ -197,3 +204,76 @@ def decision(germ: Germ) -> tuple[Criterion | None, LocalDimension]:
         verdict = weakest(criterion.verdict, told.verdict, "proved" if germ.exact else "numeric")
         return criterion, LocalDimension(told.dimension, verdict, told.reason, told.confined, criterion.key)
     return None, UNDECIDED
+
+
+# The local dimension by the table
+
+
+@raising_no_value
+def local_dimension(
+    field: Manifold, ball: Manifold | None, rigid: int, time: int | None = None, distance: bool = True
+) -> LocalDimension:
+    """The local dimension at the point; ``rigid`` is the dimension of the motions that move everything as one body.
+
+    ``field`` is over GF(p), where a coefficient that is not 0 proves that the function is not; ``ball`` at the
+    same point decides signs. ``time`` is the number of its column, if it is one; ``distance``: must what is flat
+    at the point be looked at from a distance? Raises NoValueError.
+    """
+    with ctx.workprec(max(ctx.prec, precision())):
+        return decision(Germ(field, ball, rigid, time, distance))[1]
+
+
+@raising_no_value
+def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> LocalDimension:
+    """The same from an approximate point: where a tiny ball contains 0 it is taken for 0; the verdict is numeric."""
+    return decision(Germ(None, ball, rigid, time))[1]
+
+
+def local_at(
+    chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, time: int | None = None, drawn: bool = True
+) -> LocalDimension:
+    """The local dimension at a point of the variety, time counted where it is a column.
+
+    ``time``: the number of that column, where it matters whether time moves on. A point that was ``drawn`` may be one
+    where a relation is flat: what is 0 along a curve is looked at from a distance, if balls may be asked.
+    """
+    frame = frame_at(chart, point)
+    try:
+        field_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point)
+        ball_manifold = None
+        if ball is not None:
+            ball_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
+        return local_dimension(field_manifold, ball_manifold, rigid, time, drawn and "balls" in chart.engines)
+    except NoValueError:
+        return LocalDimension(
+            None, "undecided", "the equations could not be evaluated along a curve through this configuration"
+        )
+
+
+def vanish_near(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, rank: int) -> bool | None:
+    """Are the relations of a chart of no higher rank than ``rank`` at the point, and 0 on the manifold of that rank?
+
+    The dependent ones are 0 along a random curve of it [SchwartzZippel], or nothing but motions of the whole is left.
+    None where they are too high in degree, or could not be followed to a distance, which is asked of a ``ball``.
+    """
+    frame = frame_at(chart, point)
+    if len(frame.rows) != rank:
+        return False
+    try:
+        on_field = Manifold(chart.ring, chart.nodes, chart.columns, frame, point)
+        on_balls = None
+        if ball is not None:
+            on_balls = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
+        return _vanish(Germ(on_field, on_balls, rigid, distance=ball is not None))
+    except (ArithmeticError, NoValueError):
+        return None
+
+
+def _vanish(germ: Germ) -> bool | None:
+    """Are the dependent relations of a germ 0 on its manifold?"""
+    with ctx.workprec(max(ctx.prec, precision())):
+        if germ.dependent == 0 or germ.m == germ.rigid:
+            return True
+        if conclusions.of_high_degree(germ):
+            return None
+        return germ.vanishes_away if germ.vanishes else False

@@ -7,19 +7,20 @@ manifold M of dimension m through P; the others are functions f_1, ..., f_k on M
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 from typing import NamedTuple
 
 from flint import arb
 
 from dofkit.base.verdicts import Verdict
-from dofkit.configuration.local import critical_set, degrees, quadratic_cone
+from dofkit.configuration.local import critical_set, quadratic_cone
 from dofkit.configuration.local.critical_set import Split
 from dofkit.configuration.local.manifold import Form, Manifold, is_zero
 from dofkit.configuration.local.neighbourhood import holds_away
 from dofkit.exact.points.series import Series
-from dofkit.exact.ring.program import Scalar
+from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, Scalar, reachable
+from dofkit.exact.ring.ring import Ring
 
 #: Orders to which the other relations are followed on M; the second where one motion is in question.
 ORDER, LONG_ORDER = 8, 16
@@ -80,7 +81,7 @@ class Germ:
     @cached_property
     def degree(self) -> int:
         """A bound on the degree of the dependent relations along a line of the free columns."""
-        return degrees.degree(self.manifold)
+        return degree_of(self.manifold)
 
     @cached_property
     def order(self) -> int:
@@ -182,3 +183,67 @@ def time_moves(manifold: Manifold, time: int, order: int) -> bool:
 def _ahead(ball: Manifold, count: int) -> list[float]:
     """Random numbers of either sign, of sizes between a half and one."""
     return [ball.base.rng.choice((-1, 1)) * ball.base.rng.randrange(128, 256) / 256 for _ in range(count)]
+
+
+# Degrees in the free columns: where relations say x_1 = x_0^2, x_2 = x_1^2, ..., the degree of x_n is 2^n
+
+
+def degree_of(manifold: Manifold) -> int:
+    """A bound on the degree of the dependent relations; columns that no relation gives explicitly count 1."""
+    weights = _Weights(manifold)
+    return max((weights.of(n) for n in manifold.others), default=0)
+
+
+class _Weights:
+    def __init__(self, manifold: Manifold) -> None:
+        self.ring = manifold.ring
+        dependent = {manifold.columns[c] for c in manifold.frame.dependent}
+        self.explicit: dict[int, list[int]] = {}
+        for row in manifold.rows:
+            for column, rest in _explicit_columns(self.ring, row):
+                if column in dependent and column not in self.explicit:
+                    self.explicit[column] = rest
+                    break
+        self.known: dict[int, int] = {}
+
+    def of(self, node: int) -> int:
+        """The degree of an instruction."""
+        degrees: dict[int, int] = {}
+        for i in reversed(reachable(self.ring, [node], through_generators=False)):
+            op, payload = self.ring.code[i]
+            if op == MUL:
+                degrees[i] = sum(degrees[j] for j in payload)
+            elif op == ADD:
+                degrees[i] = max(degrees[j] for j in payload)
+            elif op == POW:
+                degrees[i] = abs(payload[1]) * degrees[payload[0]]
+            else:
+                degrees[i] = self._generator(payload) if op == VAR else 0
+        return degrees[node]
+
+    def _generator(self, column: int) -> int:
+        if column not in self.known:
+            self.known[column] = 1
+            inside = self.ring.vars[column].args or self.explicit.get(column, ())
+            self.known[column] = max((1, *(self.of(n) for n in inside)))
+        return self.known[column]
+
+
+def _explicit_columns(ring: Ring, row: int) -> Iterable[tuple[int, list[int]]]:
+    """(column, the other terms) for each column that a sum holds linearly, in one term, with a number."""
+    op, terms = ring.code[row]
+    if op != ADD:
+        return
+    for term in terms:
+        column = _column_of(ring, term)
+        rest = [t for t in terms if t != term]
+        if column is not None and ring.var_node[column] not in reachable(ring, rest):
+            yield column, rest
+
+
+def _column_of(ring: Ring, term: int) -> int | None:
+    op, payload = ring.code[term]
+    if op == MUL:
+        left = [i for i in payload if ring.code[i][0] != NUM]
+        op, payload = ring.code[left[0]] if len(left) == 1 else (NUM, None)
+    return payload if op == VAR and ring.vars[payload].kind == "symbol" else None

@@ -16,7 +16,7 @@ from functools import cached_property
 from typing import Any
 
 from dofkit.base.libraries import np
-from dofkit.configuration.drawing.at_reference import AtReference, at_reference
+from dofkit.configuration.at_reference import AtReference, at_reference
 from dofkit.configuration.local.germ import Conclusion
 from dofkit.configuration.measured.continuation import BEYOND, LONGEST, Path, follow, is_motion, reach_of
 from dofkit.configuration.measured.equations import (

@@ -10,7 +10,7 @@ from typing import Any
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np, nx
-from dofkit.configuration.drawing.at_reference import ball_point
+from dofkit.configuration.at_reference import ball_point
 from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.ring.program import values

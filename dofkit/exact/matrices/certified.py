@@ -42,7 +42,7 @@ def independent_part(j: np.ndarray) -> tuple[int, float, list[int], list[int]]:
 
 
 def greedy_rows(matrix: np.ndarray, rank: int) -> list[int]:
-    """The first rows, in order, each independent of those before it."""
+    """Return the first rows, in order, each independent of those before it."""
     kept: list[int] = []
     basis = np.zeros((0, matrix.shape[1]))
     for i, row in enumerate(matrix):
@@ -58,7 +58,7 @@ def greedy_rows(matrix: np.ndarray, rank: int) -> list[int]:
 
 
 def dependency_pattern(j: np.ndarray, rows: Sequence[int]) -> list[list[int]]:
-    """Which rows depend on which of the independent ``rows``, as a matrix over GF(2)."""
+    """Return which rows depend on which of the independent ``rows``, as a matrix over GF(2)."""
     place = {r: i for i, r in enumerate(rows)}
     pattern = []
     for r in range(len(j)):
@@ -107,12 +107,12 @@ class PivotedPart(NamedTuple):
 
 
 def middles(matrix: Balls) -> np.ndarray:
-    """The balls' middles in floating point, each row as a fraction of its largest entry."""
+    """Return the balls' middles in floating point, each row as a fraction of its largest entry."""
     return np.array([[float(v.mid() / _scale(row)) for v in row] for row in matrix])
 
 
 def ball_part(matrix: Balls) -> PivotedPart:
-    """A part of the matrix that is certified regular, such that the rest holds 0 after elimination."""
+    """Return a part of the matrix that is certified regular, such that the rest holds 0 after elimination."""
     if not matrix or not matrix[0]:
         return PivotedPart(0, math.inf, [], [])
     if len(matrix) * len(matrix[0]) * min(len(matrix), len(matrix[0])) <= ORDERED:
@@ -148,7 +148,7 @@ def _reduced(row: Sequence[arb], kept: Sequence[tuple[list[arb], int]]) -> list[
 
 
 def _pivot(row: Sequence[arb]) -> int:
-    """The column of the largest entry that is certainly not 0; -1 where all hold 0."""
+    """Return the column of the largest entry that is certainly not 0; -1 where all hold 0."""
     best, size = -1, arb(0)
     for c, v in enumerate(row):
         if not v.contains(0) and (low := v.abs_lower()) > size:
@@ -157,7 +157,7 @@ def _pivot(row: Sequence[arb]) -> int:
 
 
 def _scale(row: Sequence[arb]) -> arb:
-    """The size of a row's largest entry; 1 for a row of zeros."""
+    """Return the size of a row's largest entry; 1 for a row of zeros."""
     largest = max((v.abs_lower() for v in row), default=arb(0))
     return arb(1) if largest == 0 else largest
 
@@ -167,7 +167,7 @@ def _largest(row: Sequence[arb]) -> arb:
 
 
 def _share(size: arb, row: Sequence[arb]) -> float:
-    """A number as a fraction of a row's largest entry, which floating point may be too small for."""
+    """Return a number as a fraction of a row's largest entry, which floating point may be too small for."""
     return float(size / _scale(row))
 
 
@@ -176,7 +176,7 @@ def _ratio(sizes: Sequence[float], left: float) -> float:
 
 
 def _fall(sizes: Sequence[float]) -> float:
-    """The largest ratio of neighbours, in order of size."""
+    """Return the largest ratio of neighbours, in order of size."""
     ordered = sorted(sizes)
     return max((b / a if a else math.inf for a, b in pairwise(ordered)), default=1.0)
 
@@ -212,7 +212,7 @@ def _complement(
 
 
 def _singular_values(matrix: Balls, rows: Sequence[int]) -> list[float]:
-    """The singular values of some rows, each scaled to length 1."""
+    """Return the singular values of some rows, each scaled to length 1."""
     chosen = middles([matrix[r] for r in rows])
     if not chosen.size:
         return []
@@ -233,7 +233,7 @@ def combinations_of(
 
 
 def dependencies(matrix: Balls, part: PivotedPart) -> list[list[int]]:
-    """Which rows depend on which of the independent ones, as a matrix over GF(2)."""
+    """Return which rows depend on which of the independent ones, as a matrix over GF(2)."""
     place = {r: i for i, r in enumerate(part.rows)}
     others = [r for r in range(len(matrix)) if r not in place]
     weights = combinations_of(matrix, part.rows, part.columns, others) if part.rows and others else None

@@ -23,21 +23,21 @@ LinearRow = dict[int, Any]
 
 
 def combined(parts: Iterable[tuple[Any, Mapping[int, Any]]]) -> LinearRow:
-    """The sum of numbers times rows."""
-    found: LinearRow = {}
+    """Return the sum of numbers times rows."""
+    total: LinearRow = {}
     for factor, row in parts:
         for c, v in row.items():
-            found[c] = found.get(c, 0) + factor * v
-    return found
+            total[c] = total.get(c, 0) + factor * v
+    return total
 
 
 def along(direction: Numbers, rows: Sequence[LinearRow]) -> LinearRow:
-    """The component along a direction of a vector of rows."""
+    """Return the component along a direction of a vector of rows."""
     return combined(zip(direction, rows, strict=True))
 
 
 def across(direction: Numbers, rows: Sequence[LinearRow]) -> Iterator[LinearRow]:
-    """The d - 1 components across a direction of a vector of rows."""
+    """Return the d - 1 components across a direction of a vector of rows."""
     return (along(u, rows) for u in spanning(direction))
 
 
@@ -51,13 +51,13 @@ def spanning(n: Numbers) -> list[tuple[Any, ...]]:
     if len(n) == 2:
         return [(-n[1], n[0])]
     pivot = next(i for i in reversed(range(len(n))) if n[i] != 0)
-    found = []
+    directions = []
     for i in range(len(n)):
         if i != pivot:
             parts = [0] * len(n)
             parts[i], parts[pivot] = n[pivot], -n[i]
-            found.append(tuple(parts))
-    return found
+            directions.append(tuple(parts))
+    return directions
 
 
 def cross(a: Numbers, b: Numbers) -> tuple[Any, ...]:
@@ -82,12 +82,12 @@ def sparse(rows: Iterable[Sequence[Any]]) -> list[SparseRow]:
 
 
 def transposed(rows: Sequence[Mapping[int, int]], columns: int) -> list[SparseRow]:
-    """The columns as rows."""
-    found: list[SparseRow] = [{} for _ in range(columns)]
+    """Return the columns as rows."""
+    columns_as_rows: list[SparseRow] = [{} for _ in range(columns)]
     for i, row in enumerate(rows):
         for c, v in row.items():
-            found[c][i] = v
-    return found
+            columns_as_rows[c][i] = v
+    return columns_as_rows
 
 
 @dataclass(frozen=True)
@@ -106,10 +106,10 @@ class Echelon:
 
 
 def echelon(rows: Sequence[Mapping[int, int]], p: int, supports: bool = False) -> Echelon:
-    """The greedy basis of the rows over GF(p)."""
+    """Return the greedy basis of the rows over GF(p)."""
     weight = Counter(c for row in rows for c in row)
     alone = private(rows)
-    found = _Reduction(p, weight)
+    reduction = _Reduction(p, weight)
     independent = []
     dependent: dict[int, tuple[int, ...]] = {}
     for i, row in enumerate(rows):
@@ -118,12 +118,12 @@ def echelon(rows: Sequence[Mapping[int, int]], p: int, supports: bool = False) -
         if i in alone:
             independent.append(i)
             continue
-        rest, used = found.reduced(row)
+        rest, used = reduction.reduced(row)
         if rest:
-            found.add(i, rest, used)
+            reduction.add(i, rest, used)
             independent.append(i)
         elif supports:
-            dependent[i] = tuple(sorted(found.support(used)))
+            dependent[i] = tuple(sorted(reduction.support(used)))
     return Echelon(tuple(independent), dependent)
 
 
@@ -135,7 +135,7 @@ def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
     """
     alone = private(rows)
     reduction = _Reduction(p, Counter(c for row in rows for c in row))
-    found = []
+    sums = []
     for i, row in enumerate(rows):
         if i % LOOK == 0:
             check()
@@ -145,8 +145,8 @@ def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
         if rest:
             reduction.add(i, rest, used)
         else:
-            found.append({i: 1} | {k: -v % p for k, v in reduction.support(used).items()})
-    return found
+            sums.append({i: 1} | {k: -v % p for k, v in reduction.support(used).items()})
+    return sums
 
 
 def dependences(rows: Sequence[Mapping[int, fmpq]]) -> dict[int, RationalRow] | None:
@@ -203,7 +203,7 @@ def vector_in_kernel(rows: Sequence[Mapping[int, int]], p: int, rng: random.Rand
 
 
 def rank_of_rows(rows: Sequence[Mapping[int, int]], p: int) -> int:
-    """The rank over GF(p)."""
+    """Return the rank over GF(p)."""
     return echelon(rows, p).rank
 
 
@@ -247,7 +247,7 @@ class _Reduction:
         self._of: dict[int, int] = {}
 
     def reduced(self, row: Mapping[int, int]) -> tuple[SparseRow, SparseRow]:
-        """What is left of a row, and the multiples of pivot rows that were taken from it."""
+        """Return what is left of a row, and the multiples of pivot rows that were taken from it."""
         p, of, work, used = self.p, self._of, dict(row), SparseRow()
         pending = [of[c] for c in work if c in of]
         heapify(pending)
@@ -284,16 +284,16 @@ class _Reduction:
         self._sources.append((row, inverse, used))
 
     def solved(self, right: Sequence[int]) -> list[int]:
-        """The solution of as many equations as there are columns, all of them pivots, with this right side."""
+        """Return the solution of as many equations as there are columns, all of them pivots, with this right side."""
         p, reduced = self.p, list[int]()
         for row, inverse, used in self._sources:
             taken = sum(factor * reduced[k] for k, factor in used.items())
             reduced.append((right[row] - taken) * inverse % p)
-        found = [0] * len(reduced)
+        solution = [0] * len(reduced)
         for number in reversed(range(len(reduced))):
             (column, _), *others = self._rows[number]
-            found[column] = (reduced[number] - sum(v * found[c] for c, v in others)) % p
-        return found
+            solution[column] = (reduced[number] - sum(v * solution[c] for c, v in others)) % p
+        return solution
 
     def completed(self, values: Mapping[int, int]) -> SparseRow:
         """Return the vector with the given values in the columns that are no pivots, on which all rows vanish."""
@@ -304,7 +304,7 @@ class _Reduction:
 
     def support(self, used: Mapping[int, int]) -> SparseRow:
         """A sum of pivot rows as one of rows, row -> factor: each is its row less earlier ones, unfolded backwards."""
-        left, found = dict(used), SparseRow()
+        left, factors = dict(used), SparseRow()
         pending = [-k for k in left]
         heapify(pending)
         while pending:
@@ -313,13 +313,13 @@ class _Reduction:
             factor = left.pop(number) * inverse % self.p
             if not factor:
                 continue
-            found[row] = factor
+            factors[row] = factor
             for k, v in earlier.items():
                 if k not in left:
                     left[k] = 0
                     heappush(pending, -k)
                 left[k] = (left[k] - factor * v) % self.p
-        return found
+        return factors
 
 
 class FactoredMatrix:
@@ -340,11 +340,11 @@ class FactoredMatrix:
             self._found.add(i, rest, used)
 
     def solve(self, right: Sequence[int]) -> list[int]:
-        """The x with A x = ``right``: what was done to the rows is done to it, then the pivots backwards."""
+        """Return the x with A x = ``right``: what was done to the rows is done to it, then the pivots backwards."""
         return self._found.solved(right)
 
 
-def rank_of(matrix: list[list[Any]], p: int) -> int:
+def rank_of(matrix: Sequence[Sequence[Any]], p: int) -> int:
     """Rank over GF(p)."""
     if not matrix or not matrix[0]:
         return 0
@@ -353,5 +353,5 @@ def rank_of(matrix: list[list[Any]], p: int) -> int:
 
 
 def without_time(rows: Sequence[SparseRow], n: int) -> list[SparseRow]:
-    """The first n columns."""
+    """Return the first n columns."""
     return [{c: v for c, v in row.items() if c < n} for row in rows]

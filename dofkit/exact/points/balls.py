@@ -33,30 +33,30 @@ class SmoothFunction(NamedTuple):
     waves: tuple[tuple[Fraction, tuple[Fraction, ...], Fraction], ...]
 
     def value(self, args: Sequence[Any], orders: Sequence[int], numbers: Any, sine: Any, half_pi: Any) -> Any:
-        """The function differentiated ``orders[i]`` times by its i-th argument.
+        """Return the function differentiated ``orders[i]`` times by its i-th argument.
 
         ``numbers`` turns a fraction into the numbers of the arguments; ``sine``, ``half_pi``: theirs.
         """
         total = sum(orders)
-        found = numbers(Fraction(0))
+        total_value = numbers(Fraction(0))
         if total == 0:
-            found = found + numbers(self.start)
+            total_value = total_value + numbers(self.start)
             for slope, u in zip(self.slopes, args, strict=True):
-                found = found + numbers(slope) * u
+                total_value = total_value + numbers(slope) * u
         elif total == 1:
-            found = found + numbers(self.slopes[list(orders).index(1)])
+            total_value = total_value + numbers(self.slopes[list(orders).index(1)])
         for height, widths, phase in self.waves:
             factor, angle = height, numbers(phase) + half_pi * total
             for width, order, u in zip(widths, orders, args, strict=True):
                 factor *= width**order
                 angle = angle + numbers(width) * u
-            found = found + numbers(factor) * sine(angle)
-        return found
+            total_value = total_value + numbers(factor) * sine(angle)
+        return total_value
 
 
 @lru_cache(maxsize=256)
 def smooth_function(name: str, arguments: int, seed: int) -> SmoothFunction:
-    """The function of a name: the same in every run, another for another seed."""
+    """Return the function of a name: the same in every run, another for another seed."""
     rng = random.Random(f"dofkit function {name} {arguments} {seed}")
 
     def draw(low: int, high: int) -> Fraction:
@@ -89,7 +89,7 @@ def balls_of(bits: int | None) -> Iterator[None]:
 
 
 def precision() -> int:
-    """The bits of a ball."""
+    """Return the bits of a ball."""
     return _bits.get() or PRECISION + _more.get()
 
 
@@ -105,7 +105,7 @@ def precise_for(longest: int) -> Iterator[None]:
 
 
 def fixed_bits() -> int | None:
-    """The bits that were asked for; None where they may be raised."""
+    """Return the bits that were asked for; None where they may be raised."""
     return _bits.get()
 
 
@@ -195,7 +195,7 @@ class BallPoint(_RealPoint):
 def jacobian(
     ring: Ring, at: Sequence[Scalar], point: Any, nodes: Sequence[int], columns: Sequence[int], zero: Scalar
 ) -> list[list[Scalar]]:
-    """The matrix d(node)/d(symbol); ``columns`` are generator indices of symbols."""
+    """Return the matrix d(node)/d(symbol); ``columns`` are generator indices of symbols."""
     rows = []
     for node in nodes:
         g = gradient(ring, at, point, [(node, zero + 1)])
@@ -229,7 +229,7 @@ class ExactPoint:
 
 
 def _root(value: fmpq, degree: int) -> fmpq:
-    """The root of a power of a rational that is not negative. Raises NoPointError."""
+    """Return the root of a power of a rational that is not negative. Raises NoPointError."""
     if value >= 0:
         top, bottom = (n.root(degree) for n in (value.p, value.q))
         if top**degree == value.p and bottom**degree == value.q:
@@ -238,12 +238,12 @@ def _root(value: fmpq, degree: int) -> fmpq:
 
 
 def rational_values(known: Mapping[Expr, Expr]) -> dict[Expr, Fraction]:
-    """The symbols whose values are written as rational numbers."""
+    """Return the symbols whose values are written as rational numbers."""
     return {s: v.args[0] for s, v in known.items() if v.op == "num"}
 
 
 def vanish_exactly(ring: Ring, nodes: Sequence[int], symbols: Mapping[Expr, Fraction]) -> bool:
-    """Are nodes proved to be 0 at a rational point? False where a value is no rational."""
+    """Return whether nodes are proved to be 0 at a rational point. False where a value is no rational."""
     try:
         at = values(ring, ExactPoint(symbols))
     except NoValueError:
@@ -254,7 +254,7 @@ def vanish_exactly(ring: Ring, nodes: Sequence[int], symbols: Mapping[Expr, Frac
 def exact_rank(
     ring: Ring, nodes: Sequence[int], columns: Sequence[int], symbols: Mapping[Expr, Fraction]
 ) -> int | None:
-    """The rank of d(nodes)/d(columns) at a rational point; None where a value is none, or there are too many.
+    """Return the rank of d(nodes)/d(columns) at a rational point; None where a value is none, or there are too many.
 
     ``columns``: generators of symbols, -1 for one that does not occur.
     """

@@ -169,17 +169,17 @@ def circle_order(rings: Iterable[Ring]) -> int:
 
 
 def number_roots(rings: Iterable[Ring]) -> tuple[tuple[int, int], ...]:
-    """(integer, degree) of every root of a number."""
-    found = set()
+    """Return (integer, degree) of every root of a number."""
+    roots = set()
     for ring in rings:
         for var in ring.vars:
             if var.kind == "root" and isinstance(var.key[0], ex.Expr):
-                found.add((int(var.key[0].args[0]), var.degree))
-    return tuple(sorted(found))
+                roots.add((int(var.key[0].args[0]), var.degree))
+    return tuple(sorted(roots))
 
 
 def prime_for(order: int, roots: tuple[tuple[int, int], ...], seed: int | str) -> int:
-    """A random prime p = 1 modulo 8 and the order, modulo which the given roots of numbers exist."""
+    """Return a random prime p = 1 modulo 8 and the order, modulo which the given roots of numbers exist."""
     return _prime(order, roots, seed, _bits.get())
 
 
@@ -223,7 +223,7 @@ class FieldPoint:
             self._turns.settle(value / self.order, self._zeta, 2 * self.order)
 
     def copy(self) -> FieldPoint:
-        """A point with the same values so far; what is drawn later differs."""
+        """Return a point with the same values so far; what is drawn later differs."""
         other = FieldPoint(self.p, self.rng, self.order)
         other.given = dict(self.given)
         other._taken, other._agreed = dict(self._taken), set(self._agreed)
@@ -242,16 +242,16 @@ class FieldPoint:
 
     def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar:
         name = (var.kind, var.key)
-        found = self.given.get(name)
-        if found is None:
-            found = self.given[name] = self._draw(var, args)
+        value = self.given.get(name)
+        if value is None:
+            value = self.given[name] = self._draw(var, args)
         elif args and name not in self._agreed:
             self._agreed.add(name)
-            self._agree(var, args, found)
-        return found
+            self._agree(var, args, value)
+        return value
 
     def whatever(self, var: Var) -> Scalar:
-        """A generator's value where its argument is not known yet: that is drawn later, or found to agree."""
+        """Return a generator's value where its argument is not known yet: that is drawn later, or found to agree."""
         name = (var.kind, var.key)
         if name not in self.given and var.kind in ("cos", "sin"):
             self._setup_unity()
@@ -273,7 +273,7 @@ class FieldPoint:
             raise NoPointError("a function with two values at one place")
 
     def _of_arguments(self, var: Var, args: Sequence[Scalar], draw: Callable[[], Scalar]) -> Scalar:
-        """The value that this function has taken at these arguments, however they are written; else a new one.
+        """Return the value that this function has taken at these arguments, however they are written; else a new one.
 
         On the set where the point lies arguments may be equal that are written apart: f(a) = f(b) wherever a = b.
         """

@@ -11,7 +11,7 @@ from flint import arb, arb_mat, nmod, nmod_mat
 from dofkit.base.deadline import check
 from dofkit.exact.errors import PoleError, raising_no_value
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns
+from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns, rank_of
 from dofkit.exact.points.series import Series
 from dofkit.exact.ring.program import Scalar
 from dofkit.exact.ring.ring import Ring
@@ -30,7 +30,7 @@ class FormRows:
     columns: tuple[int, ...]
 
     def matrix(self, at: Sequence[Scalar], zero: Scalar) -> list[list[Scalar]]:
-        """The coefficients at a point, rows x columns."""
+        """Return the coefficients at a point, rows x columns."""
         n = len(self.columns)
         return [[at[row[c]] if c in row else zero for c in range(n)] for row in self.entries]
 
@@ -45,7 +45,7 @@ class Pivots:
 
 
 def field_frame(matrix: list[list[nmod]], n: int, p: int) -> Pivots:
-    """The first independent rows in order, and columns solved for (the last ones where there is a choice)."""
+    """Return the first independent rows in order, and columns solved for (the last ones where there is a choice)."""
     if not matrix or not n:
         return Pivots((), (), tuple(range(n)))
     rows = pivots(nmod_mat([[int(v) for v in column] for column in zip(*matrix, strict=True)], p))
@@ -55,7 +55,7 @@ def field_frame(matrix: list[list[nmod]], n: int, p: int) -> Pivots:
 
 
 def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Pivots:
-    """The same for rows without their zeros."""
+    """Return the same for rows without their zeros."""
     kept = echelon(rows, p).independent
     dependent = last_columns([rows[i] for i in kept], n, p)
     solved = set(dependent)
@@ -63,26 +63,19 @@ def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Pivots:
 
 
 def pivots(matrix: nmod_mat) -> list[int]:
-    """The pivot columns of a matrix over GF(p)."""
+    """Return the pivot columns of a matrix over GF(p)."""
     reduced, rank = matrix.rref()
-    found, column = [], 0
+    columns, column = [], 0
     for r in range(rank):
         while not reduced[r, column]:
             column += 1
-        found.append(column)
+        columns.append(column)
         column += 1
-    return found
-
-
-def field_rank(rows: Sequence[Sequence[Any]], p: int) -> int:
-    """The rank of a matrix over GF(p)."""
-    if not rows or not rows[0]:
-        return 0
-    return int(nmod_mat([[int(v) for v in row] for row in rows], p).rank())
+    return columns
 
 
 def certified_rank(rows: Sequence[Sequence[arb]]) -> int:
-    """A lower bound of a ball matrix's rank that is proved: elimination with pivots whose balls exclude 0."""
+    """Return a lower bound of a ball matrix's rank that is proved: elimination with pivots whose balls exclude 0."""
     return ball_part(rows).rank
 
 
@@ -91,14 +84,14 @@ def kernel(matrix: list[list[Scalar]], frame: Pivots, zero: Scalar) -> list[list
     n, r = len(frame.dependent) + len(frame.free), len(frame.rows)
     solved = solve([[matrix[a][c] for c in frame.dependent] for a in frame.rows],
                    [[-matrix[a][c] for c in frame.free] for a in frame.rows])  # fmt: skip
-    found = []
+    vectors = []
     for j, f in enumerate(frame.free):
         vector = [zero] * n
         vector[f] = zero + 1
         for i in range(r):
             vector[frame.dependent[i]] = solved[i][j]
-        found.append(vector)
-    return found
+        vectors.append(vector)
+    return vectors
 
 
 @raising_no_value
@@ -108,8 +101,8 @@ def solve(a: list[list[Scalar]], b: list[list[Scalar]]) -> list[list[Scalar]]:
     if n and isinstance(a[0][0], nmod) and b[0]:
         p = a[0][0].modulus()
         left, right = (nmod_mat([[int(v) for v in row] for row in side], p) for side in (a, b))
-        found = left.solve(right)
-        return [[found[i, j] for j in range(len(b[0]))] for i in range(n)]
+        solution = left.solve(right)
+        return [[solution[i, j] for j in range(len(b[0]))] for i in range(n)]
     if n and isinstance(a[0][0], arb) and b[0]:
         balls = arb_mat(a).solve(arb_mat(b))
         return [[balls[i, j] for j in range(len(b[0]))] for i in range(n)]
@@ -138,20 +131,20 @@ def _invertible(value: Any) -> bool:
 
 
 def rank_over(vectors: Sequence[Sequence[Scalar]], sample: Scalar) -> int:
-    """The rank over GF(p), or a certified lower bound with balls, by the kind of ``sample``."""
+    """Return the rank over GF(p), or a certified lower bound with balls, by the kind of ``sample``."""
     if not vectors:
         return 0
     if isinstance(sample, nmod):
-        return field_rank(vectors, sample.modulus())
+        return rank_of(vectors, sample.modulus())
     return certified_rank(vectors)
 
 
 def pairing(row: Sequence[Scalar], vectors: Sequence[Sequence[Scalar]]) -> list[Scalar]:
-    """The values of a form on vectors."""
-    found = []
+    """Return the values of a form on vectors."""
+    values = []
     for vector in vectors:
         total = row[0] * vector[0] if row else 0
         for a, v in zip(row[1:], vector[1:], strict=True):
             total = total + a * v
-        found.append(total)
-    return found
+        values.append(total)
+    return values

@@ -104,13 +104,13 @@ class RealSearch:
         starts: int = STARTS,
         steps: int = ITERATIONS,
     ) -> RealPoint | None:
-        """The first certified point found, else any; ``given`` values of symbols are where the search begins."""
+        """Return the first certified point found, else any; ``given`` values of symbols are where the search begins."""
         singular: RealPoint | None = None
         tries = 0
         for attempt in range(starts):
             symbols = self.start(seed * STARTS + attempt, given or {})
-            found = self.descend(symbols, seed, steps) if self.nodes else None
-            refined = self.refine(symbols, found, seed) if found is not None or not self.nodes else None
+            slopes = self.descend(symbols, seed, steps) if self.nodes else None
+            refined = self.refine(symbols, slopes, seed) if slopes is not None or not self.nodes else None
             if refined is not None and refined.certified and refined.consistent:
                 return refined
             tries += refined is not None
@@ -130,10 +130,10 @@ class RealSearch:
         base, step = dict.fromkeys(self.unknowns, 0.0), np.array([symbols[u] for u in self.unknowns])
         for _ in range(steps):
             check()
-            found = self._within_domain(symbols, base, step, seed)
-            if found is None:
+            system = self._within_domain(symbols, base, step, seed)
+            if system is None:
                 return None
-            f, j = found
+            f, j = system
             reach = max(1.0, math.hypot(*(symbols[u] for u in self.unknowns)))
             scale = np.maximum.reduce(abs(j), axis=1, initial=0.0) + 1e-300
             residual = float(np.maximum.reduce(abs(f) / scale)) / reach
@@ -187,17 +187,17 @@ class RealSearch:
         if j is None:
             return self._refined(symbols, (), (), seed)
         rows, columns = independent_part(j)[2:]
-        found = self._refined(symbols, rows, columns, seed)
-        if (found is not None and found.certified and found.consistent) or len(rows) == len(self.nodes):
-            return found
+        refined = self._refined(symbols, rows, columns, seed)
+        if (refined is not None and refined.certified and refined.consistent) or len(rows) == len(self.nodes):
+            return refined
         part = self._part_at(symbols, seed)
         if part is None or part.rank <= len(rows):
-            return found
+            return refined
         other = self._refined(symbols, part.rows, part.columns, seed)
-        return other if other is not None and other.certified and other.consistent else found
+        return other if other is not None and other.certified and other.consistent else refined
 
     def _part_at(self, symbols: Mapping[Expr, float], seed: int) -> PivotedPart | None:
-        """A regular part of the Jacobian exactly at a point near the zero set; None for large ones."""
+        """Return a regular part of the Jacobian exactly at a point near the zero set; None for large ones."""
         if len(self.nodes) ** 2 * len(self.columns) > ORDERED:
             return None
         point = BallPoint({s: arb(v) for s, v in symbols.items()}, seed)
@@ -265,7 +265,7 @@ class RealSearch:
 
 
 def at_another_time(search: RealSearch, seed: int = 0) -> RealPoint | None:
-    """A certified point at a moment that is looked for with it, early or late.
+    """Return a certified point at a moment that is looked for with it, early or late.
 
     x^2 + y^2 = t, x y = sin(t) have none before t = 1.9.
     """
@@ -278,9 +278,9 @@ def at_another_time(search: RealSearch, seed: int = 0) -> RealPoint | None:
         if timed.descend(symbols, seed) is None:
             continue
         symbols[TIME] = round(symbols[TIME] * TICKS) / TICKS
-        found = search.search(seed, symbols, starts=1)
-        if found is not None and found.certified and found.consistent:
-            return found
+        point = search.search(seed, symbols, starts=1)
+        if point is not None and point.certified and point.consistent:
+            return point
     return None
 
 

@@ -56,16 +56,16 @@ class Series:
         return total
 
     def inverse(self) -> Series:
-        """1/self; raises PoleError where the constant term is 0."""
+        """Return 1/self; raises PoleError where the constant term is 0."""
         if not self.invertible:
             raise PoleError("a series without constant term has no inverse")
         if isinstance(self.poly, nmod_poly):
             return Series(self.poly.inverse_series_trunc(self.order), self.order)
         first = 1 / self.poly[0]
-        found = [first]
+        coefficients = [first]
         for k in range(1, self.order):
-            found.append(-first * sum((self.poly[j] * found[k - j] for j in range(1, k + 1)), arb(0)))
-        return Series(arb_poly(found), self.order)
+            coefficients.append(-first * sum((self.poly[j] * coefficients[k - j] for j in range(1, k + 1)), arb(0)))
+        return Series(arb_poly(coefficients), self.order)
 
     def __truediv__(self, other: Any) -> Series:
         if isinstance(other, Series):
@@ -92,7 +92,7 @@ class Series:
         return Series(self.poly.derivative(), self.order)
 
     def integral(self, constant: Scalar) -> Series:
-        """The antiderivative with the given constant term, to the same order."""
+        """Return the antiderivative with the given constant term, to the same order."""
         poly = self.poly.integral()
         return Series(_truncate(poly, self.order) + constant, self.order)
 
@@ -129,8 +129,8 @@ class SeriesPoint:
 
     def generator(self, var: Var, args: Sequence[Series]) -> Series:
         if var.kind == "symbol":
-            found = self.symbols.get(var.index)
-            return self.constant(self.base.generator(var, ())) if found is None else found
+            series = self.symbols.get(var.index)
+            return self.constant(self.base.generator(var, ())) if series is None else series
         head = self.base.generator(var, [a.coefficient(0) for a in args])
         if var.kind == "sign" and not args[0].invertible and args[0].poly.degree() > 0:
             raise PoleError("a sign changes where the series begins")
@@ -161,11 +161,11 @@ class SeriesPoint:
 
     def _recurrence(self, u: Series, head: Scalar) -> Series:
         """e' = u' e."""
-        slope, found = u.derivative().poly, [head]
+        slope, coefficients = u.derivative().poly, [head]
         for k in range(1, self.order):
-            total = sum((slope[j] * found[k - 1 - j] for j in range(k)), head * 0)
-            found.append(total / k)
-        return self._series(found)
+            total = sum((slope[j] * coefficients[k - 1 - j] for j in range(k)), head * 0)
+            coefficients.append(total / k)
+        return self._series(coefficients)
 
     def _circle(self, var: Var, u: Series, head: Scalar) -> Series:
         """c' = -u' s and s' = u' c; both are found at once."""
@@ -188,13 +188,13 @@ class SeriesPoint:
 
     def _root(self, u: Series, head: Scalar, degree: int) -> Series:
         """r' u degree = u' r, solved coefficient by coefficient."""
-        found, first = [head], u.coefficient(0)
+        coefficients, first = [head], u.coefficient(0)
         for k in range(1, self.order):
             total = head * 0
             for j in range(1, k + 1):
-                total = total + u.coefficient(j) * found[k - j] * (j - degree * (k - j))
-            found.append(total / (first * (degree * k)))
-        return self._series(found)
+                total = total + u.coefficient(j) * coefficients[k - j] * (j - degree * (k - j))
+            coefficients.append(total / (first * (degree * k)))
+        return self._series(coefficients)
 
     def _call(self, var: Var, args: Sequence[Series]) -> Series:
         """Taylor's formula with the base's values of the derivatives."""
@@ -220,22 +220,22 @@ class SeriesPoint:
 def _multi_indices(n: int, total: int) -> list[tuple[int, ...]]:
     if n == 1:
         return [(k,) for k in range(total + 1)]
-    found = [(k, *rest) for k in range(total + 1) for rest in _multi_indices(n - 1, total - k)]
-    return found[:MAX_JET]
+    indices = [(k, *rest) for k in range(total + 1) for rest in _multi_indices(n - 1, total - k)]
+    return indices[:MAX_JET]
 
 
 def series_values(ring: Ring, point: SeriesPoint) -> list[Series]:
-    """Every instruction of the program as a series."""
+    """Return every instruction of the program as a series."""
     return values(ring, point)
 
 
 def zero_poly(base: Point, sample: Scalar) -> Any:
-    """The zero polynomial over the numbers that ``sample`` belongs to."""
+    """Return the zero polynomial over the numbers that ``sample`` belongs to."""
     return nmod_poly([0], sample.modulus()) if isinstance(sample, nmod) else arb_poly([])
 
 
 def monomial(like: Any) -> Any:
-    """The polynomial s, of the kind of ``like``."""
+    """Return the polynomial s, of the kind of ``like``."""
     return nmod_poly([0, 1], like.modulus()) if isinstance(like, nmod_poly) else arb_poly([0, 1])
 
 
@@ -255,12 +255,12 @@ class RandomCurve(SeriesPoint):
         self._drawn: dict[tuple[str, object], Series] = {}
 
     def generator(self, var: Var, args: Sequence[Series]) -> Series:
-        """The series of a generator; the first time it is drawn."""
+        """Return the series of a generator; the first time it is drawn."""
         name = (var.kind, var.key)
-        found = self._drawn.get(name)
-        if found is None:
-            found = self._drawn[name] = self._draw(var, args)
-        return found
+        series = self._drawn.get(name)
+        if series is None:
+            series = self._drawn[name] = self._draw(var, args)
+        return series
 
     def _draw(self, var: Var, args: Sequence[Series]) -> Series:
         if var.kind in ("cos", "sin"):

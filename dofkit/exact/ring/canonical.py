@@ -47,7 +47,7 @@ class Canon:
 
     @raising_no_value
     def quotient(self, node: int) -> Quotient:
-        """(numerator, denominator) of a node, both reduced."""
+        """Return (numerator, denominator) of a node, both reduced."""
         for i in reversed(reachable(self.ring, [node], through_generators=False)):
             if i not in self._memo:
                 self._memo[i] = self._compute(i)
@@ -110,12 +110,12 @@ class Canon:
     @cached_property
     def _divisors(self) -> list[tuple[int, int, Poly]]:
         """The relations with their leading generators' places and degrees."""
-        found = []
+        divisors = []
         for relation in self.relations:
             leading = relation.monomial(0)
             place = next(i for i, k in enumerate(leading) if k)
-            found.append((place, int(leading[place]), relation))
-        return found
+            divisors.append((place, int(leading[place]), relation))
+        return divisors
 
     @property
     @raising_no_value
@@ -123,27 +123,27 @@ class Canon:
         """cos^2 + sin^2 - 1, root^d - radicand, sign^2 - 1; later generators first."""
         if self._relations is None:
             self._relations = []
-            found = []
+            relations = []
             for var in reversed(self.ring.vars):
                 g = self.gens[var.index]
                 if var.kind == "sin":
-                    found.append(g**2 + self.gens[var.partner] ** 2 - 1)
+                    relations.append(g**2 + self.gens[var.partner] ** 2 - 1)
                 elif var.kind == "sign":
-                    found.append(g**2 - 1)
+                    relations.append(g**2 - 1)
                 elif var.kind == "root":
                     top, bottom = self.quotient(var.args[0])
                     if not bottom.is_constant():
                         continue
-                    found.append(g**var.degree - top / bottom.leading_coefficient())
-            self._relations = found
+                    relations.append(g**var.degree - top / bottom.leading_coefficient())
+            self._relations = relations
         return self._relations
 
     def is_zero(self, node: int) -> bool:
-        """True where the node is identically zero, proved; False where the canonical form is not 0."""
+        """Return whether the node is identically zero, proved; False where the canonical form is not 0."""
         return bool(self.quotient(node)[0] == 0)
 
     def to_expr(self, poly: Poly) -> Expr:
-        """A polynomial in the generators as an expression."""
+        """Return a polynomial in the generators as an expression."""
         shown = [self.ring.var_expr[var.index] for var in reversed(self.ring.vars)]
         terms = []
         for exponents, coefficient in poly.to_dict().items():
@@ -163,7 +163,7 @@ class Canon:
         return [(f, int(k)) for f, k in poly.factor()[1] if not f.is_constant()]
 
     def generators_in(self, poly: Poly) -> list[int]:
-        """The indices of the generators that occur."""
+        """Return the indices of the generators that occur."""
         n = len(self.ring.vars)
         return [n - 1 - i for i, k in enumerate(poly.degrees()) if k > 0] if n else []  # of 0 they are -1
 
@@ -181,7 +181,7 @@ def square_root(e: Expr, positive: frozenset[Expr]) -> Expr | None:
 
 
 def soon_factored(poly: Poly) -> bool:
-    """Are the degrees low enough for flint's factorisation, which hears no deadline?"""
+    """Return whether the degrees are low enough for flint's factorisation, which hears no deadline."""
     *_, second, first = 0, 0, *sorted(int(k) for k in poly.degrees())
     return first * second <= FACTORED_DEGREES
 
@@ -194,19 +194,19 @@ def divided(top: Any, bottom: Any) -> Any:
 
 @raising_no_value
 def remainder(poly: Poly, divisor: Poly) -> Poly:
-    """What a division leaves; raises PoleError for the divisor 0."""
+    """Return what a division leaves; raises PoleError for the divisor 0."""
     return divmod(poly, divisor)[1]
 
 
 @raising_no_value
 def lowest_terms(top: Poly, bottom: Poly) -> Quotient:
-    """A quotient divided by the common divisor of its terms; raises PoleError for 0/0."""
+    """Return a quotient divided by the common divisor of its terms; raises PoleError for 0/0."""
     common = top.gcd(bottom)
     return top / common, bottom / common
 
 
 def canonical(ring: Ring) -> Canon:
-    """The canonical forms of a finished ring (later generators do not enter)."""
+    """Return the canonical forms of a finished ring (later generators do not enter)."""
     return Canon(ring)
 
 
@@ -260,7 +260,7 @@ Degrees = tuple[int, int]
 
 
 def degree_bound(ring: Ring, nodes: Sequence[int]) -> int:
-    """A bound of the degrees of numerators and denominators, in symbols and independent values of functions.
+    """Return a bound of the degrees of numerators and denominators, in symbols and independent values of functions.
 
     Sines and cosines are functions on a curve of the second degree, a root is the power of another root.
     """

@@ -78,27 +78,27 @@ class Instructions(ABC):
         return sha256(repr(self.code).encode()).hexdigest()
 
     def emit(self, op: int, payload: Any) -> int:
-        """The number of an instruction."""
+        """Return the number of an instruction."""
         key = (op, payload)
-        found = self._interned.get(key)
-        if found is None:
-            found = self._interned[key] = len(self.code)
+        number = self._interned.get(key)
+        if number is None:
+            number = self._interned[key] = len(self.code)
             self.code.append(key)
-        return found
+        return number
 
     def order(self, roots: tuple[int, ...]) -> list[int]:
         """Every instruction that the roots depend on, the last first: worked out once, for gradients at many points."""
-        found = self._orders.get(roots)
-        if found is None:
-            found = self._orders[roots] = reachable(self, roots)
-        return found
+        instructions = self._orders.get(roots)
+        if instructions is None:
+            instructions = self._orders[roots] = reachable(self, roots)
+        return instructions
 
     def negative(self, node: int) -> int:
-        """The node of minus a node."""
+        """Return the node of minus a node."""
         return self.emit(MUL, (self.emit(NUM, Fraction(-1)), node))
 
     def replaced(self, node: int, mapping: Mapping[int, int]) -> int:
-        """A node with generators (by index) replaced by nodes; arguments of other generators are left."""
+        """Return a node with generators (by index) replaced by nodes; arguments of other generators are left."""
         new: dict[int, int] = {}
         for i in reversed(reachable(self, [node], through_generators=False)):
             op, payload = self.code[i]
@@ -111,22 +111,22 @@ class Instructions(ABC):
         return new[node]
 
     def generator(self, kind: str, key: Any, shown: Expr, args: tuple[int, ...] = (), degree: int = 1) -> int:
-        """The node of a generator, made at first use; ``shown`` is it as an expression."""
-        found = self._var_of.get((kind, key))
-        if found is None:
-            found = len(self.vars)
-            self._var_of[kind, key] = found
-            self.vars.append(Var(found, kind, key, args, -1, degree))
+        """Return the node of a generator, made at first use; ``shown`` is it as an expression."""
+        index = self._var_of.get((kind, key))
+        if index is None:
+            index = len(self.vars)
+            self._var_of[kind, key] = index
+            self.vars.append(Var(index, kind, key, args, -1, degree))
             self.var_expr.append(shown)
-            self.var_node.append(self.emit(VAR, found))
-        return self.var_node[found]
+            self.var_node.append(self.emit(VAR, index))
+        return self.var_node[index]
 
     def symbol(self, e: Expr) -> int:
-        """The node of a symbol."""
+        """Return the node of a symbol."""
         return self.generator("symbol", e, e)
 
     def var_index(self, e: Expr) -> int | None:
-        """The generator of a symbol, if it occurs."""
+        """Return the generator of a symbol, if it occurs."""
         return self._var_of.get(("symbol", e))
 
     def number(self, value: Fraction | int) -> int:
@@ -139,14 +139,14 @@ class Instructions(ABC):
         return self.emit(MUL, parts)
 
     def power_node(self, base: int, exponent: int) -> int:
-        """The node of an integer power of a node."""
+        """Return the node of an integer power of a node."""
         if exponent == 1:
             return base
         return self.number(1) if exponent == 0 else self.emit(POW, (base, exponent))
 
 
 def reachable(program: Instructions, roots: Iterable[int], through_generators: bool = True) -> list[int]:
-    """Every instruction that the roots depend on, the last first.
+    """Return every instruction that the roots depend on, the last first.
 
     Without ``through_generators`` the walk stops at generators: what they depend on is left out.
     """
@@ -171,7 +171,7 @@ def reachable(program: Instructions, roots: Iterable[int], through_generators: b
 
 @raising_no_value
 def value_of(ring: Instructions, point: Point, node: int) -> Scalar:
-    """The value of one instruction, from those only that it needs; raises PoleError at a pole."""
+    """Return the value of one instruction, from those only that it needs; raises PoleError at a pole."""
     out: dict[int, Scalar] = {}
     for i in reversed(reachable(ring, [node])):
         op, payload = ring.code[i]
@@ -192,7 +192,7 @@ def value_of(ring: Instructions, point: Point, node: int) -> Scalar:
 
 @raising_no_value
 def values(ring: Instructions, point: Point, upto: int | None = None) -> list[Scalar]:
-    """The value of every instruction at ``point``; raises PoleError at a pole.
+    """Return the value of every instruction at ``point``; raises PoleError at a pole.
 
     ``upto`` stops after that many instructions.
     """
@@ -218,7 +218,7 @@ def values(ring: Instructions, point: Point, upto: int | None = None) -> list[Sc
 
 
 def _folded(operation: Callable[[Scalar, Scalar], Scalar], payload: Sequence[int], out: Sequence[Scalar]) -> Scalar:
-    """The values of some instructions put together, from the first to the last."""
+    """Return the values of some instructions put together, from the first to the last."""
     return reduce(operation, [out[i] for i in payload])
 
 
@@ -261,7 +261,7 @@ def partials(ring: Instructions, var: Var, at: Sequence[Scalar], point: Point) -
 
 
 def _derivative(ring: Instructions, var: Var, i: int, at: Sequence[Scalar], point: Point) -> Scalar:
-    """The value of the unknown function differentiated once more by its i-th argument."""
+    """Return the value of the unknown function differentiated once more by its i-th argument."""
     name, orders, key = var.key
     raised = tuple(o + (i == j) for j, o in enumerate(orders))
     other = Var(-1, "call", (name, raised, key), var.args)
@@ -272,12 +272,12 @@ def _derivative(ring: Instructions, var: Var, i: int, at: Sequence[Scalar], poin
 def gradient(
     ring: Instructions, at: Sequence[Scalar], point: Point, seeds: Iterable[tuple[int, Scalar]]
 ) -> dict[int, Scalar]:
-    """The gradient of ``sum seed * value(node)`` by every symbol: ``{generator index: value}``."""
+    """Return the gradient of ``sum seed * value(node)`` by every symbol: ``{generator index: value}``."""
     check()
     adjoint: dict[int, Scalar] = {}
     for node, seed in seeds:
         adjoint[node] = adjoint[node] + seed if node in adjoint else seed
-    found: dict[int, Scalar] = {}
+    slopes: dict[int, Scalar] = {}
     for node in ring.order(tuple(adjoint)):
         bar = adjoint.pop(node, None)
         if bar is None:
@@ -295,11 +295,11 @@ def gradient(
         elif op == VAR:
             var = ring.vars[payload]
             if var.kind == "symbol":
-                found[payload] = bar
+                slopes[payload] = bar
             for i, factor in partials(ring, var, at, point):
                 part = bar * factor
                 adjoint[i] = adjoint[i] + part if i in adjoint else part
-    return found
+    return slopes
 
 
 def _product_rule(payload: tuple[int, ...], at: Sequence[Scalar], bar: Scalar, adjoint: dict[int, Scalar]) -> None:
@@ -309,8 +309,3 @@ def _product_rule(payload: tuple[int, ...], at: Sequence[Scalar], bar: Scalar, a
             if other != place:
                 part = part * at[j]
         adjoint[i] = adjoint[i] + part if i in adjoint else part
-
-
-def polynomial_nodes(ring: Instructions) -> bool:
-    """True where the program divides by nothing."""
-    return all(op != POW or payload[1] > 0 for op, payload in ring.code)

@@ -13,13 +13,11 @@ from dofkit.expressions.enclosures import interval_of, is_constant
 from dofkit.expressions.terms import content, sorted_sum
 from dofkit.expressions.tree import Expr
 
-#: Sums of more terms than this are not looked at for a square.
-MAX_SQUARE = 40
 Key = tuple[Any, int]
 
 
 def root(ring: Instructions, radicand: Expr, degree: int) -> int:
-    """The real ``degree``-th root; of a product, the product of the roots; of an integer, over its primes."""
+    """Return the real ``degree``-th root; of a product, the product of the roots; of an integer, over its primes."""
     if radicand.op == "mul":
         apart, rest = known_signs(ring, radicand)
         if degree % 2:
@@ -57,7 +55,7 @@ def known_signs(ring: Instructions, product: Expr) -> tuple[list[Expr], Expr]:
 
 
 def never_negative(ring: Instructions, part: Expr) -> bool:
-    """Is it >= 0 by its form, wherever it is defined?"""
+    """Return whether it is >= 0 by its form, wherever it is defined."""
     if part.op == "num":
         return bool(part.args[0] > 0)
     if part in ring.positive or part.op == "const" or (part.op == "fn" and part.args[0] in ("exp", "abs", "cosh")):
@@ -127,7 +125,7 @@ def prime_powers(value: int) -> list[tuple[int, int]]:
 
 
 def sign(ring: Instructions, e: Expr) -> int:
-    """The sign of ``e``, with square 1 and derivative 0; an odd function of it."""
+    """Return the sign of ``e``, with square 1 and derivative 0; an odd function of it."""
     if e.op == "num" and not e.is_zero:
         return ring.number(1 if e.args[0] > 0 else -1)
     if never_negative(ring, e):
@@ -158,7 +156,7 @@ def _sign_of_constant(e: Expr) -> int:
 
 
 def leads_with_minus(e: Expr) -> bool:
-    """Has the first of the sorted terms a minus sign? Of ``e`` and ``-e`` one has."""
+    """Return whether the first of the sorted terms has a minus sign: of ``e`` and ``-e`` one has."""
     terms = sorted_sum(e)
     return bool(terms) and terms[0][1] < 0
 
@@ -210,7 +208,7 @@ def _log_of_number(ring: Instructions, value: Fraction) -> int:
 
 
 def over_primes(u: Expr) -> Expr:
-    """An exponent with the logarithms of numbers in its terms as sums over primes: 4^w is (e^(w log 2))^2."""
+    """Return an exponent with the logarithms of numbers in its terms as sums over primes: 4^w is (e^(w log 2))^2."""
     if u.op in ("add", "mul"):
         return (ex.add if u.op == "add" else ex.mul)(*map(over_primes, u.args))
     if u.op != "fn" or u.args[0] != "log":
@@ -224,5 +222,5 @@ def over_primes(u: Expr) -> Expr:
 
 
 def _primes(value: Fraction) -> list[tuple[int, int]]:
-    """The primes of a positive number with their powers."""
+    """Return the primes of a positive number with their powers."""
     return prime_powers(value.numerator) + [(p, -k) for p, k in prime_powers(value.denominator)]

@@ -87,7 +87,7 @@ _COSINES = tuple(
 
 
 def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) -> dict[tuple[str, Expr], int]:
-    """For every basic angle or exponent, the common denominator of its multiples."""
+    """Return for every basic angle or exponent, the common denominator of its multiples."""
     denominators: dict[tuple[str, Expr], int] = {}
     for node in _with_functions(expressions):
         family = _family(node) if node.op in ("fn", "pow") else None
@@ -102,15 +102,15 @@ def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) ->
 
 
 def _with_functions(expressions: Iterable[Expr]) -> set[Expr]:
-    """Every node in which a function occurs."""
-    found: set[Expr] = set()
+    """Return every node in which a function occurs."""
+    nodes: set[Expr] = set()
     left = [e for e in expressions if e.functions]
     while left:
         node = left.pop()
-        if node not in found:
-            found.add(node)
+        if node not in nodes:
+            nodes.add(node)
             left.extend(child for child in ex.children(node) if child.functions)
-    return found
+    return nodes
 
 
 def _family(node: Expr) -> str | None:
@@ -150,16 +150,16 @@ class Ring(Instructions):
         return made
 
     def node(self, e: Expr) -> int:
-        """The number of the instruction that computes ``e``; raises PoleError where it divides by 0."""
-        found = self._memo.get(e)
-        if found is None:
+        """Return the number of the instruction that computes ``e``; raises PoleError where it divides by 0."""
+        number = self._memo.get(e)
+        if number is None:
             op = e.op
             if op == "add" or op == "mul":
-                found = self.emit(ADD if op == "add" else MUL, self._nodes(e.args))
+                number = self.emit(ADD if op == "add" else MUL, self._nodes(e.args))
             else:
-                found = _BUILDING[op](self, e)
-            self._memo[e] = found
-        return found
+                number = _BUILDING[op](self, e)
+            self._memo[e] = number
+        return number
 
     def _number(self, e: Expr) -> int:
         return self.emit(NUM, e.args[0])
@@ -223,13 +223,13 @@ class Ring(Instructions):
 
     @property
     def related(self) -> bool:
-        """Are there functions of one argument and of so large a multiple of it that neither is told by the other?"""
-        found = {(v.kind, v.key[0]) for v in self.vars if v.kind in ("exp", "cos")}
-        bases = [(kind, self._bases.get(rest, rest)) for kind, rest in found]
+        """True where a function occurs of an argument and of a large multiple of it, as generators apart."""
+        arguments = {(v.kind, v.key[0]) for v in self.vars if v.kind in ("exp", "cos")}
+        bases = [(kind, self._bases.get(rest, rest)) for kind, rest in arguments]
         return len(set(bases)) < len(bases)
 
     def _large_multiple(self, rest: Expr, size: Fraction) -> Expr:
-        """A multiple that is an argument of its own."""
+        """Return a multiple that is an argument of its own."""
         multiple = Expr("mul", (ex.num(size), rest))
         self._bases[multiple] = rest
         return multiple
@@ -251,11 +251,11 @@ class Ring(Instructions):
         return self.product(*parts) if parts else self.number(1)
 
     def _cis(self, u: Expr) -> tuple[int, int]:
-        """(cos u, sin u) as polynomials in those of the basic angles."""
-        found = self._turns.get(u)
-        if found is None:
-            found = self._turns[u] = self._turn(u)
-        return found
+        """Return (cos u, sin u) as polynomials in those of the basic angles."""
+        turn = self._turns.get(u)
+        if turn is None:
+            turn = self._turns[u] = self._turn(u)
+        return turn
 
     def _turn(self, u: Expr) -> tuple[int, int]:
         u = substitute(u, self.alias)

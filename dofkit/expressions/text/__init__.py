@@ -30,7 +30,7 @@ __all__ = [
 
 
 def parse_relations(text: str, names: Names) -> tuple[Comparison, ...]:
-    """The relations in ``text``: one, or several for a chain such as ``0 <= x <= L``.
+    """Return the relations in ``text``: one, or several for a chain such as ``0 <= x <= L``.
 
     A text without a relation means ``... = 0``. Raises TextError for what cannot be read.
     """
@@ -38,5 +38,5 @@ def parse_relations(text: str, names: Names) -> tuple[Comparison, ...]:
 
 
 def parse_expression(text: str, names: Names) -> Expr:
-    """The value of ``text``; a relation in it is an error. Raises TextError for what cannot be read."""
+    """Return the value of ``text``; a relation in it is an error. Raises TextError for what cannot be read."""
     return Parser(tokenize(text, names.lookup), names, APPLICATIONS).value()

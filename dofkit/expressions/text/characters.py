@@ -99,7 +99,7 @@ class Folded(NamedTuple):
 
 
 def fold(text: str) -> Folded:
-    """``text`` in the plain characters that the tokenizer knows, or TextError at the first other one."""
+    """Return ``text`` in the plain characters that the tokenizer knows, or TextError at the first other one."""
     columns: Sequence[int] = range(1, len(text) + 2)
     if text.isascii():
         return Folded(text, columns)
@@ -120,7 +120,7 @@ def fold(text: str) -> Folded:
 
 
 def _plain(char: str, column: int) -> str:
-    """What one character outside ASCII stands for."""
+    """Return what one character outside ASCII stands for."""
     if char in _KEPT:
         return char
     for table in (_SIGNS, _LETTERS, _SPACES, _MARKS):
@@ -138,7 +138,7 @@ def _plain(char: str, column: int) -> str:
 
 
 def _composed(char: str, parts: list[str]) -> str | None:
-    """A letter in another type face, or a letter with dots above it."""
+    """Return a letter in another type face, or a letter with dots above it."""
     if parts[0] == "<font>":
         base = chr(int(parts[1], 16))
         base = _LETTERS.get(base, base)
@@ -176,12 +176,12 @@ def _refusal(char: str, column: int) -> TextError:
 
 
 def _wide(char: str) -> str | None:
-    """The ASCII character that a full-width one imitates."""
+    """Return the ASCII character that a full-width one imitates."""
     return chr(ord(char) - 0xFEE0) if "！" <= char <= "～" else None
 
 
 def spelled(name: str) -> str:
-    """``name`` with its Greek letters spelled out: θ_1 and theta_1 are one name."""
+    """Return ``name`` with its Greek letters spelled out: θ_1 and theta_1 are one name."""
     if name.isascii():
         return name
     return "".join([GREEK.get(c, c) for c in (_LETTERS.get(c, c) for c in name)])
@@ -311,7 +311,7 @@ def _undelimited(text: str) -> str:
 
 
 def _command(name: str, text: str, start: int, end: int, column: int) -> tuple[str, int]:
-    """What the command ``name`` stands for, and where the text goes on after it."""
+    """Return what the command ``name`` stands for, and where the text goes on after it."""
     if name in ("dot", "ddot"):
         return _dots(name, text, end, column)
     if name in _TYPE_FACES:

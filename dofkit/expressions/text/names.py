@@ -6,9 +6,11 @@ import re
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import islice
 from typing import Any, Literal, NamedTuple
 
 from dofkit.base.errors import TextError
+from dofkit.base.wording import closest
 from dofkit.expressions.renaming import MOVING
 from dofkit.expressions.text.characters import DOT, MAX_NAME, TWO_DOTS, check_name_characters, spelled
 from dofkit.expressions.tree import DT, FUNCTIONS, PI, TIME, E, Expr, coordinate, differential, sym, velocity
@@ -104,7 +106,7 @@ _MEMORY = 20_000
 
 
 def unmarked(name: str) -> str:
-    """``name`` spelled out, in small letters and without `_`."""
+    """Return ``name`` spelled out, in small letters and without `_`."""
     return spelled(name).replace("_", "").lower()
 
 
@@ -140,12 +142,12 @@ class Lookup:
         try:
             return self._words[word]
         except KeyError:
-            found = self._find(spelled(word))
-            if found is None and word[:1] == VARIATION and spelled(VARIATION) not in self._declared:
-                found = self._time_derivative(spelled(word[1:]), -1)
+            meaning = self._find(spelled(word))
+            if meaning is None and word[:1] == VARIATION and spelled(VARIATION) not in self._declared:
+                meaning = self._time_derivative(spelled(word[1:]), -1)
             if len(self._words) < _MEMORY + len(self._declared):
-                self._words[word] = found
-            return found
+                self._words[word] = meaning
+            return meaning
 
     @cached_property
     def declared(self) -> list[str]:
@@ -160,16 +162,16 @@ class Lookup:
         return {unmarked(name): name for name in known}
 
     def _find(self, word: str) -> Meaning | None:
-        found = self._declared.get(word)
-        if found is None:
-            found = _built_in(word)
-        if found is None and (DOT in word or TWO_DOTS in word):
+        meaning = self._declared.get(word)
+        if meaning is None:
+            meaning = _built_in(word)
+        if meaning is None and (DOT in word or TWO_DOTS in word):
             return self._dotted(word)
-        if found is None:
-            found = self._marked_derivative(word)
-        if found is None and word == "E":
-            found = Meaning("value", E)
-        return found
+        if meaning is None:
+            meaning = self._marked_derivative(word)
+        if meaning is None and word == "E":
+            meaning = Meaning("value", E)
+        return meaning
 
     def _dotted(self, word: str) -> Meaning | None:
         match = _MARKED.fullmatch(word)
@@ -180,16 +182,16 @@ class Lookup:
     def _marked_derivative(self, word: str) -> Meaning | None:
         """`dq`, `qdot`, `q_dot`, `qdot_A`, `qddot` of a declared q."""
         if word[0] == "d":
-            found = self._time_derivative(word[1:], -1)
-            if found is not None:
-                return found
+            differential = self._time_derivative(word[1:], -1)
+            if differential is not None:
+                return differential
         match = _SUFFIXED.fullmatch(word) if "dot" in word else None
         if match is None:
             return None
         return self._time_derivative(match[1] + (match[3] or ""), 1 if match[2] == "dot" else 2)
 
     def _time_derivative(self, word: str, order: int) -> Meaning | None:
-        """The ``order``-th derivative by time of the declared ``word``; -1 for its differential."""
+        """Return the ``order``-th derivative by time of the declared ``word``; -1 for its differential."""
         base = self._declared.get(word)
         if base is None:
             return None
@@ -203,7 +205,7 @@ class Lookup:
 
 
 def derivative(name: str, order: int) -> Expr | None:
-    """The coordinate ``name``, its velocity or acceleration, or (-1) its differential."""
+    """Return the coordinate ``name``, its velocity or acceleration, or (-1) its differential."""
     if order == -1:
         return differential(name)
     if order == 0:
@@ -227,21 +229,21 @@ def _built_in(word: str) -> Meaning | None:
 
 def _declared(names: Names) -> dict[str, Meaning]:
     """Spelled name -> meaning; `x1` and `x_1` are one name unless both are declared."""
-    found: dict[str, Meaning] = {}
+    meanings: dict[str, Meaning] = {}
     for name in names.functions:
-        found[spelled(name)] = Meaning("call", name=name)
+        meanings[spelled(name)] = Meaning("call", name=name)
     for name, expr in names.parameters.items():
-        found[spelled(name)] = Meaning("value", expr)
+        meanings[spelled(name)] = Meaning("value", expr)
     for name in sorted(names.coordinates):
-        found[spelled(name)] = Meaning("value", coordinate(name))
+        meanings[spelled(name)] = Meaning("value", coordinate(name))
     twins: dict[str, Meaning] = {}
-    for word, meaning in found.items():
+    for word, meaning in meanings.items():
         match = _NUMBERED.fullmatch(word)
         if match is not None:
             twin = f"{match[1]}{'' if match[2] else '_'}{match[3]}"
-            if twin not in found and _built_in(twin) is None:
+            if twin not in meanings and _built_in(twin) is None:
                 twins[twin] = meaning
-    return {**twins, **found}
+    return {**twins, **meanings}
 
 
 def valid_name(name: str) -> str | None:
@@ -281,7 +283,7 @@ class Pattern(NamedTuple):
 
 
 def pattern_of(text: str, lookup: Lookup) -> Pattern | None:
-    """The pattern of a text; None where it has to be read by itself."""
+    """Return the pattern of a text; None where it has to be read by itself."""
     if len(text) > LONGEST or _UNUSUAL.search(text):
         return None
     parts: list[Hashable] = list(_WORDS.split(text))
@@ -301,9 +303,64 @@ def pattern_of(text: str, lookup: Lookup) -> Pattern | None:
 
 
 def _moving(meaning: Meaning) -> tuple[str, str] | None:
-    """The kind of a symbol that is called by a coordinate, and that name; None of another meaning."""
+    """Return the kind of a symbol that is called by a coordinate, and that name; None of another meaning."""
     e = meaning.expr
     if e is None or e.op != "sym" or e.args[0] not in MOVING:
         return None
     kind, name = e.args
     return kind, name
+
+
+_CONSTANT = "give the constant a name: `parameters: {C: real}`, and `... = C`"
+_RELATIONS = "give each relation its own text"
+#: Words of programs and of prose; each gets its own advice unless it is declared.
+FOREIGN: dict[str, str] = {
+    **dict.fromkeys(("const", "constant", "konst", "cst", "cte"), _CONSTANT),
+    **dict.fromkeys(("and", "or", "if", "else"), _RELATIONS),
+    "not": "write `=`, `<=`, `>=`, `<` or `>`", "in": "write a chain `0 <= x <= L`", "is": "write `=`",
+    "lambda": "a text is mathematics, not code", "True": "write an equation", "False": "write an equation",
+    "None": "write an equation, or leave the field out", "nan": "write a number", "NaN": "write a number",
+    "inf": "leave that bound out", "oo": "leave that bound out",
+}  # fmt: skip
+#: What is written in place of a letter that people use for something else.
+_ADVICE = {"e": "write `E` for Euler's number, or `exp(x)` for its powers",
+           "d": "write the differential of `x` as `dx`, its velocity as `xdot`"}  # fmt: skip
+#: Names of units: a number has none here.
+UNITS = frozenset({
+    "km", "m", "dm", "cm", "mm", "um", "nm", "in", "inch", "ft", "kg", "g", "mg", "lb", "s", "ms", "min", "h", "Hz",
+    "N", "kN", "Nm", "J", "kJ", "W", "rad", "rpm", "Pa", "K", "mol",
+})  # fmt: skip
+_NEAR = 200
+
+
+def unknown_name(word: str, lookup: Lookup, column: int, called: bool) -> UnknownNameError:
+    """Return why a word is not known, with the nearest name or advice."""
+    what = f"there is no function `{word}`" if called else f"`{word}` is not declared"
+    near = None if word in FOREIGN or word in _ADVICE else _nearest(word, lookup, called)
+    if word in FOREIGN:
+        hint = FOREIGN[word]
+        what = f"`{word}` is not declared" if hint is _CONSTANT else f"`{word}` has no meaning in a text"
+    elif word in _ADVICE or near:
+        hint = _ADVICE.get(word, f"did you mean `{near}`?")
+    elif called:
+        functions = [*list(lookup.names.functions)[:8], *(f for f in ELEMENTARY if f not in SYNONYMS)]
+        hint = f"the functions are {', '.join(functions)}"
+    else:
+        listed = ", ".join(lookup.declared[:8]) + (", ..." if len(lookup.declared) > 8 else "")
+        hint = f"the declared names are {listed}" if listed else "no names are declared"
+    return UnknownNameError(what, column, hint)
+
+
+def _nearest(word: str, lookup: Lookup, called: bool) -> str | None:
+    """Return the known name that looks most like ``word``."""
+    target, declared, coordinates = spelled(word), lookup.declared, lookup.names.coordinates
+    same = lookup.unmarked.get(unmarked(word))
+    if same is not None:
+        return same
+    pool = [*lookup.names.functions, *ELEMENTARY] if called else [*declared, "pi"]
+    pool += ["d" + name for name in coordinates] if target.startswith("d") else []
+    pool += [name + "dot" for name in coordinates] if target.endswith("dot") else []
+    if len(pool) > _NEAR:  # keep the comparison short in a scene of thousands of names
+        alike = (n for n in pool if abs(len(n) - len(target)) < 2 and (n[:1] == target[:1] or n[1:] == target[1:]))
+        pool = list(islice(alike, _NEAR))
+    return closest(target, pool, 0.5) or closest(target, [*declared[:_NEAR], *ELEMENTARY], 0.7)

@@ -15,7 +15,7 @@ Printed = tuple[str, int]
 
 
 def to_text(e: Expr) -> str:
-    """``e`` as a person would write it; reading it back gives ``e``, its factors perhaps in another order."""
+    """Return ``e`` as a person would write it; reading it back gives ``e``, its factors perhaps in another order."""
     return _print(e)[0]
 
 
@@ -24,13 +24,13 @@ def _print(e: Expr) -> Printed:
 
 
 def _within(e: Expr, strength: int) -> str:
-    """``e`` in parentheses where it binds less tightly than ``strength``."""
+    """Return ``e`` in parentheses where it binds less tightly than ``strength``."""
     text, own = _print(e)
     return text if own >= strength else f"({text})"
 
 
 def _digits(value: int) -> str:
-    """A whole number from 0, in pieces that the tokenizer reads."""
+    """Return a whole number from 0, in pieces that the tokenizer reads."""
     if value < _LONGEST:
         return str(value)
     zeros = 0
@@ -128,14 +128,14 @@ def _call(e: Expr) -> Printed:
 
 
 def _step(arguments: tuple[Expr, ...], index: int) -> str | None:
-    """The symbol that stands at ``index`` and nowhere else, by which `diff` differentiates."""
+    """Return the symbol that stands at ``index`` and nowhere else, by which `diff` differentiates."""
     symbol = arguments[index]
     elsewhere = any(symbol in other.symbols for i, other in enumerate(arguments) if i != index)
     return None if symbol.op != "sym" or elsewhere else to_text(symbol)
 
 
 def _moves_with_time(arguments: tuple[Expr, ...], orders: tuple[int, ...]) -> bool:
-    """True where the derivative by the argument t differs from the total derivative by time."""
+    """Return whether the derivative by the argument t differs from the total derivative by time."""
     if not any(order and argument == TIME for argument, order in zip(arguments, orders, strict=True)):
         return False
     return any(s.args[0] not in ("parameter", "time") for argument in arguments for s in argument.symbols)

@@ -9,11 +9,9 @@ import re
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
-from itertools import islice
 from typing import NamedTuple, NoReturn
 
 from dofkit.base.errors import TextError
-from dofkit.base.wording import closest
 from dofkit.expressions.text.characters import (
     DEGREE,
     DOT,
@@ -29,10 +27,9 @@ from dofkit.expressions.text.characters import (
     SUPERSCRIPTS,
     TWO_DOTS,
     fold,
-    spelled,
     unlatex,
 )
-from dofkit.expressions.text.names import ELEMENTARY, SYNONYMS, VARIATION, Lookup, Meaning, UnknownNameError, unmarked
+from dofkit.expressions.text.names import FOREIGN, UNITS, VARIATION, Lookup, Meaning, UnknownNameError, unknown_name
 from dofkit.expressions.tree import PI, E, Expr, mul, num, sym
 
 
@@ -112,18 +109,18 @@ _WRONG: dict[str, tuple[str, str]] = {
 
 
 def tokenize(text: str, lookup: Lookup) -> Tokens:
-    """The tokens of ``text``; TextError at the first thing that is none."""
+    """Return the tokens of ``text``; TextError at the first thing that is none."""
     if not isinstance(text, str):
         raise TextError(f"a text is needed, not {type(text).__name__}", 1, "put it in quotes")
-    if len(text) > MAX_CHARACTERS:
-        message = f"the text has {len(text)} characters; at most {MAX_CHARACTERS} are read"
-        raise TextError(message, MAX_CHARACTERS + 1, "split it into several texts")
+    if (size := len(text)) > MAX_CHARACTERS:
+        hint = "split it into several texts"
+        raise TextError(f"the text has {size} characters; at most {MAX_CHARACTERS} are read", MAX_CHARACTERS + 1, hint)
     plain, columns = unlatex(fold(text.rstrip()))
     return Tokens(_scan(plain, columns, lookup), plain, columns)
 
 
 def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
-    found: list[Token] = []
+    tokens: list[Token] = []
     position = len(text) - len(text.lstrip())
     match_at = _TOKEN.match
     while True:
@@ -134,28 +131,28 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
         start, end = match.span(kind)
         motion = _motion(match[kind], text, start, lookup, columns) if kind == "word" else None
         if motion is not None:
-            found.append(motion)
+            tokens.append(motion)
             end = motion.end
         elif kind == "degree" or (kind == "word" and match[kind] in _DEGREES and lookup.meaning(match[kind]) is None):
-            found[-1:] = [_in_degrees(found, start, end, columns)]
+            tokens[-1:] = [_in_degrees(tokens, start, end, columns)]
         elif kind == "word":
-            before = found[-1] if found and found[-1].kind == "number" else None
+            before = tokens[-1] if tokens and tokens[-1].kind == "number" else None
             number = "" if before is None else text[before.start : before.end]
             parts = read_word(match[kind], lookup, columns[start], text[end : end + 1] == "(", number)
-            found += [_word_token(part, start, text) for part in parts]
+            tokens += [_word_token(part, start, text) for part in parts]
         elif kind == "sign" or kind == "relation":
             sign = match[kind]
             sign = _ALIKE.get(sign, sign)
-            found.append(Token("relation" if kind == "relation" else sign, start, end, None, sign))
+            tokens.append(Token("relation" if kind == "relation" else sign, start, end, None, sign))
         else:
-            if kind == "prime" and (not found or found[-1].end != start):
+            if kind == "prime" and (not tokens or tokens[-1].end != start):
                 hint = "text needs no quotes; a prime stands right after a name: `x'`"
                 raise TextError("a quote cannot stand here", columns[start], hint)
-            found.append(_other(match, columns, text, lookup))
+            tokens.append(_other(match, columns, text, lookup))
             if kind == "end":
-                _check_size(found, columns)
-                return found
-        if len(found) > MAX_NODES:
+                _check_size(tokens, columns)
+                return tokens
+        if len(tokens) > MAX_NODES:
             message = f"the text has more than {MAX_NODES} numbers, names and signs"
             raise TextError(message, columns[start], "split it into several texts")
         position = end
@@ -191,19 +188,19 @@ def _motion(word: str, text: str, start: int, lookup: Lookup, columns: Sequence[
     return Token("motion", start, match.end(), differential.expr)
 
 
-def _in_degrees(found: list[Token], start: int, end: int, columns: Sequence[int]) -> Token:
-    """The number that stands before a sign of degrees, times pi/180."""
-    before = found[-1] if found else None
+def _in_degrees(tokens: list[Token], start: int, end: int, columns: Sequence[int]) -> Token:
+    """Return the number that stands before a sign of degrees, times pi/180."""
+    before = tokens[-1] if tokens else None
     if before is None or before.kind != "number" or before.expr is None or before.expr.op != "num":
         hint = "write `60°`; write anything else than a number as `theta*pi/180`"
         raise TextError("a sign of degrees is read only after a number", columns[start], hint)
     return Token("number", before.start, end, mul(before.expr, num(Fraction(1, 180)), PI), "degrees")
 
 
-def _check_size(found: list[Token], columns: Sequence[int]) -> None:
+def _check_size(tokens: list[Token], columns: Sequence[int]) -> None:
     """Refuse numbers that are small each and, multiplied, large."""
     total = 0
-    for token in found:
+    for token in tokens:
         if token.kind == "number" and token.expr is not None:
             value: Fraction = (token.expr.args[0] if token.expr.op == "mul" else token.expr).args[0]
             total += value.numerator.bit_length() + value.denominator.bit_length() - 2
@@ -213,48 +210,52 @@ def _check_size(found: list[Token], columns: Sequence[int]) -> None:
 
 
 def _other(match: re.Match[str], columns: Sequence[int], text: str, lookup: Lookup) -> Token:
-    """A number, primes, superscript digits, or the end."""
+    """Return a number, primes, superscript digits, or the end."""
     kind = match.lastgroup or ""
-    found, (start, end) = match[kind], match.span(kind)
+    written, (start, end) = match[kind], match.span(kind)
     column = columns[start]
     if kind == "number":
-        _check_number(found, text, end, column, lookup)
-        return Token(kind, start, end, num(_number(found, column)))
+        _check_number(written, text, end, column, lookup)
+        return Token(kind, start, end, num(_number(written, column)))
     if kind == "fraction":
-        return Token("number", start, end, num(Fraction(*FRACTIONS[found])), "fraction")
+        return Token("number", start, end, num(Fraction(*FRACTIONS[written])), "fraction")
     if kind == "superscript":
-        digits = "".join(SUPERSCRIPTS[c] for c in found)
+        digits = "".join(SUPERSCRIPTS[c] for c in written)
         if not digits.lstrip("+-").isdigit() or len(digits) > 4 or digits.rfind("-") > 0 or "+" in digits:
-            raise TextError(f"the superscript `{found[:12]}` is not an exponent", column, "write `^` and the exponent")
-        return Token(kind, start, end, num(int(digits)), found, int(digits))
+            raise TextError(
+                f"the superscript `{written[:12]}` is not an exponent", column, "write `^` and the exponent"
+            )
+        return Token(kind, start, end, num(int(digits)), written, int(digits))
     if kind == "wrong":
-        message, hint = _WRONG.get(found, (f"`{found}` is not read", "write `=`, `<=`, `>=`, `<`, `>` or arithmetic"))
+        message, hint = _WRONG.get(
+            written, (f"`{written}` is not read", "write `=`, `<=`, `>=`, `<`, `>` or arithmetic")
+        )
         raise TextError(message, column, hint)
-    return Token(kind, start, end, None, found, len(found))
+    return Token(kind, start, end, None, written, len(written))
 
 
-def _check_number(found: str, text: str, end: int, column: int, lookup: Lookup) -> None:
+def _check_number(digits: str, text: str, end: int, column: int, lookup: Lookup) -> None:
     """Refuse what looks like a number and is read differently by different people."""
     after = text[end : end + 1]
     if after == "_":
         raise TextError("`_` inside a number is not read", column, "write the digits together, without `_`")
-    if found == "0" and after in tuple("xXoObB") and text[end + 1 : end + 2].isdigit():
+    if digits == "0" and after in tuple("xXoObB") and text[end + 1 : end + 2].isdigit():
         raise TextError("only decimal numbers are read", column, "write the number in decimal digits")
-    if len(found) > 1 and found[0] == "0" and found[1].isdigit():
-        raise TextError("a number does not begin with 0", column, f"write `{found.lstrip('0') or '0'}`")
-    letter = "e" if "e" in found else "E"
-    if letter in found and letter in lookup.declared:
-        head, _, tail = found.partition(letter)
-        message = f"`{found}` can be read as a power of ten or as a product with the declared name `{letter}`"
+    if len(digits) > 1 and digits[0] == "0" and digits[1].isdigit():
+        raise TextError("a number does not begin with 0", column, f"write `{digits.lstrip('0') or '0'}`")
+    letter = "e" if "e" in digits else "E"
+    if letter in digits and letter in lookup.declared:
+        head, _, tail = digits.partition(letter)
+        message = f"`{digits}` can be read as a power of ten or as a product with the declared name `{letter}`"
         raise TextError(message, column, f"write `{head}*10^({tail.lstrip('+')})` or `{head}*{letter}*{tail}`")
 
 
-def _number(found: str, column: int) -> Fraction:
-    """The exact value of a decimal."""
-    whole, rest, power = _PARTS.findall(found)[0]
-    if len(whole) + len(rest) > MAX_DIGITS:
-        message = f"this number has {len(whole) + len(rest)} digits; at most {MAX_DIGITS} are read"
-        raise TextError(message, column, "write fewer digits, or a fraction")
+def _number(digits: str, column: int) -> Fraction:
+    """Return the exact value of a decimal."""
+    whole, rest, power = _PARTS.findall(digits)[0]
+    if (size := len(whole) + len(rest)) > MAX_DIGITS:
+        hint = "write fewer digits, or a fraction"
+        raise TextError(f"this number has {size} digits; at most {MAX_DIGITS} are read", column, hint)
     value = Fraction(int(whole + rest), 10 ** len(rest))
     if not power:
         return value
@@ -266,8 +267,7 @@ def _number(found: str, column: int) -> Fraction:
 
 def _stop(text: str, position: int, columns: Sequence[int]) -> NoReturn:
     """Say what stands where no token begins."""
-    while text[position] in " \t\f\v":
-        position += 1
+    position = len(text) - len(text[position:].lstrip(" \t\f\v"))
     char, column = text[position], columns[position]
     if text.startswith("..", position):
         raise TextError("an ellipsis is not read", column, "write out what the dots stand for")
@@ -276,28 +276,6 @@ def _stop(text: str, position: int, columns: Sequence[int]) -> NoReturn:
         raise TextError(message, column, hint)
     shown = f"`{char}`" if char.isprintable() else f"the control character U+{ord(char):04X}"
     raise TextError(f"{shown} has no meaning here", column, "write arithmetic with names, numbers and `+ - * / ^`")
-
-
-_CONSTANT = "give the constant a name: `parameters: {C: real}`, and `... = C`"
-_RELATIONS = "give each relation its own text"
-#: Words of programs and of prose; each gets its own advice unless it is declared.
-_FOREIGN: dict[str, str] = {
-    **dict.fromkeys(("const", "constant", "konst", "cst", "cte"), _CONSTANT),
-    **dict.fromkeys(("and", "or", "if", "else"), _RELATIONS),
-    "not": "write `=`, `<=`, `>=`, `<` or `>`", "in": "write a chain `0 <= x <= L`", "is": "write `=`",
-    "lambda": "a text is mathematics, not code", "True": "write an equation", "False": "write an equation",
-    "None": "write an equation, or leave the field out", "nan": "write a number", "NaN": "write a number",
-    "inf": "leave that bound out", "oo": "leave that bound out",
-}  # fmt: skip
-#: What is written in place of a letter that people use for something else.
-_ADVICE = {"e": "write `E` for Euler's number, or `exp(x)` for its powers",
-           "d": "write the differential of `x` as `dx`, its velocity as `xdot`"}  # fmt: skip
-#: Names of units: a number has none here.
-_UNITS = frozenset({
-    "km", "m", "dm", "cm", "mm", "um", "nm", "in", "inch", "ft", "kg", "g", "mg", "lb", "s", "ms", "min", "h", "Hz",
-    "N", "kN", "Nm", "J", "kJ", "W", "rad", "rpm", "Pa", "K", "mol",
-})  # fmt: skip
-_NEAR = 200
 
 
 class WordPart(NamedTuple):
@@ -316,17 +294,17 @@ def read_word(word: str, lookup: Lookup, column: int, called: bool, number: str 
     if len(word) > MAX_NAME:
         message = f"this name has {len(word)} letters; at most {MAX_NAME} are read"
         raise TextError(message, column, "write the product with `*`, or shorten the name")
-    readings = [] if word in _FOREIGN else _splits(word, lookup)
+    readings = [] if word in FOREIGN else _splits(word, lookup)
     if len(readings) == 1:
         return readings[0]
     if readings:
         written = " or ".join("`" + "*".join(word[p.start : p.end] for p in reading) + "`" for reading in readings)
         raise TextError(f"`{word}` can be read as {written}", column, "write `*` between the names")
-    if number and word in _UNITS:
+    if number and word in UNITS:
         hint = f"write `{number}`, with every quantity in one consistent system of units"
         hint = f"angles are in radians: write `{number}`" if word == "rad" else hint
         raise UnknownNameError(f"`{word}` is not declared, and numbers are written without units", column, hint)
-    raise _unknown(word, lookup, column, called)
+    raise unknown_name(word, lookup, column, called)
 
 
 def _splits(word: str, lookup: Lookup) -> list[tuple[WordPart, ...]]:
@@ -366,35 +344,3 @@ def _parts(word: str, start: int, after_function: bool, lookup: Lookup) -> list[
             continue  # Latin letters are a number only where they begin a word: `piR`, never `spin`
         parts.append(WordPart(meaning, start, end))
     return parts
-
-
-def _unknown(word: str, lookup: Lookup, column: int, called: bool) -> UnknownNameError:
-    what = f"there is no function `{word}`" if called else f"`{word}` is not declared"
-    near = None if word in _FOREIGN or word in _ADVICE else _nearest(word, lookup, called)
-    if word in _FOREIGN:
-        hint = _FOREIGN[word]
-        what = f"`{word}` is not declared" if hint is _CONSTANT else f"`{word}` has no meaning in a text"
-    elif word in _ADVICE or near:
-        hint = _ADVICE.get(word, f"did you mean `{near}`?")
-    elif called:
-        functions = [*list(lookup.names.functions)[:8], *(f for f in ELEMENTARY if f not in SYNONYMS)]
-        hint = f"the functions are {', '.join(functions)}"
-    else:
-        listed = ", ".join(lookup.declared[:8]) + (", ..." if len(lookup.declared) > 8 else "")
-        hint = f"the declared names are {listed}" if listed else "no names are declared"
-    return UnknownNameError(what, column, hint)
-
-
-def _nearest(word: str, lookup: Lookup, called: bool) -> str | None:
-    """Return the known name that looks most like ``word``."""
-    target, declared, coordinates = spelled(word), lookup.declared, lookup.names.coordinates
-    same = lookup.unmarked.get(unmarked(word))
-    if same is not None:
-        return same
-    pool = [*lookup.names.functions, *ELEMENTARY] if called else [*declared, "pi"]
-    pool += ["d" + name for name in coordinates] if target.startswith("d") else []
-    pool += [name + "dot" for name in coordinates] if target.endswith("dot") else []
-    if len(pool) > _NEAR:  # keep the comparison short in a scene of thousands of names
-        alike = (n for n in pool if abs(len(n) - len(target)) < 2 and (n[:1] == target[:1] or n[1:] == target[1:]))
-        pool = list(islice(alike, _NEAR))
-    return closest(target, pool, 0.5) or closest(target, [*declared[:_NEAR], *ELEMENTARY], 0.7)

@@ -46,23 +46,6 @@ _BOUND = re.compile(
 )
 _OTHERWISE = re.compile(r"\b(?:or|oder|ou|oppure|rather|actually|eigentlich)\b", re.IGNORECASE)
 _BEFORE_NAME = re.compile(r"\s*\d+(?:\s+[^\W\d_]+){1,2}\s*")
-#: Where the sum of parts stands: before a colon or parentheses, or after a word that concludes. What is taken away.
-_BEFORE_PARTS = re.compile(
-    r"\A\s*(?:\d+|[^\W\d_]+)\s*(?:dofs?|Freiheitsgrade|degr[^\W\d_]+\s+[^\W\d_]+\s+[^\W\d_]+)?\s*[:(]"
-)
-_AFTER_PARTS = re.compile(
-    r"\b(?:so|also|hence|thus|therefore|total|altogether|insgesamt|zusammen|macht|daher|donc|luego|quindi|portanto)\s*:?\s+"
-    r"(?:\d+|[^\W\d_]+)(?:\s+[^\W\d_]+)*\s*[.!]?\s*\Z",
-    re.IGNORECASE,
-)
-_SUBTRACTED = words(
-    "coordinate coordinates koordinate koordinaten coordonnee coordonnees coordenada coordenadas coordinata constraint "
-    "constraints zwangsbedingung zwangsbedingungen bedingung bedingungen bindung bindungen contrainte contraintes "
-    "liaison liaisons ligadura ligaduras restriccion restricciones vincolo vincoli equation equations gleichung "
-    "gleichungen minus less weniger moins menos meno"
-)
-#: So many longer words say what the parts of a sum are.
-_FEWEST_EXPLAINED, _SHORT = 2, 3
 #: In a part of more words `one` may be an article.
 _ARTICLE_WORDS = 2
 #: A denial of so many words without a number says something of what else there is.
@@ -127,10 +110,7 @@ def number(answer: object, called: frozenset[str] = frozenset(), foreign: frozen
     if not told:
         raise first or TextError("there is no number in this answer", 1, _HINT)
     if len(told) > 1 or (not named and not told >= unread):
-        whole = _sum_of_parts(body.text)
-        if whole is None:
-            raise DoubtError("it gives more than one number.", 1, _HINT)
-        return whole
+        raise DoubtError("it gives more than one number.", 1, _HINT)
     return told.pop()
 
 
@@ -146,21 +126,6 @@ def _is_foreign(text: str, foreign: frozenset[str]) -> bool:
     after = re.split(r"\d+", text)[-1] if re.search(r"\d", text) else text
     said = [plain(m[0]) for m in _WORD.finditer(after)]
     return not foreign.isdisjoint(said) and "=" not in text
-
-
-def _sum_of_parts(text: str) -> Fraction | None:
-    """The sum of several numbers among words, told before or after them: `3: 2 shifts, 1 turn`, `2 each, so 4`."""
-    words = [plain(m[0]) for m in _WORD.finditer(text)]
-    if _SIGNS.search(text) or not (DOUBTS | NEGATIONS).isdisjoint(words) or _OTHERWISE.search(text):
-        return None
-    found = [NUMBERS.get(plain(w), int(w) if w.isdecimal() else -1) for w in _ALONE.findall(text)]
-    numbers = [n for n in found if n >= 0]
-    explained = sum(len(w) > _SHORT for w in words if w not in NUMBERS) >= _FEWEST_EXPLAINED
-    if len(numbers) <= _FEWEST_EXPLAINED or not explained:
-        return None
-    told = [n for n, place in ((numbers[0], _BEFORE_PARTS), (numbers[-1], _AFTER_PARTS)) if place.search(text)]
-    wholes = {n for n in told if 2 * n == sum(numbers)}
-    return Fraction(wholes.pop()) if len(wholes) == 1 and _SUBTRACTED.isdisjoint(words) else None
 
 
 def _beside(text: str) -> set[int]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from dofkit.base.errors import TextError
-from dofkit.expressions.text import Names, parse_relations
+from dofkit.expressions.text import Names, parse_relations, spelled
 from dofkit.expressions.text.characters import GREEK
 from dofkit.expressions.text.tokens import read_word
 from dofkit.homework.answers.notation import ARROW, script_of, with_differentials
@@ -78,6 +78,14 @@ _RESULT = re.compile(
     re.DOTALL,
 )
 _NAME = re.compile(rf"(?<![\w\\]){_ENERGY}(?!\w)")
+_SYMBOL = r"\\?[A-Za-zα-ωΑ-Ω][A-Za-z0-9α-ωΑ-Ω_{}]{0,7}"
+_FUNCTION = re.compile(
+    rf"\A\s*(?:\\?[A-Za-zα-ωΑ-Ω]\w{{0,3}}\s*\(\s*{_SYMBOL}(?:\s*,\s*{_SYMBOL})+\s*\)"
+    rf"|(?:[fghFGH]|phi|Phi|φ|Φ|\\phi|\\Phi|\\varphi)(?:_?\{{?\w{{0,2}}\}}?)?(?:\s*\(\s*{_SYMBOL}\s*\))?)\s*=(?!=)\s*"
+)
+_CALLED = re.compile(r"\A\s*\\?([A-Za-zα-ωΑ-Ω]\w*)\s*\(\s*\\?(?:var)?([A-Za-zα-ωΑ-Ω]\w*)\s*\)\s*=(?!=)")
+_POWER_OF_E = re.compile(r"(?<![\w\\])([A-Za-zα-ωΑ-Ω])e(?=\s*(?:\^|\*\*))")
+_CONSTANTS = re.compile(r"\b(const|konst|cst|cte)(?:[^\W\d_]*)\.?(?!\w)", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -260,3 +268,31 @@ def with_energies(answer: Given, names: Names) -> Given:
     if any(names.lookup.meaning(name) is not None for name in energies):
         return answer
     return _NAME.sub(lambda found: energies.get(found[0], found[0]), result["value"])
+
+
+def plainer(script: Script, names: Names) -> Script:
+    """Without a leading name; `r(phi) =` is r, `Ce^x` is C e^x."""
+    script = _without_function(script, names)
+    match = _CALLED.match(script.text)
+    if match is not None and {spelled(match[1]), spelled(match[2])} <= names.coordinates:
+        script = script.replaced(_CALLED, lambda m: f"{m[1]} =")
+    if names.lookup.meaning("e") is not None:
+        return script
+    return script.replaced(_POWER_OF_E, lambda m: m[0] if names.lookup.meaning(m[0]) is not None else f"{m[1]} e")
+
+
+def _without_function(script: Script, names: Names) -> Script:
+    """Without `f(x, y) =` before an expression or an equation; `const.` is the name of a constant."""
+    script = script.replaced(_CONSTANTS, "const")
+    lead = _FUNCTION.match(script.text)
+    if lead is None or lead.end() == len(script.text):
+        return script
+    if "(" not in lead[0] and not re.match(r"\s*[fgh]", lead[0]) and "=" not in script.text[lead.end() :]:
+        return script
+    name = re.sub(r"[\\{}]", "", lead[0].split("=")[0].split("(")[0]).strip()
+    listed = "," in lead[0]
+    if listed and name in names.parameters:
+        return script.cut(lead.end())
+    if names.lookup.meaning(name) is not None or re.search(rf"\b{re.escape(name)}\b", script.text[lead.end() :]):
+        return script
+    return script.cut(lead.end())

@@ -15,7 +15,7 @@ from dofkit.expressions.text.names import in_words, unmarked
 from dofkit.expressions.text.tokens import read_word
 from dofkit.expressions.tree import E, Expr, coordinate, parameter
 from dofkit.homework.answers.declared import DeclaredNames, usual_name
-from dofkit.homework.answers.pieces import Pieces, pieces_of
+from dofkit.homework.answers.pieces import Pieces, pieces_of, plainer
 from dofkit.homework.answers.script import Script
 from dofkit.homework.judgement import DoubtError
 from dofkit.scene.added_equations import Read, as_text
@@ -31,18 +31,12 @@ _RATE = re.compile(r"(.+?)_?d?dot(_\w+)?")
 _RELATION = re.compile(r"[=<>≤≥]")
 #: Of a quotient of two numbers before a factor everybody reads the first way: `1/2(m v^2)` is half of it.
 _HALF = re.compile(r"\(\d+/\d+\)\*\(")
-_NAME = r"\\?[A-Za-zα-ωΑ-Ω][A-Za-z0-9α-ωΑ-Ω_{}]{0,7}"
-_FUNCTION = re.compile(
-    rf"\A\s*(?:\\?[A-Za-zα-ωΑ-Ω]\w{{0,3}}\s*\(\s*{_NAME}(?:\s*,\s*{_NAME})+\s*\)"
-    rf"|(?:[fghFGH]|phi|Phi|φ|Φ|\\phi|\\Phi|\\varphi)(?:_?\{{?\w{{0,2}}\}}?)?(?:\s*\(\s*{_NAME}\s*\))?)\s*=(?!=)\s*"
-)
 #: Names of constants of integration.
-_OF_INTEGRATION = re.compile(r"[CcKk](?:_?\d)?|const\w*|konst\w*|c[st]t?e?")
+_OF_INTEGRATION = re.compile(r"[CcKk](?:_?\d)?|[A-Za-z]+_?0|const\w*|konst\w*|c[st]t?e?")
 #: Words that are one name, never a product.
 _WHOLE = re.compile(r"const|konst|cst|cte|lam|mu|mult", re.IGNORECASE)
-_CALLED = re.compile(r"\A\s*\\?([A-Za-zα-ωΑ-Ω]\w*)\s*\(\s*\\?(?:var)?([A-Za-zα-ωΑ-Ω]\w*)\s*\)\s*=(?!=)")
-_POWER_OF_E = re.compile(r"(?<![\w\\])([A-Za-zα-ωΑ-Ω])e(?=\s*(?:\^|\*\*))")
-_CONSTANTS = re.compile(r"\b(const|konst|cst|cte)(?:[^\W\d_]*)\.?(?!\w)", re.IGNORECASE)
+_DEFINITION = re.compile(r"\s*(?P<name>\\?[A-Za-zα-ω]+(?:_\w+)?)\s*(?:\^\s*\{?2\}?|²)?\s*:?=(?!=)(?P<value>[^=]+)\Z")
+_WORDS = re.compile(r"\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?")
 _SIGNS, _PLUS, _MINUS = re.compile("[±∓]"), re.compile("±"), re.compile("∓")
 
 
@@ -111,7 +105,7 @@ class AnswerNames:
 
     ``free``: may an answer bring names of its own? ``choice``: which reading was taken of each kind of doubt, the same
     in the whole answer; ``signs_apart``: `±` makes two readings, not one product. ``usual``: words that are read as the
-    usual names of quantities, such as `v_x`.
+    usual names of quantities, such as `v_x`; ``frequencies``: omega may also be a frequency.
     """
 
     names: Names
@@ -126,6 +120,7 @@ class AnswerNames:
     euler: bool = False
     usual: Mapping[str, Expr] = field(default_factory=dict)
     rank: int = 0
+    frequencies: bool = False
 
     def known(self) -> Names:
         """All of them as names of a text; `e` is Euler's number unless it is declared."""
@@ -162,12 +157,12 @@ class AnswerNames:
         stem = rate[1] + (rate[2] or "") if rate else word[1:] if word[0] == "d" and len(word) > 1 else ""
         if stem and stem in self.own and stem not in self.moving:
             return replace(self, moving=self.moving | {stem})
-        quantity = None if word in self.usual else usual_name(word, self._names_with_accelerations)
-        if quantity is not None:
-            return replace(self, usual={**self.usual, word: quantity})
         twin = self._twin(word) or (stem and self._twin(stem))
         if twin and word not in self.meant:
             return replace(self, meant={**self.meant, (word if self._twin(word) else stem): twin})
+        quantity = None if word in self.usual else usual_name(word, self._names_with_accelerations)
+        if quantity is not None:
+            return replace(self, usual={**self.usual, word: quantity})
         if not self.free or len(self.own) == MOST_OWN:
             return None
         letter = self._letter(word)
@@ -194,7 +189,7 @@ class AnswerNames:
         if word in _CARTESIAN:
             return False
         stem, _, index = word.partition("_")
-        if word != (bare := word.rstrip("0123456789")) and spelled(bare) in self.names.coordinates:
+        if word != (bare := word.rstrip("123456789")) and spelled(bare) in self.names.coordinates:
             return False
         declared = stem in self.names.coordinates or stem in self.names.parameters
         fits = bool(_OWN.fullmatch(word)) or spelled(stem).rstrip("0123456789") in _LONG
@@ -253,6 +248,8 @@ def readings_of(
     Raises TextError, its column counted within the text that was written.
     """
     pieces = pieces_of(answer, vocabulary.names)
+    defined = {word for script in pieces.scripts for word in _defined_constants(script, vocabulary)}
+    vocabulary = replace(vocabulary, own=(*vocabulary.own, *sorted(defined)))
     if lead is not None:
         pieces = replace(pieces, scripts=tuple(lead(one) for one in pieces.scripts))
     return list(_readings(pieces, vocabulary))
@@ -262,7 +259,7 @@ def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading
     ways: list[tuple[tuple[Comparison, ...], tuple[bool, ...], AnswerNames]] = [((), (), vocabulary)]
     for n, script in enumerate(pieces.scripts):
         more = []
-        script = _plainer(script, vocabulary)
+        script = plainer(script, vocabulary.names)
         if pieces.derived and n + 1 < len(pieces.scripts) and not _readable(script, vocabulary):
             continue
         for relations, bare, own in ways:
@@ -273,6 +270,10 @@ def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading
         if len(ways) > MOST_READINGS:
             raise DoubtError("it can be read in many ways.", script.columns[0], "write parentheses")
     for relations, bare, own in ways:
+        told = [c.left != c.right or not own.usual for c in relations]
+        if any(told) and not all(told):
+            relations = tuple(c for c, kept in zip(relations, told, strict=True) if kept)
+            bare = tuple(b for b, kept in zip(bare, told, strict=True) if kept)
         yield AnswerReading(relations, bare, own.own, own.moving, own.meant, pieces.derived, own.places, own.rank)
 
 
@@ -313,6 +314,7 @@ def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Compa
             return
         except UnknownNameError as error:
             grown = vocabulary.with_word(error.name)
+            yield from _as_frequency(script, vocabulary, grown)
             if grown is None or grown == vocabulary:
                 moved = script.moved(error)
                 raise UnknownNameError(moved.message, moved.column, moved.hint) from None
@@ -323,6 +325,25 @@ def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Compa
             raise script.moved(error) from None
 
 
+def _as_frequency(
+    script: Script, vocabulary: AnswerNames, grown: AnswerNames | None
+) -> Iterator[tuple[tuple[Comparison, ...], AnswerNames]]:
+    """Yield the readings in which omega is a frequency, and not the velocity of the only angle."""
+    if vocabulary.frequencies and grown is not None and "omega" in set(grown.usual) - set(vocabulary.usual):
+        yield from _ways(script, replace(vocabulary, own=(*vocabulary.own, "omega"), rank=vocabulary.rank + 1))
+
+
+def _defined_constants(script: Script, vocabulary: AnswerNames) -> Iterator[str]:
+    """Yield the name that a piece defines by constants alone, as `omega^2 = g/l` does."""
+    match = _DEFINITION.match(script.text)
+    words = set() if match is None else {in_words(w.strip("\\")) for w in _WORDS.findall(match["value"])}
+    moving = {"t", *vocabulary.names.coordinates}
+    if match is not None and words and not any(w in moving or "dot" in w for w in words):
+        name = in_words(match["name"].strip("\\"))
+        if usual_name(name, vocabulary.names) is not None:
+            yield name
+
+
 def _of_other_meaning(script: Script, vocabulary: AnswerNames) -> tuple[str, ...]:
     """Return the words that cannot be the usual names of quantities which the same text writes in full."""
     if not vocabulary.usual:
@@ -330,39 +351,10 @@ def _of_other_meaning(script: Script, vocabulary: AnswerNames) -> tuple[str, ...
     plain_names = replace(vocabulary, usual={}, own=(*vocabulary.own, *vocabulary.usual))
     relations = parse_relations(script.text, plain_names.known())
     written = {s for c in relations for e in (c.left, c.right) for s in e.symbols}
+    read = parse_relations(script.text, vocabulary.known())
+    if all(c.left == c.right for c in read):
+        return ()  # `v = xdot` says what the name means
     return tuple(word for word, quantity in vocabulary.usual.items() if quantity in written)
-
-
-def _plainer(script: Script, vocabulary: AnswerNames) -> Script:
-    """Without a leading name; `r(phi) =` is r, `Ce^x` is C e^x."""
-    script = _without_lead(script, vocabulary)
-    match = _CALLED.match(script.text)
-    if match is not None and {spelled(match[1]), spelled(match[2])} <= vocabulary.names.coordinates:
-        script = script.replaced(_CALLED, lambda m: f"{m[1]} =")
-    if vocabulary.names.lookup.meaning("e") is not None:
-        return script
-    return script.replaced(
-        _POWER_OF_E, lambda m: m[0] if vocabulary.names.lookup.meaning(m[0]) is not None else f"{m[1]} e"
-    )
-
-
-def _without_lead(script: Script, vocabulary: AnswerNames) -> Script:
-    """Without `f(x, y) =` before an expression or an equation; `const.` is the name of a constant."""
-    script = script.replaced(_CONSTANTS, "const")
-    lead = _FUNCTION.match(script.text)
-    if lead is None or lead.end() == len(script.text):
-        return script
-    if "(" not in lead[0] and not re.match(r"\s*[fgh]", lead[0]) and "=" not in script.text[lead.end() :]:
-        return script
-    name = re.sub(r"[\\{}]", "", lead[0].split("=")[0].split("(")[0]).strip()
-    listed = "," in lead[0]
-    if listed and name in vocabulary.names.parameters:
-        return script.cut(lead.end())
-    if vocabulary.names.lookup.meaning(name) is not None or re.search(
-        rf"\b{re.escape(name)}\b", script.text[lead.end() :]
-    ):
-        return script
-    return script.cut(lead.end())
 
 
 def _with_both_signs(script: Script) -> Script:

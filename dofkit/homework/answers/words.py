@@ -31,13 +31,10 @@ _LEAD = re.compile(r"\A[^:=\d]*:(?!=)")
 _TITLE = re.compile(r"\bq(?:_?\{?\w?\}?)?\s*=")
 _COMMAND = re.compile(r"\\(?:var(?=phi|theta|epsilon|rho|sigma))?(?=[A-Za-z])")
 _OR = re.compile(r",?\s+(?:or|oder|ou|oppure)\s+", re.IGNORECASE)
-#: `one of bar and again`, `any one of them`; all of them.
+#: `one of bar and again`, `any one of them`.
 _ANY = re.compile(
     r"(?:any\s+)?(?:one|eine[rs]?|une?|uno|una|any)(?:\s+(?:of\s+(?:them|these|the\s+\w+)|davon|beliebige|quelconque))?\.?\Z"
     r"|(?:any\s+|either\s+)?(?:one|eine[rs]?|une?|uno|una)\s+(?:of|von|de|di)\s+(?P<which>.+)"
-)
-_ALL = re.compile(
-    r"(?:all|alle|tous|toutes|todos|todas|tutti|tutte)(?:\s+(?:of\s+them|three|two|four|drei|zwei|vier))?\Z"
 )
 _EITHER = re.compile(r"\A\s*(?:either|entweder|soit)\s+", re.IGNORECASE)
 _LOWERED = {0x2080 + n: str(n) for n in range(10)}
@@ -126,8 +123,6 @@ def alternatives(answer: Given, known: Sequence[str] = ()) -> list[Given]:
         return [answer]
     if known and (some := _ANY.match(plain(answer))) is not None:
         return list(names_of(some["which"], known, "constraint")) if some["which"] else list(known)
-    if known and _ALL.match(plain(answer)):
-        return [tuple(known)]
     parts = _OR.split(_EITHER.sub("", answer))
     return [*parts] if all(part.strip() for part in parts) else [answer]
 

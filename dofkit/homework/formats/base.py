@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TextIO, TypeAlias
 
-from dofkit.base.arguments import format_of_path, is_folder_path
 from dofkit.base.errors import DofkitError
+from dofkit.base.wording import format_of_path, is_folder_path
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import FileNames, plain

@@ -120,8 +120,6 @@ def remark(item: Item, language: Language = "en") -> str:
         lines.append(in_language(language, "Read as: {text}", text=plain(item.read_as)))
     if item.feedback:
         lines.append(unmarked(plain(item.feedback)))
-    if item.would_read:
-        lines.append(in_language(language, "It would be read as: {text}", text=plain(item.would_read)))
     if item.decided_by is not None:
         lines.append(in_language(language, "A person gave these points."))
     return "\n".join(lines)

@@ -79,7 +79,7 @@ class SheetComposer:
         if names:
             yield "\n".join(f"- {one}" for one in names)
         yield "\n".join(
-            f"{i}. `{problem.id}.{q.id}` {self._asked(q)} ({self._points(q.points)})"
+            f"{i}. {self._asked(q)} ({self._points(q.points)}) `{problem.id}.{q.id}`"
             for i, q in enumerate(problem.questions, 1)
         )
 
@@ -146,6 +146,11 @@ class SheetComposer:
         kinds = {question.kind(): type(question) for question in asked}
         if {"dof", "k"} & set(kinds):
             yield self.told(_FREEDOM[self.prepared.assignment.convention])
+        (first, question), *_ = self.prepared.columns().values()
+        yield self.told(
+            "Submit a file such as answers.yaml with a line for each answer, as in {line}, or a filled-in template.",
+            line=f"`{first}.{question}: ...`",
+        )
         for cls in kinds.values():
             example = safe_example(self.prepared, cls)
             lead = self.told("Example (for a different system):")

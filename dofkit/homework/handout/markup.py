@@ -1,53 +1,116 @@
-"""Markdown with formulas, read into tokens and told again in the notation of a format."""
+"""Markdown with formulas, and a page of it: formulas are MathML, pictures lie within it, and it runs nothing."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cache
-from typing import Protocol
+from base64 import b64encode
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache, lru_cache
+from html import escape
+from pathlib import Path
+from typing import Any, NamedTuple
+from xml.etree import ElementTree
 
+from latex2mathml import exceptions
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-from dofkit.homework.handout.formulas import formula
+from dofkit.expressions.text.typesetting import mathml, typeset
+from dofkit.homework.formats.wording import line
+from dofkit.homework.handout.figures import SheetFigure
 
-#: Typed text, which is left alone, or a formula.
+_TEMPLATE = Path(__file__).parent / "templates" / "sheet.html"
+#: Typed text, which stays as it is, or a formula.
 _FORMULA = re.compile(r"```.*?```|`[^`\n]*`|\\\$|(\$\$?)([^$]+)\1", re.DOTALL)
+#: What the converter raises for what is no LaTeX, and the parser for what is no MathML.
+_REFUSALS: tuple[type[Exception], ...] = (
+    *(kind for kind in vars(exceptions).values() if isinstance(kind, type) and issubclass(kind, Exception)),
+    ValueError, LookupError, TypeError, AttributeError, RuntimeError, ElementTree.ParseError,
+)  # fmt: skip
+
+
+class SetFormula(NamedTuple):
+    """A formula in LaTeX, and in MathML within ``<math>``; None if it cannot be set."""
+
+    latex: str
+    mathml: str | None
+
+
+@lru_cache(maxsize=4096)
+def formula(text: str) -> SetFormula:
+    """Return a formula in the grammar of scenes, or in LaTeX if it has a backslash or is none of the grammar.
+
+    >>> formula("l^2 thetadot").latex
+    'l^{2} \\\\dot{\\\\theta}'
+    """
+    latex = (None if "\\" in text else typeset(text)) or text
+    try:
+        return SetFormula(latex, _whole(mathml(latex)))
+    except _REFUSALS:
+        return SetFormula(text, None)
+
+
+def _whole(inside: str) -> str:
+    """Return MathML as it is. Raises ValueError if a part of a fraction, a root or an index is missing."""
+    for part in ElementTree.fromstring(f"<math>{inside}</math>").iter():
+        if part.tag in ("mfrac", "mroot", "msub", "msup") and len(part) != 2:
+            raise ValueError(inside)
+    return inside
 
 
 @cache
 def reader() -> MarkdownIt:
-    """Reads CommonMark with tables and formulas between dollars; HTML in it is text."""
-    return MarkdownIt("commonmark", {"html": False}).enable("table").use(dollarmath_plugin, allow_space=True)
+    """Return the reader of CommonMark with tables and formulas between dollars; HTML in a text is text."""
+    markdown = MarkdownIt("commonmark", {"html": False}).enable("table")
+    markdown.use(dollarmath_plugin, allow_space=True, renderer=_math)
+    markdown.add_render_rule("image", _image)
+    markdown.add_render_rule("link_open", _link)
+    markdown.add_render_rule("link_close", lambda *_: "")
+    return markdown
 
 
-def tokens_of(markdown: str) -> list[Token]:
-    """The tokens of a text."""
-    return reader().parse(markdown)
+def _math(content: str, options: Mapping[str, Any]) -> str:
+    inside = formula(content.strip()).mathml
+    if inside is None:
+        return f"<code>{escape(content)}</code>"
+    kind = "block" if options["display_mode"] else "inline"
+    return f'<math display="{kind}" aria-label="{escape(line(content))}">{inside}</math>'
 
 
-def within(tokens: Sequence[Token]) -> Iterator[Token]:
-    """All tokens, those inside of lines too."""
+def _image(_: object, tokens: Sequence[Token], place: int, __: object, figures: Mapping[str, SheetFigure]) -> str:
+    token = tokens[place]
+    figure = figures.get(str(token.attrs["src"]))
+    if figure is None:
+        return escape(token.content)
+    data = b64encode(figure.data).decode("ascii")
+    return f'<img src="data:{figure.kind};base64,{data}" alt="{escape(token.content)}">'
+
+
+def _link(_: object, tokens: Sequence[Token], place: int, *__: object) -> str:
+    return escape(f"{tokens[place].attrs['href']} ")
+
+
+def _within(tokens: Sequence[Token]) -> Iterator[Token]:
+    """Yield all tokens, those inside of lines too."""
     for token in tokens:
         yield token
-        yield from within(token.children or [])
+        yield from _within(token.children or [])
 
 
 def unset_formulas(markdown: str) -> list[str]:
-    """The formulas of a text that cannot be set."""
-    found = [t.content for t in within(tokens_of(markdown)) if t.type.startswith("math_")]
-    return [text.strip() for text in found if formula(text.strip()).mathml is None]
+    """Return the formulas of a text that cannot be set."""
+    found = [t.content.strip() for t in _within(reader().parse(markdown)) if t.type.startswith("math_")]
+    return [text for text in found if formula(text).mathml is None]
 
 
 def pictures_of(markdown: str) -> list[str]:
-    """The pictures that a text names."""
-    return [str(t.attrs["src"]) for t in within(tokens_of(markdown)) if t.type == "image"]
+    """Return the pictures that a text names."""
+    return [str(t.attrs["src"]) for t in _within(reader().parse(markdown)) if t.type == "image"]
 
 
 def with_latex(markdown: str) -> str:
-    """The same text with its formulas as LaTeX, for other readers of Markdown.
+    """Return the same text with its formulas as LaTeX, for other readers of Markdown.
 
     >>> print(with_latex("the angle $theta$, typed `$theta$`"))
     the angle $\\theta$, typed `$theta$`
@@ -55,58 +118,8 @@ def with_latex(markdown: str) -> str:
     return _FORMULA.sub(lambda m: m[0] if m[2] is None else f"{m[1]}{formula(m[2].strip()).latex}{m[1]}", markdown)
 
 
-class Notation(Protocol):
-    """How a format writes what a text is made of."""
-
-    @property
-    def marks(self) -> Mapping[str, str]:
-        """What stands for a token that only opens, closes or breaks."""
-
-    def text(self, content: str) -> str:
-        """Plain text."""
-
-    def code(self, content: str, block: bool) -> str:
-        """Text as it is typed."""
-
-    def formula(self, content: str, block: bool) -> str:
-        """Mathematics."""
-
-    def picture(self, source: str, alternative: str) -> str:
-        """A picture."""
-
-    def heading(self, level: int, opens: bool) -> str:
-        """The beginning or the end of a heading."""
-
-
-def written(markdown: str, notation: Notation) -> str:
-    """A text in a notation; links are told by their text and address."""
-    return "".join(_written(tokens_of(markdown), notation))
-
-
-def _written(tokens: Sequence[Token], notation: Notation) -> Iterator[str]:
-    for token in tokens:
-        told = _LEAVES.get(token.type)
-        if token.type == "inline":
-            yield from _written(token.children or [], notation)
-        elif told is not None:
-            yield told(token, notation)
-        elif token.type in ("heading_open", "heading_close"):
-            yield notation.heading(int(token.tag[1:]), token.type == "heading_open")
-        elif token.type == "link_close":
-            continue
-        elif token.type == "link_open":
-            yield notation.text(f"{token.attrs['href']} ")
-        elif not (token.hidden and token.type == "paragraph_open"):
-            yield notation.marks.get("line" if token.hidden else token.type, "")
-
-
-_LEAVES: Mapping[str, Callable[[Token, Notation], str]] = {
-    "text": lambda t, n: n.text(t.content),
-    "code_inline": lambda t, n: n.code(t.content, False),
-    "fence": lambda t, n: n.code(t.content, True),
-    "code_block": lambda t, n: n.code(t.content, True),
-    "math_inline": lambda t, n: n.formula(t.content.strip(), False),
-    "math_inline_double": lambda t, n: n.formula(t.content.strip(), True),
-    "math_block": lambda t, n: n.formula(t.content.strip(), True),
-    "image": lambda t, n: n.picture(str(t.attrs["src"]), t.content),
-}
+def page_of(markdown: str, title: str, language: str, figures: Mapping[str, SheetFigure]) -> str:
+    """Return the page of a text; ``figures`` by their paths in it."""
+    page = _TEMPLATE.read_text(encoding="utf-8")
+    parts = {"language": language, "title": escape(line(title)), "body": reader().render(markdown, dict(figures))}
+    return re.sub(r"\{\{(language|title|body)\}\}", lambda found: parts[found[1]], page)

@@ -12,9 +12,7 @@ from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import stem
 from dofkit.homework.handout.composition import SheetComposer
 from dofkit.homework.handout.figures import Draw, SheetFigure, figure_of, file_of
-from dofkit.homework.handout.markup import pictures_of, unset_formulas, with_latex
-from dofkit.homework.handout.page import page_of
-from dofkit.homework.handout.paper import pdf_of, typst_of
+from dofkit.homework.handout.markup import page_of, pictures_of, unset_formulas, with_latex
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import MOTION
 from dofkit.homework.questions.equations import EquationQuestion
@@ -63,11 +61,6 @@ def _html(sheet: WrittenSheet, out: Path) -> None:
     out.write_text(page_of(sheet.markdown, sheet.title, sheet.language, sheet.figures), encoding="utf-8")
 
 
-def _pdf(sheet: WrittenSheet, out: Path) -> None:
-    typst = typst_of(sheet.markdown, sheet.title, sheet.language)
-    out.write_bytes(pdf_of(typst, {path: figure.data for path, figure in sheet.figures.items()}))
-
-
 def _markdown(sheet: WrittenSheet, out: Path) -> None:
     out.write_text(with_latex(sheet.markdown), encoding="utf-8")
     for path, figure in sheet.figures.items():
@@ -81,13 +74,13 @@ def _beside(out: Path, path: str, data: bytes) -> None:
 
 
 #: How a sheet is written, by the name of the format.
-HANDOUTS: dict[str, Callable[[WrittenSheet, Path], None]] = {"html": _html, "pdf": _pdf, "md": _markdown}
+HANDOUTS: dict[str, Callable[[WrittenSheet, Path], None]] = {"html": _html, "md": _markdown}
 
 
 def write_sheet(sheet: WrittenSheet, form: str, out: Path) -> None:
     """Write a sheet; the folder of ``out`` is made.
 
-    Raises ArgumentError for an unknown format, TypesetterMissingError and OSError.
+    Raises ArgumentError for an unknown format, and OSError.
     """
     if form not in HANDOUTS:
         raise ArgumentError(no_such(form, list(HANDOUTS), "format"))

@@ -12,20 +12,15 @@ from typing import NamedTuple, TypeVar
 from dofkit.base.errors import SceneError, TextError
 from dofkit.classification.dependence.equivalence import Compared, Sameness, compare
 from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import diff
-from dofkit.expressions.text import Comparison, to_text
+from dofkit.expressions.text import Comparison, parse_relations, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.homework.answers.relations import AnswerReading, is_constant_name
-from dofkit.homework.answers.rounding import exact_ways
 from dofkit.homework.judgement import HALF, NOTHING, JudgedReading, Judgement, needs_review, partly, right, wrong
-from dofkit.homework.key.compared_motion import in_time
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import renamed, without_own
 from dofkit.homework.key.regions import Condition, compared_regions, conditions, counterexample
-from dofkit.homework.key.right_motion import is_zero
 from dofkit.homework.sentences.translations import Said, say
 from dofkit.methods.classify import classify
-from dofkit.motion.lagrange.elimination import by_time
 from dofkit.scene.added_equations import Read, with_equations
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
@@ -54,8 +49,6 @@ _RIGHT = frozenset({Sameness.SAME, Sameness.INTEGRATED})
 #: What the equations of an answer are called in the scene that holds them.
 ANSWER = "the answer"
 _TURNING = frozenset({"sin", "cos", "tan"})
-#: The code of an answer whose numbers are rounded.
-ROUNDED = "ROUNDED"
 #: A length that nobody named, as a scene's own equations call its square.
 _UNNAMED = re.compile(r"\b_[A-Z]\d+\b")
 Found = TypeVar("Found")
@@ -88,13 +81,8 @@ class EquationComparison:
     def judgement(self, way: AnswerReading) -> Judgement:
         """Return what one reading of an answer is worth; names that nothing explains leave it open."""
         found = self._found(way)
-        if found.status == "wrong" and found.share == NOTHING:
-            if any(map(_is_rounded_angle, way.relations)):
-                return needs_review(way.shown, "it contains a rounded angle.")
-            for exact in exact_ways(way):
-                if self._found(exact).status == "right":
-                    told = "The numbers are rounded: write them exactly, with roots and fractions."
-                    return partly(HALF, way.shown, told, ROUNDED)
+        if found.status == "wrong" and any(map(_is_rounded, way.relations)):
+            return needs_review(way.shown, "it contains rounded numbers.")
         if found.codes == (Sameness.EMPTY.value,) and len(way.relations) > 1 and not way.derived:
             return self._contradictory(way) or found
         if way.derived and found.status != "right":
@@ -145,7 +133,7 @@ class EquationComparison:
         if not way.on_coordinates and any(e.symbols for c in way.relations for e in (c.left, c.right)):
             raise TextError("the answer contains no coordinates", 1, "write an equation between the coordinates")
         if any(s.args[0] == "acceleration" for c in way.relations for e in (c.left, c.right) for s in e.symbols):
-            return self._accelerated(way)
+            return needs_review(way.shown, "it contains accelerations.")
         found = self._told(way.read(), shown or way.shown)
         if found.status == "right":
             return found
@@ -169,18 +157,6 @@ class EquationComparison:
             if point
             else found
         )
-
-    def _accelerated(self, way: AnswerReading) -> Judgement:
-        """Equations of accelerations: a constraint that was differentiated twice is partly right."""
-        held = held_accelerations(way, self.key, self.names)
-        if held:
-            told = (
-                "This is the constraint differentiated until accelerations occur: constants are lost, so it is weaker."
-            )
-            return partly(HALF, way.shown, told, Sameness.DIFFERENTIATED.value)
-        if held is None:
-            return needs_review(way.shown, "it contains accelerations.")
-        return wrong(way.shown, "It contains accelerations; a constraint of this kind does not.", "DIFFERENT")
 
     def _region(self, way: AnswerReading) -> Judgement | None:
         """Return what inequalities are worth, compared as regions, or None if there are equations."""
@@ -218,12 +194,20 @@ class EquationComparison:
         kept = tuple(c for c, name in pairs if name not in self.names)
         return self.key.scene.model_copy(update={"constraints": kept, "expect": {}, "energies": None})
 
+    def _is_product(self, text: str) -> bool:
+        """Return whether an equation sets a product of several factors to 0: it holds on more than one surface."""
+        (c,) = parse_relations(text, self.key.names)
+        e = c.left - c.right if not c.right.is_zero else c.left
+        return e.op == "mul" and sum(any(s.args[0] != "parameter" for s in f.symbols) for f in e.args) > 1
+
     def _by_rank(self, read: Read, shown: str, told: str, code: str) -> Judgement:
         """Return what implied equations are worth, by the number of velocities that they leave free."""
         scene = self._others()
         free = classify(scene).velocity_dof
         yours, system = classify(with_equations(scene, read, ANSWER)).velocity_dof, self.key.report.velocity_dof
-        if free is None or yours is None or system is None or free - system < 2 or not system < yours < free:
+        if free is None or yours is None or system is None:
+            return needs_review(shown, _UNDECIDED)
+        if free - system < 2 or not system < yours < free or any(map(self._is_product, read.texts)):
             return wrong(shown, told, code)
         more = "Your equations leave {yours} independent velocities; the system has {system}: equations are missing."
         count = say(more, yours=yours, system=system)
@@ -249,59 +233,17 @@ class EquationComparison:
         return partly(share, shown, told, code).saying(count)
 
 
-def _is_rounded_angle(c: Comparison) -> bool:
-    """Return whether a relation has the sine, cosine or tangent of an angle in degrees with decimals."""
-    angles = (n.args[1] for e in (c.left, c.right) for n in ex.nodes(e) if n.op == "fn" and n.args[0] in _TURNING)
-    degrees = (ex.num(180) * angle / ex.PI for angle in angles)
-    return any(d.op == "num" and d.args[0].denominator > 1 for d in degrees)
+def _is_rounded(c: Comparison) -> bool:
+    """Return whether a relation has decimals, or the sine, cosine or tangent of an angle in degrees with decimals."""
+    parts = [n for e in (c.left, c.right) for n in ex.nodes(e)]
+    angles = [ex.num(180) * n.args[1] / ex.PI for n in parts if n.op == "fn" and n.args[0] in _TURNING]
+    decimals = [n for n in parts if n.op == "num" and n.args[0].denominator > 10 and 10**6 % n.args[0].denominator == 0]
+    return bool(decimals) or any(d.op == "num" and d.args[0].denominator > 1 for d in angles)
 
 
 def undeclared(name: str) -> Said:
     """Return that an answer brings a name that stands for nothing."""
     return say("the name {name} is not declared.", name=name)
-
-
-def held_accelerations(way: AnswerReading, key: Key, names: tuple[str, ...]) -> bool | None:
-    """Is every equation a constant multiple of such a derivative of one of the constraints, and none left out?"""
-    system = lower(key.scene)
-    wanted = [r.expr for i in system.numbers_of(*names) for r in system.constraints[i].relations if r.sense == "="]
-    if not wanted or any(c.relation != "=" for c in way.relations):
-        return False
-    given = [c.left - c.right for c in way.relations]
-    twice = [by_time(_in_velocities(g)) for g in wanted]
-    told = [[_multiple(e, g) for g in twice] for e in given]
-    if any(True not in row and None in row for row in told):
-        return None
-    columns = [[row[j] for row in told] for j in range(len(twice))]
-    if any(True not in column and None in column for column in columns):
-        return None
-    return all(True in row for row in told) and all(True in column for column in columns)
-
-
-def _in_velocities(e: Expr) -> Expr:
-    """A relation between velocities: a finite one differentiated by time, a form divided by dt."""
-    if all(s.args[0] in ("coordinate", "parameter", "time") for s in e.symbols):
-        return by_time(e)
-    return in_time(e)
-
-
-def _multiple(e: Expr, g: Expr) -> bool | None:
-    """Is ``e`` a constant times ``g``, a constant that is not 0?"""
-    empty: frozenset[Expr] = frozenset()
-    for s in sorted((s for s in g.symbols if s.args[0] == "acceleration"), key=repr):
-        a, b = diff(e, s), diff(g, s)
-        if b.is_zero:
-            continue
-        told = is_zero(e * b - g * a, empty)
-        factor = [is_zero(diff(a, x) * b - diff(b, x) * a, empty) for x in (a.symbols | b.symbols) if _moves(x)]
-        if told is False or False in factor or a.is_zero:
-            return False
-        return None if told is None or None in factor else True
-    return False
-
-
-def _moves(symbol: Expr) -> bool:
-    return symbol.op == "sym" and symbol.args[0] != "parameter" and symbol != ex.TIME
 
 
 def equations_of(key: Key, names: tuple[str, ...]) -> str:

@@ -17,7 +17,7 @@ from dofkit.homework.key.compared_equations import ANSWER, with_answer
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import without_own
 from dofkit.scene.added_equations import Read, with_equations
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
 

@@ -14,7 +14,7 @@ from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.key.right_motion import RightMotion, right_motion_or_why
 from dofkit.methods.classify import classify
 from dofkit.report import ConstraintEntry, Report
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.names import coordinate_table
 from dofkit.scene.scene import Scene
 

@@ -334,7 +334,6 @@ _OF_EQUATIONS = {
     "WEAKER": "A weaker condition: it is implied by the constraint but does not imply it.",
     "STRONGER": "A stronger condition: it implies the constraint but is not implied by it.",
     "DIFFERENT": "A different constraint.",
-    "ROUNDED": "The constraint with a rounded number instead of the exact one.",
     "EMPTY": "No configuration satisfies it together with the other constraints.",
     "UNDECIDED": "It could not be decided whether this is the same constraint.",
     "INTEGRABLE": "The constraint is integrable but was said not to be.",

@@ -60,7 +60,7 @@ class PosedMotion:
 
 def motion_readings(answer: Given, names: DeclaredNames, value: bool) -> list[Reading]:
     """Return every way to read an answer, as a value or as equations. Raises TextError."""
-    vocabulary = AnswerNames(names.with_also, accelerations=True)
+    vocabulary = AnswerNames(names.with_also, accelerations=True, frequencies=not value)
     answer = with_energies(answer, names.with_also) if value else answer
     ways = readings_of(answer, vocabulary, _without_lead if value else None)
     claims = [way.claim if way.derived else way for way in ways]

@@ -16,7 +16,7 @@ from dofkit.expressions.calculus import diff, replace_nodes, substitute
 from dofkit.expressions.text import Comparison, to_text
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.methods.classify import classify
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.scene import Scene
 
 #: Systems that are looked at for one difference.

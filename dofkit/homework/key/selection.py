@@ -15,7 +15,7 @@ from dofkit.methods.classify import classify
 from dofkit.relations.normal.pieces import Finite, Normal
 from dofkit.report import Report
 from dofkit.scene.added_equations import read_equations, with_equations
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.lowering import lower
 from dofkit.scene.names import vocabulary_of
 from dofkit.scene.scene import Scene

@@ -56,6 +56,7 @@ class QuestionBase(WrittenModel):
     examples: ClassVar[tuple[str, ...]] = ()
 
     id: Identifier = Field(description="its name, unique within the problem")
+    text: str | None = Field(None, description="the question in your own words; by default as its kind is asked")
     points: Points = Field(Fraction(1), description="how many points it is worth")
 
     @classmethod
@@ -70,7 +71,10 @@ class QuestionBase(WrittenModel):
         return (found,) if isinstance(found, str) else tuple(found)
 
     def asked(self, about: str) -> Said:
-        """The question in words; ``about``: how the names that it is about are shown."""
+        """Return the question in words; ``about``: how the names that it is about are shown."""
+        return self._asked(about) if self.text is None else say("{text}", text=self.text)
+
+    def _asked(self, about: str) -> Said:
         return say(self.wanted, about=about) if "{about}" in self.wanted else say(self.wanted)
 
     @classmethod

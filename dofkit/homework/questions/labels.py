@@ -58,7 +58,7 @@ class LabelQuestion(QuestionBase):
             hint = suggestion(self.constraint, list(key.constraints), "constraints")
             yield Fault(f"the scene has no constraint '{self.constraint}'", ("constraint",), hint=hint)
 
-    def asked(self, about: str) -> Said:
+    def _asked(self, about: str) -> Said:
         return say(
             self.wanted, about=about, parts=", ".join(f"{TERMS[p].holds} / {TERMS[p].fails}" for p in self.parts)
         )

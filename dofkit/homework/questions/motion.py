@@ -203,9 +203,9 @@ class MotionQuestion(_MotionQuestion):
     ask: Literal["motion"] = Field(description="an equation of motion, or all of them")
     coordinate: str | None = Field(None, description="the coordinate whose equation is asked for")
 
-    def asked(self, about: str) -> Said:
+    def _asked(self, about: str) -> Said:
         one = "What is the equation of motion for {about}?"
-        return say(one, about=about) if self.coordinate is not None else super().asked(about)
+        return say(one, about=about) if self.coordinate is not None else super()._asked(about)
 
     def _judgement(self, posed: PosedMotion, known: RightMotion, shown: str) -> Judgement:
         relations, own, key = posed.relations, posed.multipliers, posed.key

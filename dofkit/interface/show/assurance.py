@@ -83,8 +83,8 @@ def left_out(report: Report) -> str:
 
 def reservation(report: Report) -> str:
     """Return in one line why the report is not proved: the chance of an error, the gap, or what is undecided."""
-    weakest = [(name, found) for name, found in report.verdicts.items() if found.verdict == report.verdict]
-    bounds = [found.bound for _, found in weakest if found.bound]
+    weakest = [(name, entry) for name, entry in report.verdicts.items() if entry.verdict == report.verdict]
+    bounds = [entry.bound for _, entry in weakest if entry.bound]
     bounds += [
         f.bound for e in report.constraints for f in e.verdicts.values() if f.verdict == report.verdict and f.bound
     ]
@@ -121,9 +121,9 @@ def way(report: Report) -> str:
 def _arguments(report: Report) -> Iterator[Remark]:
     """Yield each argument with the fields that rest on it and its hypotheses."""
     together: dict[ArgumentKey, list[str]] = {}
-    for name, found in report.verdicts.items():
-        if found.argument is not None:
-            together.setdefault(found.argument, []).append(_FIELDS.get(name, name.replace("_", " ")))
+    for name, entry in report.verdicts.items():
+        if entry.argument is not None:
+            together.setdefault(entry.argument, []).append(_FIELDS.get(name, name.replace("_", " ")))
     if not together:
         return
     from dofkit.classification.arguments import TABLE
@@ -132,25 +132,25 @@ def _arguments(report: Report) -> Iterator[Remark]:
         row = TABLE[key]
         theorem = f" [{row.theorem}]" if row.theorem else ""
         because = "" if len(row.hypotheses) < _TERSE else f" (condition: {row.hypotheses})"
-        told = f"{row.claims}{because}".replace("over GF(p)", "modulo a large prime")
-        yield Remark(", ".join(names), f"'{key}': {told}{theorem}")
+        text = f"{row.claims}{because}".replace("over GF(p)", "modulo a large prime")
+        yield Remark(", ".join(names), f"'{key}': {text}{theorem}")
 
 
 def not_proved(report: Report) -> list[Remark]:
     """Return the fields that are not proved, those with the same reason in one line."""
     together: dict[str, list[str]] = {}
-    for name, found in report.verdicts.items():
-        if found.verdict != "proved":
-            together.setdefault(f"{found.verdict}{_because(found, report.method)}", []).append(_FIELDS.get(name, name))
+    for name, entry in report.verdicts.items():
+        if entry.verdict != "proved":
+            together.setdefault(f"{entry.verdict}{_because(entry, report.method)}", []).append(_FIELDS.get(name, name))
     return [Remark(", ".join(names), said) for said, names in together.items()]
 
 
-def _because(found: FieldVerdict, method: str) -> str:
+def _because(entry: FieldVerdict, method: str) -> str:
     """Return the argument in parentheses, with the chance of an error or the gap."""
-    if found.verdict == "undecided":
+    if entry.verdict == "undecided":
         return ""
     means = (
-        f"chance of error below {found.bound}" if found.verdict == "probable" else _gap(found.bound or "inf", method)
+        f"chance of error below {entry.bound}" if entry.verdict == "probable" else _gap(entry.bound or "inf", method)
     )
-    where = _NEAR.get(found.about or "", "")
-    return f" ({found.argument}; {means}{where})"
+    where = _NEAR.get(entry.about or "", "")
+    return f" ({entry.argument}; {means}{where})"

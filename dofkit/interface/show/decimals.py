@@ -32,11 +32,11 @@ _TEXT_WITH_DECIMAL = re.compile(r"\d\.\d|(?<![\w.])\.\d")
 Shown = TypeVar("Shown", bound=BaseModel)
 
 
-def as_the_scene(shown: Shown, scene: Scene) -> Shown:
+def as_the_scene(report: Shown, scene: Scene) -> Shown:
     """Return a report or equations of motion, with decimals in their formulas if the scene is written with decimals."""
     if not any(_has_decimal(getattr(scene, name)) for name in _OF_SCENE):
-        return shown
-    converted: Shown = _converted(shown, False)
+        return report
+    converted: Shown = _converted(report, False)
     return converted
 
 
@@ -56,8 +56,8 @@ def _has_decimal(value: Any) -> bool:
 def _converted(value: Any, inside: bool) -> Any:
     """Return a value with decimals in its texts, of models in those of some fields only."""
     if isinstance(value, BaseModel):
-        parts = {name: _converted(part, inside or name in _FORMULAS) for name, part in value.__dict__.items()}
-        return value.model_copy(update=parts)
+        fields = {name: _converted(part, inside or name in _FORMULAS) for name, part in value.__dict__.items()}
+        return value.model_copy(update=fields)
     if isinstance(value, dict):
         return {name: _converted(part, inside) for name, part in value.items()} if inside else value
     if isinstance(value, list):

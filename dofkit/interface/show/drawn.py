@@ -7,7 +7,6 @@ from functools import partial
 from typing import Any, TypeVar
 
 from dofkit.base.deadline import limited
-from dofkit.base.display import Companion
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.text.typesetting import typeset
 from dofkit.homework.formats.wording import STATUSES, line, number, points, standing, title
@@ -22,7 +21,7 @@ from dofkit.interface.show.sheet import Column, Fact, Grid, Remark, Sheet, Sheet
 from dofkit.interface.show.terminal import Screen, as_text
 from dofkit.mobility.graph.linkage import Linkage
 from dofkit.motion.lagrange.report import MotionReport
-from dofkit.report import ConstraintEntry, Report
+from dofkit.report import Companion, ConstraintEntry, Report
 from dofkit.scene.scene import Scene
 
 __all__ = ["html_of", "latex_of", "panel_of", "text_of"]
@@ -32,22 +31,22 @@ Shown = TypeVar("Shown", Report, MotionReport)
 
 
 def text_of(value: object, width: int | None, how: bool) -> str:
-    """Lines for a terminal."""
+    """Return lines for a terminal."""
     return as_text(sheet_of(value, how), Screen(width))
 
 
 def html_of(value: object) -> str:
-    """A piece of a page."""
+    """Return a piece of a page."""
     return as_html(sheet_of(value))
 
 
 def latex_of(value: object) -> str | None:
-    """A display in LaTeX; None for what has no formulas, or where one cannot be set."""
+    """Return a display in LaTeX, or None if there are no formulas or one cannot be typeset."""
     lines = [typeset(text) for text in _formulas(value)]
-    shown = [line for line in lines if line is not None]
-    if not shown or len(shown) < len(lines):
+    displays = [line for line in lines if line is not None]
+    if not displays or len(displays) < len(lines):
         return None
-    aligned = r" \\ ".join(line.replace("=", "&=", 1) for line in shown)
+    aligned = r" \\ ".join(line.replace("=", "&=", 1) for line in displays)
     return rf"$\displaystyle \begin{{aligned}}{aligned}\end{{aligned}}$"
 
 
@@ -63,14 +62,14 @@ def _formulas(value: object) -> Iterator[str]:
 
 
 def sheet_of(value: object, how: bool = False) -> Sheet:
-    """The sheet of a value. Raises TypeError for one that has none."""
+    """Return the sheet of a value. Raises TypeError for a value that has none."""
     match value:
         case Report():
-            return _beside(sheet_of_report(_printed(value), how=how), value._companion, value)
+            return _about(sheet_of_report(_printed(value), how=how), value._companion, value)
         case ConstraintEntry():
             return sheet_of_entry(value)
         case MotionReport():
-            return _beside(sheet_of_motion(_printed(value)), value._companion)
+            return _about(sheet_of_motion(_printed(value)), value._companion)
         case Scene():
             return sheet_of_scene(value)._replace(picture=partial(picture_of, value))
         case Linkage():
@@ -87,8 +86,8 @@ def _printed(report: Shown) -> Shown:
     return as_the_scene(report, scene) if isinstance(scene, Scene) else report
 
 
-def _beside(sheet: Sheet, companion: Companion, report: Report | None = None) -> Sheet:
-    """With the title and the picture of the scene that it is about, where that is known."""
+def _about(sheet: Sheet, companion: Companion, report: Report | None = None) -> Sheet:
+    """Return a sheet with the title and the picture of its scene, if the scene is known."""
     scene = companion.about
     if not isinstance(scene, Scene):
         return sheet

@@ -1,4 +1,4 @@
-"""What is told of equations of motion, in the order in which they are read."""
+"""The printed equations of motion, in the order in which they are read."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ _WORDS = re.compile(r"[^\W\d]\w*")
 
 
 def sheet_of_motion(report: MotionReport, title: str | None = None) -> Sheet:
-    """The whole report; its lines are not broken, so that equations can be copied."""
+    """Return the sheet of equations of motion; its lines are not broken, so that equations can be copied."""
     return Sheet(
         name=report.scene,
         title=title or "",
         facts=tuple(_facts(report)),
-        sections=tuple(section for section in _sections(report) if section.parts),
+        sections=tuple(section for section in _sections(report) if section.content),
         copied=True,
     )
 
@@ -58,8 +58,8 @@ def _sections(report: MotionReport) -> Iterator[SheetSection]:
 def _without_equation(idle: list[str]) -> Iterator[Remark]:
     """Name the coordinates whose equations of motion read 0 = 0."""
     if idle:
-        one = "the coordinate" if len(idle) == 1 else "the coordinates"
-        yield Remark("", f"No mass, force or constraint determines {one} {', '.join(idle)}: 0 = 0.")
+        noun = "the coordinate" if len(idle) == 1 else "the coordinates"
+        yield Remark("", f"No mass, force or constraint determines {noun} {', '.join(idle)}: 0 = 0.")
 
 
 def _added(report: MotionReport, name: str) -> str:
@@ -72,7 +72,7 @@ def _formula(text: str) -> Formula:
 
 
 def _by_hand(text: str) -> str:
-    """A product as it is written by hand, with a space between its factors; scenes read it as well."""
+    """Return a product as written by hand, with a space between its factors; scenes read it as well."""
     return re.sub(r"\*(?![\d*])", " ", text)
 
 
@@ -80,23 +80,23 @@ def _formulas(texts: Iterable[str]) -> list[Remark]:
     return [Remark("", _formula(text)) for text in texts]
 
 
-def _small_motions(found: Linearized) -> SheetSection:
-    """M, C, K and the frequencies about a place of rest."""
-    matrices = (found.mass, found.damping, found.stiffness)
+def _small_motions(small: Linearized) -> SheetSection:
+    """Return M, C, K and the frequencies about an equilibrium."""
+    matrices = (small.mass, small.damping, small.stiffness)
     taken = {word for matrix in matrices for row in matrix for entry in row for word in _WORDS.findall(entry)}
     names = next((names for names in _MATRICES if taken.isdisjoint(names)), _MATRICES[-1])
     mass, damping, stiffness = names
     law = f"{mass} qddot + {damping} qdot + {stiffness} q = 0"
-    told = [Remark("", _formula(law), f"q = ({', '.join(found.coordinates)})")]
+    remarks = [Remark("", _formula(law), f"q = ({', '.join(small.coordinates)})")]
     for name, matrix in zip(names, matrices, strict=True):
-        told.append(Remark("", Matrix(name, [[*map(_by_hand, row)] for row in matrix])))
-    if found.characteristic:
-        told.append(Remark("characteristic equation", _formula(f"{found.characteristic} = 0")))
-    told += [Remark("angular frequency", _formula(frequency)) for frequency in found.frequencies]
-    if found.unstable:
-        told.append(Remark("unstable", "the square of a frequency is negative, and deviations grow"))
-    told += [Remark("another equilibrium", _place(other)) for other in found.others]
-    return SheetSection(f"Linearized at {_place(found.equilibrium)}", told)
+        remarks.append(Remark("", Matrix(name, [[*map(_by_hand, row)] for row in matrix])))
+    if small.characteristic:
+        remarks.append(Remark("characteristic equation", _formula(f"{small.characteristic} = 0")))
+    remarks += [Remark("angular frequency", _formula(frequency)) for frequency in small.frequencies]
+    if small.unstable:
+        remarks.append(Remark("unstable", "the square of a frequency is negative, and deviations grow"))
+    remarks += [Remark("another equilibrium", _place(other)) for other in small.others]
+    return SheetSection(f"Linearized at {_place(small.equilibrium)}", remarks)
 
 
 def _place(values: Mapping[str, str]) -> str:

@@ -31,7 +31,7 @@ def sheet_of_report(report: Report, title: str | None = None, how: bool = False)
         title=title or "",
         alarm=_alarm(report),
         facts=tuple(_facts(report)),
-        sections=tuple(section for section in _sections(report, how) if section.parts),
+        sections=tuple(section for section in _sections(report, how) if section.content),
     )
 
 
@@ -51,10 +51,10 @@ def sheet_of_entry(entry: ConstraintEntry) -> Sheet:
 def _sections(report: Report, how: bool) -> Iterator[SheetSection]:
     entries = report.constraints
     if entries:
-        shown = entries[:MOST_ROWS]
+        listed = entries[:MOST_ROWS]
         rows = [
             (e.name, Formula(e.text), _FORMS.get(e.form, e.form), labels(e).removesuffix(", bilateral"), _equations(e))
-            for e in shown
+            for e in listed
         ]
         yield SheetSection("Constraints", [Grid(_COLUMNS, rows)], _more(len(entries)))
     reasons = _reasons(entries)
@@ -118,8 +118,8 @@ def _facts(report: Report) -> Iterator[Fact]:
 
 def _count(report: Report) -> Fact:
     count = report.count
-    given = [(count.particles, "particle"), (count.bodies, "body"), (count.coordinates, "coordinate")]
-    said = [many(number, what) for number, what in given if number]
+    counts = [(count.particles, "particle"), (count.bodies, "body"), (count.coordinates, "coordinate")]
+    said = [many(number, what) for number, what in counts if number]
     return Fact(
         "constraint count", count.formula, f"({', '.join([*said, many(count.constraints, 'geometric equation')])})"
     )
@@ -156,10 +156,10 @@ def _other_counts(report: Report) -> Iterator[Fact]:
 
 
 def _driven(undriven: int, freedom: int) -> str:
-    """How much of the mobility the drives take, and what is left of it."""
+    """Return how much of the mobility is driven, and how much remains free."""
     driven = undriven - freedom
-    left = "it moves as driven" if not freedom else f"{freedom} {verb(freedom)} left free"
-    return f"of which {driven} {verb(driven)} driven: {left}"
+    remaining = "it moves as driven" if not freedom else f"{freedom} {verb(freedom)} left free"
+    return f"of which {driven} {verb(driven)} driven: {remaining}"
 
 
 def _inequalities(report: Report) -> Iterator[Fact]:
@@ -263,8 +263,8 @@ def _redundancy(report: Report) -> Iterator[Remark]:
 
 def names_of(names: Sequence[str]) -> str:
     """Return names with commas, the first of very many."""
-    shown = ", ".join(names[:_MOST_NAMES])
-    return f"{shown} and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else shown
+    listed = ", ".join(names[:_MOST_NAMES])
+    return f"{listed} and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else listed
 
 
 def number(value: int | None) -> str:

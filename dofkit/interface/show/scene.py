@@ -1,4 +1,4 @@
-"""What is told of a scene before anything is asked of it, and of a graph of links."""
+"""The printed scene, and the printed graph of links."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator
 
 from dofkit.base.wording import many
 from dofkit.interface.show.report import MOST_ROWS, names_of, number
-from dofkit.interface.show.sheet import TONES, Column, Fact, Formula, Grid, Remark, Sheet, SheetSection, Told
+from dofkit.interface.show.sheet import TONES, Column, Content, Fact, Formula, Grid, Remark, Sheet, SheetSection
 from dofkit.mobility.graph.linkage import Linkage
 from dofkit.mobility.graph.links import Link
-from dofkit.scene.constraints.equations import Equation
+from dofkit.scene.constraints.base import Equation
 from dofkit.scene.names import coordinate_table
 from dofkit.scene.scene import Scene
 
@@ -17,7 +17,7 @@ _COLUMNS = (Column("name"), Column("text", 1), Column("type"))
 
 
 def sheet_of_scene(scene: Scene) -> Sheet:
-    """What a scene is made of, and what holds it, as written."""
+    """Return the sheet of a scene: its contents and constraints, as written."""
     sections = []
     if scene.constraints:
         names = [c.name or f"c{i}" for i, c in enumerate(scene.constraints, 1)]
@@ -31,7 +31,7 @@ def sheet_of_scene(scene: Scene) -> Sheet:
     return Sheet(scene.name, scene.title or "", facts=tuple(_facts(scene)), sections=sections)
 
 
-def _words(constraint: object) -> Told:
+def _words(constraint: object) -> Content:
     words: str = getattr(constraint, "in_words", "")
     return Formula(words) if isinstance(constraint, Equation) else words
 
@@ -77,7 +77,7 @@ def _energies(scene: Scene) -> Iterator[Remark]:
 
 
 def sheet_of_linkage(linkage: Linkage) -> Sheet:
-    """The count of a graph of links, and what is redundant."""
+    """Return the sheet of a graph of links: its count, and what is redundant."""
     facts = [
         Fact("joints", str(len(linkage.joints)), f"in {many(linkage.dimension, 'dimension')}, in general position"),
         Fact("links", str(len(linkage.links)), f"of which {linkage.rank} are independent"),
@@ -85,8 +85,8 @@ def sheet_of_linkage(linkage: Linkage) -> Sheet:
         Fact("verdict", linkage.verdict, tone=TONES[linkage.verdict]),
     ]
     redundant = linkage.redundant
-    told = [Remark("redundant", _links(redundant))] if redundant else []
-    return Sheet("linkage", facts=facts, sections=[SheetSection("Redundancy", told)] if told else [])
+    remarks = [Remark("redundant", _links(redundant))] if redundant else []
+    return Sheet("linkage", facts=facts, sections=[SheetSection("Redundancy", remarks)] if remarks else [])
 
 
 def _inner(linkage: Linkage) -> str:

@@ -1,11 +1,11 @@
-"""What is told of a value, before it is lines at a terminal or a table in a page: facts, then sections."""
+"""What is printed of a value, before it is lines at a terminal or a table in a page: facts, then sections."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from typing import Literal, NamedTuple
 
-#: How a fact is meant: ``good`` and ``bad`` are told by colour, and by their words.
+#: The meaning of a fact: ``good`` and ``bad`` are shown by colour, and by their words.
 Tone = Literal["plain", "good", "care", "bad"]
 #: Numbers of colours of a terminal, in the words of rich.
 Colours = Literal["standard", "256", "truecolor", "windows"]
@@ -32,23 +32,23 @@ class Matrix(NamedTuple):
         return f"{self.name} = [{'; '.join(', '.join(row) for row in self.rows)}]"
 
 
-Told = str | Formula | Matrix
+Content = str | Formula | Matrix
 
 
 class Fact(NamedTuple):
     """A line of the table at the top: its ``value`` and, more quietly, a ``note`` on it."""
 
     label: str
-    value: Told
+    value: Content
     note: str = ""
     tone: Tone = "plain"
 
 
 class Remark(NamedTuple):
-    """A line of a section: what it is about, and what is said of that."""
+    """A line of a section: its subject, and what is said about it."""
 
-    label: Told
-    text: Told
+    label: Content
+    text: Content
     note: str = ""
 
 
@@ -64,26 +64,26 @@ class Grid(NamedTuple):
     """A table within a section; its first column holds names."""
 
     columns: tuple[Column, ...]
-    rows: Sequence[tuple[Told, ...]]
+    rows: Sequence[tuple[Content, ...]]
 
 
 class SheetSection(NamedTuple):
     """A heading with what stands under it; ``more`` says what was left out."""
 
     heading: str
-    parts: Sequence[Remark | Grid]
+    content: Sequence[Remark | Grid]
     more: str = ""
 
 
 class Sheet(NamedTuple):
-    """All that is told of a value. ``alarm``: what stands above everything else.
+    """Everything that is printed of a value. ``alarm``: what stands above everything else.
 
     ``copied``: its formulas are copied from a terminal, so that no line is broken. ``picture``: makes one as an inline
     SVG, or None.
     """
 
     name: str
-    title: Told = ""
+    title: Content = ""
     alarm: tuple[str, Tone] | None = None
     facts: Sequence[Fact] = ()
     sections: Sequence[SheetSection] = ()

@@ -21,14 +21,14 @@ _UNBROKEN = 1 << 16
 
 
 class Screen(NamedTuple):
-    """What is written on: its columns (None: those of the terminal, or 80), and its colours (None: without)."""
+    """The columns of a terminal (None: its own, or 80), and its colours (None: without)."""
 
     width: int | None = None
     colours: Colours | None = None
 
 
 def as_text(sheet: Sheet, screen: Screen) -> str:
-    """The whole sheet as lines, without blanks at their ends."""
+    """Return the whole sheet as lines, without blanks at their ends."""
     coloured = screen.colours is not None
     console = Console(
         file=io.StringIO(),
@@ -41,18 +41,18 @@ def as_text(sheet: Sheet, screen: Screen) -> str:
         no_color=not coloured,
     )
     with console.capture() as captured:
-        console.print(Group(*_parts(sheet)))
+        console.print(Group(*_pieces(sheet)))
     return "\n".join(line.rstrip() for line in captured.get().splitlines())
 
 
-def _parts(sheet: Sheet) -> Iterator[RenderableType]:
+def _pieces(sheet: Sheet) -> Iterator[RenderableType]:
     headline = Text(safe(sheet.name), "bold")
     if sheet.title:
         headline.append(f"  {safe(str(sheet.title))}", "not bold")
     yield headline
     if sheet.alarm is not None:
-        told, tone = sheet.alarm
-        yield Padding(Text(safe(told), f"bold {STYLES[tone]}"), (0, 0, 0, 2))
+        text, tone = sheet.alarm
+        yield Padding(Text(safe(text), f"bold {STYLES[tone]}"), (0, 0, 0, 2))
     if sheet.facts:
         yield _facts(sheet.facts)
     for section in sheet.sections:
@@ -72,11 +72,11 @@ def _facts(facts: Sequence[Fact]) -> RenderableType:
 
 
 def _section(section: SheetSection) -> Iterator[RenderableType]:
-    parts: list[RenderableType] = [_grid(part) if isinstance(part, Grid) else _remark(part) for part in section.parts]
+    lines: list[RenderableType] = [_grid(part) if isinstance(part, Grid) else _remark(part) for part in section.content]
     if section.more:
-        parts.append(Text(section.more, "dim"))
+        lines.append(Text(section.more, "dim"))
     yield Text(section.heading, "bold cyan")
-    yield Padding(Group(*parts), (0, 0, 0, 2))
+    yield Padding(Group(*lines), (0, 0, 0, 2))
 
 
 def _remark(remark: Remark) -> Text:

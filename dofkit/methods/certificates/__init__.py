@@ -18,6 +18,5 @@ From a report to a certificate
     4. `contradictions` searches for evidence of another value where a proved claim has none; `lowering` makes such a
        claim undecided.
 
-`answers` writes certificates of submitted equations, `motion_evidence` those of equations of motion; `verifying` is the
-public `dofkit.verify`.
+`motion_evidence` writes certificates of equations of motion; `verifying` is the public `dofkit.verify`.
 """

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from dofkit.checker.evidence import admissible, field_named, involutive, span
 from dofkit.checker.label_rules import consistent, moves
-from dofkit.checker.trees import CheckError, add, along, derivative, negative, not_zero, number, times
+from dofkit.checker.trees import CheckError, along, not_zero
 from dofkit.methods.certificates.dimension import graph_order
 from dofkit.methods.certificates.fields import Words, involutive_rows, tangent_fields, words_of
 from dofkit.methods.certificates.labels import integral_text
@@ -137,15 +137,13 @@ def is_one_part(room: Room) -> bool:
 
 
 def exclusions(room: Room, report: Report, path: str, value: Any) -> Iterator[Contradiction]:
-    """Bounds, verified by the checker's rules, that leave out what is told under a path."""
+    """Yield bounds, verified by the checker's rules, that exclude what is claimed under a path."""
     name, field = _parts(path)
     entry = next((one for one in report.constraints if one.name == name), None)
     if field == "conflicting":
         yield from _met_together(room, value)
     elif field == "consistent" and value is False:
         yield from _held_at_edges(room)
-    elif field == "integrating_factor" and entry is not None:
-        yield from _no_factor(room, entry)
     elif speaks_for_all(room):
         if entry is not None:
             yield from LABELS[field](room, entry) if field in LABELS else ()
@@ -193,15 +191,6 @@ def _dof(room: Room, value: int) -> Iterator[Contradiction]:
             yield Contradiction(f"the evidence gives at least {least}, not {value}")
 
 
-def _velocity_dof(room: Room, value: int) -> Iterator[Contradiction]:
-    yield from _at_most(room, room.standing, value)
-
-
-def _instantaneous(room: Room, value: int) -> Iterator[Contradiction]:
-    if room.problem.reference:
-        yield from _at_most(room, room.standing, value)
-
-
 def _growth(room: Room, value: Sequence[int]) -> Iterator[Contradiction]:
     """A vector whose entries are smaller than what words of that length span."""
     told_of_less = is_told_of_less(room, "growth_vector")
@@ -219,18 +208,6 @@ def _generalized(room: Room, value: Sequence[str]) -> Iterator[Contradiction]:
     yield from (Contradiction(one.why) for one in _dof(room, len(value)))
 
 
-def _redundant(room: Room, value: Sequence[str]) -> Iterator[Contradiction]:
-    """A row of what is said to follow that is independent of all the others."""
-    evidence = room.scenery.evidence
-    kept = [name for name in room.equations if room.owner(name) not in value]
-    for name in value:
-        yield from (
-            Contradiction(f"the evidence gives {one} as independent of what is kept, not as one that follows")
-            for one in evidence.owned(name)
-            if _is_apart(room, one, kept)
-        )
-
-
 def _is_apart(room: Room, name: str, others: Sequence[str]) -> bool:
     """Whether a row is independent of relations, all of which follow from those that are independent there."""
     standing = room.accounted([*others, name])
@@ -246,18 +223,6 @@ def _circuit(room: Room, entry: ConstraintEntry) -> Iterator[Contradiction]:
         yield Contradiction("the evidence gives a row that is independent of the circuit")
 
 
-def _independent(room: Room, entry: ConstraintEntry) -> Iterator[Contradiction]:
-    """More rows than those of all constraints before, and what is told of this one."""
-    rows = room.rows_through(entry.name)
-    if not rows or entry.independent is None:
-        return
-    others = sum(room.owner(name) != entry.name for name in rows)
-    standing = room.standing_of(rows)
-    if standing is not None and len(standing.rows) - others > entry.independent:
-        least = _verified_minor(room, standing) - others
-        yield Contradiction(f"the evidence gives at least {least}, not {entry.independent}")
-
-
 def _no_integral(room: Room, entry: ConstraintEntry) -> Iterator[Contradiction]:
     """A velocity that all relations allow and that changes the function."""
     text, standing, evidence = integral_text(entry), room.standing, room.scenery.evidence
@@ -271,23 +236,6 @@ def _no_integral(room: Room, entry: ConstraintEntry) -> Iterator[Contradiction]:
     for one in fields:
         if not_zero(point.value(along(field_named(evidence, one), function))):
             yield Contradiction("the evidence gives a velocity that changes it")
-
-
-def _no_factor(room: Room, entry: ConstraintEntry) -> Iterator[Contradiction]:
-    """A curl of the form times the factor that is not 0."""
-    evidence, point = room.scenery.evidence, room.point
-    names = evidence.owned(entry.name, ("velocity",))
-    form = room.form(names[0]) if len(names) == 1 else None
-    if form is None or point is None or entry.integrating_factor is None or room.scenery.cayley:
-        return
-    factor = evidence.text(entry.integrating_factor)
-    scaled = {v: times(factor, form.get(v, number(0))) for v in evidence.variables}
-    variables = [v for v in evidence.variables if v in room.met(form) | room.met({"": factor})]
-    for i, v in enumerate(variables):
-        for u in variables[:i]:
-            curl = add(derivative(scaled[v], u), negative(derivative(scaled[u], v)))
-            if room.differs(curl, point) and not_zero(evidence.point(point.name).value(curl)):
-                yield Contradiction(f"the evidence gives a curl in {u}, {v} that is not 0")
 
 
 def _held_at_edges(room: Room) -> Iterator[Contradiction]:
@@ -327,14 +275,10 @@ def _met_together(room: Room, names: Sequence[str]) -> Iterator[Contradiction]:
 
 NUMBERS: dict[str, Callable[[Room, Any], Iterator[Contradiction]]] = {
     "dof": _dof,
-    "velocity_dof": _velocity_dof,
-    "instantaneous_dof": _instantaneous,
     "growth_vector": _growth,
     "generalized_coordinates": _generalized,
-    "redundant": _redundant,
 }
 LABELS: dict[str, Callable[[Room, ConstraintEntry], Iterator[Contradiction]]] = {
     "circuit": _circuit,
-    "independent": _independent,
     "integral": _no_integral,
 }

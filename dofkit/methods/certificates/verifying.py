@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from dofkit.base.arguments import description_of
 from dofkit.base.documents import read_document
 from dofkit.base.errors import ArgumentError
+from dofkit.base.wording import description_of
 from dofkit.checker import Verification
 from dofkit.checker import verify as rechecked
 from dofkit.expressions.text.characters import SUBSCRIPTS

@@ -10,9 +10,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from dofkit.base.arguments import seconds_of
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, by_processor, check, left, limited
 from dofkit.base.errors import Fault, SceneError
+from dofkit.base.wording import seconds_of
 from dofkit.classification.passes import Examined, studied
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.expressions import tree as ex

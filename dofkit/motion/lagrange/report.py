@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 from pydantic import Field, PrivateAttr
 
-from dofkit.base.display import Companion, DisplayedFormulas, text_of
+from dofkit.base.display import DisplayedFormulas, text_of
 from dofkit.base.verdicts import Verdict
-from dofkit.report import Report, ReportModel
+from dofkit.report import Companion, Report, ReportModel
 
 if TYPE_CHECKING:
     from dofkit.motion.lagrange.derivation import Derived, Handover

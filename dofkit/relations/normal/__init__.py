@@ -1,1 +1,7 @@
-"""The normal form of one relation over the reals: its real zero set in branches, or none."""
+"""The real zero set of one equation, in pieces: finite, Pfaffian, nonlinear in the velocities, and conditions.
+
+`normal_form.normalise` is the entry. `pieces` has the types; `zero_set` and `polynomial_zeros` split an expression into
+branches; `semidefinite` proves signs of polynomials; `domain` says where an expression has a value and tells absolute
+values apart; `no_solution` proves that there is no real point; `exact_zeros` lists candidates for zeros of analytic
+functions of one coordinate.
+"""

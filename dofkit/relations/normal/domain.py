@@ -41,11 +41,11 @@ class DomainCondition:
 
 def conditions_of(e: Expr, positive: frozenset[Expr]) -> tuple[DomainCondition, ...]:
     """Where ``e`` has a real value, less what always holds; a denominator counts in lowest terms."""
-    found = list(dict.fromkeys(_inside(e, outermost=True)))
+    result = list(dict.fromkeys(_inside(e, outermost=True)))
     below = _denominator(e, positive)
     if below is not None:
-        found.append(DomainCondition(below, "!="))
-    return tuple(c for c in dict.fromkeys(found) if not _always(c, positive))
+        result.append(DomainCondition(below, "!="))
+    return tuple(c for c in dict.fromkeys(result) if not _always(c, positive))
 
 
 def _inside(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
@@ -124,9 +124,9 @@ def arguments_of(e: Expr) -> list[Expr]:
     if e.functions.isdisjoint(("abs", "pow")):
         return []
     every = list(ex.nodes(e))
-    found = [node.args[1] for node in every if node.op == "fn" and node.args[0] == "abs"]
-    found += [node.args[0].args[0] for node in every if _root_of_square(node)]
-    return list(dict.fromkeys(found))
+    result = [node.args[1] for node in every if node.op == "fn" and node.args[0] == "abs"]
+    result += [node.args[0].args[0] for node in every if _root_of_square(node)]
+    return list(dict.fromkeys(result))
 
 
 def with_absolute_values(e: Expr, positive: frozenset[Expr]) -> Expr:
@@ -202,8 +202,8 @@ def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] 
 
 def _outside(ring: Ring, index: int) -> bool:
     """Does no other generator have the root in its argument?"""
-    shown = ring.var_expr[index]
-    return all(shown not in ex.nodes(ring.var_expr[v.index]) for v in ring.vars if v.index != index)
+    text = ring.var_expr[index]
+    return all(text not in ex.nodes(ring.var_expr[v.index]) for v in ring.vars if v.index != index)
 
 
 def _lowered(exponents: Sequence[int], place: int) -> tuple[int, ...]:

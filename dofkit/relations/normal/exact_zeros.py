@@ -45,8 +45,8 @@ def _short(x: Fraction) -> Expr:
 
 
 def _size(relations: Sequence[Expr], s: Expr, x: Fraction) -> float:
-    found = [interval_of(g, {s: x}) for g in relations]
-    return sum(float("inf") if ball is None else abs(float(ball.mid())) for ball in found)
+    result = [interval_of(g, {s: x}) for g in relations]
+    return sum(float("inf") if ball is None else abs(float(ball.mid())) for ball in result)
 
 
 def _least(relations: Sequence[Expr], s: Expr, low: Fraction, high: Fraction) -> Fraction:

@@ -138,8 +138,8 @@ def _faithful(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
     for node in {n for e in relations for n in ex.nodes(e)}:
         if node.op == "pow" and node.args[1].op == "num" and node.args[1].args[0].denominator % 2 == 0:
             base = node.args[0]
-            apart, rest = known_signs(ring, base) if base.op == "mul" else ([], base)
-            if rest != ex.ONE and any(f.symbols and f not in positive and not _is_exp(f) for f in apart):
+            apart, remainder = known_signs(ring, base) if base.op == "mul" else ([], base)
+            if remainder != ex.ONE and any(f.symbols and f not in positive and not _is_exp(f) for f in apart):
                 return False
     return True
 
@@ -215,16 +215,16 @@ def _combined(canon: Canon, polynomials: Sequence[Poly]) -> list[Poly]:
 
 def _resultants(polynomials: list[Poly]) -> list[Poly]:
     """The polynomials and the resultants of pairs: they vanish wherever both do."""
-    found = list(polynomials)
+    result = list(polynomials)
     for a, b in islice(combinations(polynomials, 2), MAX_PAIRS):
         if len(a) + len(b) > MAX_RESULTANT_TERMS:
             continue
         for i, (j, k) in enumerate(zip(a.degrees(), b.degrees(), strict=True)):
             if j and k and j + k <= MAX_RESULTANT_DEGREE:
                 eliminated = a.resultant(b, i)
-                if eliminated != 0 and len(eliminated) <= MAX_RESULTANT_TERMS and eliminated not in found:
-                    found.append(eliminated)
-    return found
+                if eliminated != 0 and len(eliminated) <= MAX_RESULTANT_TERMS and eliminated not in result:
+                    result.append(eliminated)
+    return result
 
 
 def _without_real_roots(p: Poly) -> bool:
@@ -353,9 +353,9 @@ def _holds_along_slack(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool
         ring = Ring([e - slack * slack], positive)
         search = RealSearch(ring, [ring.node(e - slack * slack)], unknowns, positive)
         for seed in range(SEARCHES):
-            found = search.search(seed)
-            if found is not None and found.certified and found.consistent:
-                at = values(ring, found.point)
+            result = search.search(seed)
+            if result is not None and result.certified and result.consistent:
+                at = values(ring, result.point)
                 signs = [at[ring.node(p)] > 0 for p in positive & e.symbols]
                 if all(signs) and not (strict and at[ring.node(slack)].contains(0)):
                     return True

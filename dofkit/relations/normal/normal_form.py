@@ -80,7 +80,7 @@ def linear_branches(e: Expr, velocities: Sequence[Expr], positive: frozenset[Exp
         if any(sum(k for _, k in m) > 2 or any(ring.var_expr[i] not in velocities for i, _ in m) for m in terms):
             return None
         squares = (_completed(canon, whole, i, velocities, positive) for m in terms for i, k in m if k == 2)
-        square = next((found for found in squares if found is not None), None)
+        square = next((result for result in squares if result is not None), None)
     except NoValueError:
         return None
     return None if square is None else _branches(square, positive)
@@ -93,8 +93,8 @@ def _by_velocities(canon: Canon, polynomial: Any) -> dict[Monomial, Any]:
     coefficients: dict[Monomial, Any] = {}
     for exponents, coefficient in polynomial.to_dict().items():
         moving = tuple((n - 1 - i, int(k)) for i, k in enumerate(exponents) if k and moves[n - 1 - i])
-        rest = tuple(0 if moves[n - 1 - i] else k for i, k in enumerate(exponents))
-        term = canon.ctx.from_dict({rest: coefficient})
+        remainder = tuple(0 if moves[n - 1 - i] else k for i, k in enumerate(exponents))
+        term = canon.ctx.from_dict({remainder: coefficient})
         coefficients[moving] = coefficients[moving] + term if moving in coefficients else term
     return coefficients
 
@@ -114,11 +114,11 @@ def _completed(
     root = prod((f ** (k // 2) for f, k in canon.factors(discriminant)), start=content)
     radicand = divided(discriminant, root * root)
     common = slope.gcd(root)
-    left, under = lowest_terms(lead, common * common)
+    remaining, under = lowest_terms(lead, common * common)
     linear, single = divided(slope, common), divided(root, common)
     sign = weak_sign(canon, Signs(canon, positive), radicand)
     square = _Square(canon.to_expr(linear), canon.to_expr(radicand), canon.to_expr(single), sign)
-    factors = [canon.to_expr(left), canon.to_expr(under)]
+    factors = [canon.to_expr(remaining), canon.to_expr(under)]
     slopes = [diff(square.root, v) for v in velocities]
     if any(_has(u, velocities) for u in (square.radicand, *factors, *slopes)):
         return None
@@ -187,10 +187,10 @@ def normalise(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
             "an equation with a second derivative is not a constraint on positions or velocities", hint=SOLVE_FOR_IT
         )
     fewer = combined(e) if written else Combined(e, {})
-    found = _normalised(fewer.expr, positive, written)
+    result = _normalised(fewer.expr, positive, written)
     if not fewer.sums:
-        return found
-    return found._replace(branches=tuple(tuple(with_constants(p, fewer.sums) for p in b) for b in found.branches))
+        return result
+    return result._replace(branches=tuple(tuple(with_constants(p, fewer.sums) for p in b) for b in result.branches))
 
 
 def _normalised(e: Expr, positive: frozenset[Expr], written: bool) -> Normal:
@@ -267,9 +267,9 @@ def _by_signs(e: Expr, positive: frozenset[Expr]) -> Normal:
 
 def _squared(e: Expr, positive: frozenset[Expr]) -> Normal:
     """A relation with one square root, squared where that shows more than a single regular relation."""
-    found = squared(e, positive)
-    if found is not None:
-        norm, condition = found
+    result = squared(e, positive)
+    if result is not None:
+        norm, condition = result
         branches, notes = zero_set(norm, positive, _moving(norm))
         if notes:
             return _conditioned(e, branches, (SQUARED_NOTE, *notes), positive, condition)
@@ -282,13 +282,13 @@ def _nonlinear(e: Expr, positive: frozenset[Expr]) -> Normal:
         return Normal(((Nonlinear(e),),))
     moving = frozenset(s for s in e.symbols if s.args[0] in ("velocity", "coordinate", "time"))
     branches, notes = zero_set(e, positive, moving)
-    found: list[tuple[Piece, ...]] = []
+    result: list[tuple[Piece, ...]] = []
     said = list(notes)
     for branch in branches:
-        told = [_velocity_pieces(g, positive) for g in branch]
-        said += [note for _, note in told if note]
-        found += [tuple(p for part in choice for p in part) for choice in cartesian(*(pieces for pieces, _ in told))]
-    return Normal(tuple(found), tuple(dict.fromkeys(said)))
+        answer = [_velocity_pieces(g, positive) for g in branch]
+        said += [note for _, note in answer if note]
+        result += [tuple(p for part in choice for p in part) for choice in cartesian(*(pieces for pieces, _ in answer))]
+    return Normal(tuple(result), tuple(dict.fromkeys(said)))
 
 
 def _velocity_pieces(e: Expr, positive: frozenset[Expr]) -> tuple[list[tuple[Piece, ...]], str]:

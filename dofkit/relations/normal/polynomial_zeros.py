@@ -32,7 +32,7 @@ def apart(canon: Canon, factors: Factors, variables: frozenset[Expr]) -> tuple[l
 
     ``variables`` are coordinates and time; an angle with a velocity or an unknown function in it is left as it is.
     """
-    found: dict[int, set[int]] = {}
+    result: dict[int, set[int]] = {}
     branches: list[tuple[Expr, ...]] = []
     others: Factors = []
     for factor, multiplicity in factors:
@@ -41,10 +41,10 @@ def apart(canon: Canon, factors: Factors, variables: frozenset[Expr]) -> tuple[l
             others.append((factor, multiplicity))
         elif len(extremes) == 1:
             index, value = extremes[0]
-            found.setdefault(index, set()).add(value)
+            result.setdefault(index, set()).add(value)
         else:
             branches.append(tuple(_regular(canon, index, value) for index, value in extremes))
-    for index, extreme in found.items():
+    for index, extreme in result.items():
         both = len(extreme) == 2
         branches.append((_partner(canon, index) if both else _regular(canon, index, next(iter(extreme))),))
     return branches, others
@@ -177,16 +177,16 @@ class PolynomialZeros:
         defined = [(f, k) for f, k in kept if not self._undefined(f, bottom)]
         if len(defined) < len(kept):
             kept, notes = defined, [POLE_NOTE]
-        extremes, rest = apart(canon, kept, self.variables)
+        extremes, remainder = apart(canon, kept, self.variables)
         if extremes:
             branches, notes = extremes, [*notes, EXTREME_NOTE]
-        for factor, multiplicity in rest:
+        for factor, multiplicity in remainder:
             if multiplicity > 1:
                 notes.append(POWER_NOTE)
             alone = len(kept) == 1 and multiplicity == 1 and len(factors) == 1
-            found, said = self._factor(factor, written if alone else None)
-            notes += said if found or len(kept) == 1 else [FACTOR_NOTE]
-            branches += [b for b in found if b not in branches]
+            result, said = self._factor(factor, written if alone else None)
+            notes += said if result or len(kept) == 1 else [FACTOR_NOTE]
+            branches += [b for b in result if b not in branches]
         if not kept:
             return (), (EMPTY_NOTE,)
         return branches_of(branches, notes)
@@ -210,14 +210,14 @@ class PolynomialZeros:
             return False
 
     def _depends(self, factor: Any) -> bool:
-        shown = (self.canon.ring.var_expr[i] for i in self.canon.generators_in(factor))
-        return any(not self.variables.isdisjoint(s.symbols) for s in shown)
+        text = (self.canon.ring.var_expr[i] for i in self.canon.generators_in(factor))
+        return any(not self.variables.isdisjoint(s.symbols) for s in text)
 
     def _factor(self, factor: Any, written: Expr | None) -> tuple[list[Conjunction], list[str]]:
         exponent = difference_of_exponents(self.canon, factor)
         if exponent is not None:
-            found, said = self.zeros_of(exponent)
-            return list(found), [EXPONENT_NOTE, *said]
+            result, said = self.zeros_of(exponent)
+            return list(result), [EXPONENT_NOTE, *said]
         even = sum_of_even(factor, self.signs)
         if even is not None:
             if any(not zeros for zeros in even):
@@ -238,12 +238,12 @@ class PolynomialZeros:
 
     def _varying(self, zeros: list[int]) -> list[int]:
         """The generators that depend on the variables; generic constants do not vanish."""
-        shown = self.canon.ring.var_expr
-        return [i for i in zeros if not self.variables.isdisjoint(shown[i].symbols)] or zeros
+        text = self.canon.ring.var_expr
+        return [i for i in zeros if not self.variables.isdisjoint(text[i].symbols)] or zeros
 
     def _generator_zero(self, index: int) -> Expr:
-        shown = self.canon.ring.var_expr[index]
-        return ex.children(shown)[0] if self.canon.ring.vars[index].kind == "root" else shown
+        text = self.canon.ring.var_expr[index]
+        return ex.children(text)[0] if self.canon.ring.vars[index].kind == "root" else text
 
 
 def difference_of_exponents(canon: Canon, factor: Any) -> Expr | None:
@@ -253,11 +253,11 @@ def difference_of_exponents(canon: Canon, factor: Any) -> Expr | None:
     if len(terms) != 2 or any(canon.ring.vars[i].kind != "exp" for i in present):
         return None
     (first, a), (second, b) = terms
-    shown = {i: canon.ring.var_expr[i] for i in present}
-    moving = any(s.args[0] == "velocity" for e in shown.values() for s in e.symbols)
-    if a * b > 0 or moving or any(e.op != "fn" for e in shown.values()):
+    text = {i: canon.ring.var_expr[i] for i in present}
+    moving = any(s.args[0] == "velocity" for e in text.values() for s in e.symbols)
+    if a * b > 0 or moving or any(e.op != "fn" for e in text.values()):
         return None
     last = len(first) - 1
     powers = {i: int(first[last - i]) - int(second[last - i]) for i in present}
     scale = ex.fn("log", ex.num(fraction(fmpq(-a) / fmpq(b))))
-    return ex.add(scale, *(ex.mul(ex.num(k), shown[i].args[1]) for i, k in powers.items()))
+    return ex.add(scale, *(ex.mul(ex.num(k), text[i].args[1]) for i, k in powers.items()))

@@ -31,26 +31,26 @@ class Signs:
 
     def bounded_away(self, poly: Any) -> bool:
         """True for a polynomial in sines and cosines whose constant outweighs the rest."""
-        constant, rest = self._weights(poly)
-        return constant > rest
+        constant, remainder = self._weights(poly)
+        return constant > remainder
 
     def bounded(self, poly: Any) -> bool:
         """True for one whose constant weighs as much as the rest, or more: it does not change its sign."""
-        constant, rest = self._weights(poly)
-        return constant >= rest and constant > 0
+        constant, remainder = self._weights(poly)
+        return constant >= remainder and constant > 0
 
     def _weights(self, poly: Any) -> tuple[Fraction, Fraction]:
         """The sizes of the constant, and of the other terms together; 0 and 1 for what is unbounded."""
-        constant = rest = Fraction(0)
+        constant = remainder = Fraction(0)
         for exponents, coefficient in poly.to_dict().items():
             present = {self.n - 1 - i for i, k in enumerate(exponents) if k}
             if not present <= self.circular:
                 return Fraction(0), Fraction(1)
             if present:
-                rest += abs(fraction(coefficient))
+                remainder += abs(fraction(coefficient))
             else:
                 constant += abs(fraction(coefficient))
-        return constant, rest
+        return constant, remainder
 
     def monomial(self, exponents: tuple[int, ...]) -> tuple[bool, list[int]]:
         """(is it >= 0 everywhere, the generators of which one must vanish where it is 0)."""
@@ -73,15 +73,15 @@ def sum_of_even(poly: Any, signs: Signs) -> list[list[int]] | None:
     """
     if signs.bounded_away(poly):
         return [[]]
-    found, overall = [], 0
+    result, overall = [], 0
     for exponents, coefficient in poly.to_dict().items():
         even, zeros = signs.monomial(tuple(int(k) for k in exponents))
         sign = 1 if coefficient > 0 else -1
         if not even or (overall and sign != overall):
             return None
         overall = sign
-        found.append(zeros)
-    return found
+        result.append(zeros)
+    return result
 
 
 def weak_sign(canon: Canon, signs: Signs, poly: Any) -> int:
@@ -161,15 +161,15 @@ def semidefinite(canon: Canon, signs: Signs, factor: Any) -> list[Expr] | None:
     rows = _semidefinite_rows(form)
     if rows is None:
         return None
-    shown = [canon.ring.var_expr[i] for i in present] + [ex.ONE]
+    text = [canon.ring.var_expr[i] for i in present] + [ex.ONE]
     reduced, rank = fmpq_mat(rows).rref() if rows else (fmpq_mat(0, one + 1), 0)
     linear = []
     for r in range(rank):
         entries = [reduced[r, c] for c in range(one + 1)]
-        told = [i for i, v in zip(present, entries[:one], strict=True) if v != 0]
-        if not told or (len(told) == 1 and told[0] in signs.positive and entries[one] == 0):
+        answer = [i for i, v in zip(present, entries[:one], strict=True) if v != 0]
+        if not answer or (len(answer) == 1 and answer[0] in signs.positive and entries[one] == 0):
             return []
-        linear.append(ex.add(*(ex.mul(ex.num(fraction(v)), s) for v, s in zip(entries, shown, strict=True))))
+        linear.append(ex.add(*(ex.mul(ex.num(fraction(v)), s) for v, s in zip(entries, text, strict=True))))
     return linear
 
 

@@ -46,10 +46,10 @@ def _is_linear(e: Expr, variables: frozenset[Expr]) -> bool:
     """A sum of numbers times different symbols, one of them a variable: regular as it is."""
     seen = False
     for term in e.args if e.op == "add" else (e,):
-        rest = term.args[-1] if term.op == "mul" and len(term.args) == 2 and term.args[0].op == "num" else term
-        if rest.op not in ("sym", "num"):
+        remainder = term.args[-1] if term.op == "mul" and len(term.args) == 2 and term.args[0].op == "num" else term
+        if remainder.op not in ("sym", "num"):
             return False
-        seen = seen or rest in variables
+        seen = seen or remainder in variables
     return seen
 
 
@@ -95,9 +95,9 @@ class _WrittenZeros:
                 if vanishes(factor, self.positive):
                     return ((),), ()
                 continue
-            found, said = self.of(factor)
-            notes += [n for n in said if n not in (EMPTY_NOTE, FACTOR_NOTE)] if found else [FACTOR_NOTE]
-            branches += [b for b in found if b not in branches]
+            result, said = self.of(factor)
+            notes += [n for n in said if n not in (EMPTY_NOTE, FACTOR_NOTE)] if result else [FACTOR_NOTE]
+            branches += [b for b in result if b not in branches]
         return branches_of(branches, notes)
 
     def _may_vanish(self, e: Expr) -> bool:

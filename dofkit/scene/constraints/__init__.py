@@ -10,11 +10,10 @@ from typing import Annotated, get_args
 
 from pydantic import Field
 
-from dofkit.scene.constraints.base import ConstraintBase
+from dofkit.scene.constraints.base import ConstraintBase, Equation, On
 from dofkit.scene.constraints.cam import Cam
 from dofkit.scene.constraints.coupling import Coupling
 from dofkit.scene.constraints.distances import Link, Rigid, String
-from dofkit.scene.constraints.equations import Equation, On
 from dofkit.scene.constraints.places import Coincident, Fixed, Slot
 from dofkit.scene.constraints.plane_and_space import Prismatic, Revolute, Weld
 from dofkit.scene.constraints.rolling import Gear, Roll

@@ -75,14 +75,14 @@ class Cam(ConstraintBase):
             hint = "only x and y of the body, parameters and time may be used"
             world.fault(f"the coordinate {min(used - {*OWN})} cannot stand here", "curve", hint=hint)
             return None
-        found = world.relations(self.curve, "curve", names=replace(names, coordinates=frozenset(OWN)), allow=FINITE)
+        relations = world.relations(self.curve, "curve", names=replace(names, coordinates=frozenset(OWN)), allow=FINITE)
         if len(world.faults) > before:
             return None
-        if [relation.sense for relation in found] != ["="] or not used:
+        if [relation.sense for relation in relations] != ["="] or not used:
             hint = "write one such as x^2 + y^2 = 4; an inequality or a chain is not a profile"
             world.fault("a profile is one equation in x and y", "curve", hint=hint)
             return None
-        return found[0].expr
+        return relations[0].expr
 
     def _check(self, world: World, frame: Frame, point: Placed, drawn: DrawnContact) -> None:
         """A point that is off the profile where both are drawn is a fault that shows by how much."""
@@ -90,15 +90,17 @@ class Cam(ConstraintBase):
         place = point.label if point.frame else f"{point.label} at {figures(point.reference)}"
         hint = "move the point or the body, or set `tolerance` if they are measured"
         if drawn.gap is None:
-            told = f"the reference configuration has {place}, where `{self.curve}` has no value"
-            world.misfit(None, told, "point", hint=hint, body=body)
+            message = f"the reference configuration has {place}, where `{self.curve}` has no value"
+            world.misfit(None, message, "point", hint=hint, body=body)
         elif world.differs(drawn.gap, body):
             gap, steepness = approximate(drawn.gap), root(square(drawn.slope))
-            told = (
+            message = (
                 f"the reference configuration has {place}, off the profile of {frame.name}: there `{self.curve}` fails"
             )
-            told = told if gap is None else f"{told} by {abs(gap):.6g}"
-            world.misfit(None if gap is None or not steepness else gap / steepness, told, "point", hint=hint, body=body)
+            message = message if gap is None else f"{message} by {abs(gap):.6g}"
+            world.misfit(
+                None if gap is None or not steepness else gap / steepness, message, "point", hint=hint, body=body
+            )
 
     def texts(self) -> Iterator[str]:
         yield self.curve
@@ -138,11 +140,11 @@ class DrawnContact(NamedTuple):
 
 
 def _drawn(profile: Expr, frame: Frame, place: Vec) -> DrawnContact:
-    """The profile where a point is drawn."""
+    """Return the profile where a point is drawn."""
     turn = _rotation(frame.initial[0]) if frame.initial else None
     arm = minus(place, frame.start)
-    own = arm if turn is None else apply(transposed(turn), arm)
-    at = {**dict(zip((X, Y), own, strict=True)), TIME: ZERO}
+    coordinates = arm if turn is None else apply(transposed(turn), arm)
+    at = {**dict(zip((X, Y), coordinates, strict=True)), TIME: ZERO}
     try:
         gap = substitute(profile, at)
     except NoValueError:

@@ -34,7 +34,7 @@ MOST_TURNS = 8
 
 
 def _coupling_rows(at: Kinematics) -> Iterator[VelocityRow]:
-    """The sum over the joints of the slope of the relation by each, times its rate."""
+    """Yield the sum over the joints of the slope of the relation by each, times its rate."""
     if at.parts:
         yield combined([(factor, rate(part)) for rate, factor, part in at.parts])
 
@@ -94,54 +94,56 @@ class Coupling(ConstraintBase):
     def relations(self, world: World) -> Iterator[Relation]:
         measured = self._measured(world)
         letters = tuple(self.lettered)
-        own = replace(within_member(world.names, letters), coordinates=frozenset(letters))
+        names = replace(within_member(world.names, letters), coordinates=frozenset(letters))
         before = len(world.faults)
-        found = world.relations(self.text, "text", names=own, allow=FINITE)
+        relations = world.relations(self.text, "text", names=names, allow=FINITE)
         if measured is None or len(world.faults) > before:
             return
-        senses = {relation.sense for relation in found}
-        if "=" in senses and len(found) > 1:
+        senses = {relation.sense for relation in relations}
+        if "=" in senses and len(relations) > 1:
             world.fault(
                 "a coupling is either one equation or bounds", "text", hint="write a second coupling for the other one"
             )
             return
-        if "=" not in senses and not self._within_half_turns(world, [relation.expr for relation in found], measured):
+        if "=" not in senses and not self._within_half_turns(
+            world, [relation.expr for relation in relations], measured
+        ):
             return
-        for e, sense, *_ in found:
+        for e, sense, *_ in relations:
             if sense == "=" and not self._fits(world, e, measured):
                 return
             yield Relation(_in_turns(e, measured) or _in_arcs(e, measured), sense)
 
     def _within_half_turns(self, world: World, bounds: Sequence[Expr], measured: Mapping[Expr, MeasuredJoint]) -> bool:
-        """Whether bounds on an angle of space lie where it is counted, within half a turn of the drawing; else a fault.
+        """Return whether bounds on an angle of space lie within half a turn of the reference; else record a fault.
 
         Beyond that they would hold nowhere, and a hinge does turn there.
         """
-        told = (
+        message = (
             "an angle in space is measured from the reference configuration, between -pi and pi, and these bounds lie "
             "beyond"
         )
         if any(_most(e, measured) < 0 for e in bounds):
-            world.fault(told, "text", hint="choose a reference configuration nearer to the middle of their ranges")
+            world.fault(message, "text", hint="choose a reference configuration nearer to the middle of their ranges")
             return False
         for letter, joint in measured.items():
             low, high = _bounds_of(letter, bounds) if joint.axis is not None and joint.measure.turns else (-inf, inf)
-            if _told_by_arcs(low, high):
+            if _stated_by_arcs(low, high):
                 continue
             hint = "choose a reference configuration nearer to the middle of its range"
             turns = 2 * pi * round((low + high) / (4 * pi)) if isfinite(low + high) else 0.0
-            if turns and _told_by_arcs(low - turns, high - turns):
+            if turns and _stated_by_arcs(low - turns, high - turns):
                 hint = f"subtract whole turns: `{low - turns:.6g} <= {letter.args[1]} <= {high - turns:.6g}`"
-            world.fault(told, "text", hint=hint)
+            world.fault(message, "text", hint=hint)
             return False
         return True
 
     def _measured(self, world: World) -> dict[Expr, MeasuredJoint] | None:
-        """What every letter stands for; None after a fault, or where a joint itself is at fault."""
+        """Return what every letter stands for; None after a fault, or where a joint itself is at fault."""
         before = len(world.faults)
-        found = {coordinate(letter): self._joint(world, letter, name) for letter, name in self.lettered.items()}
-        known = {letter: joint for letter, joint in found.items() if joint is not None}
-        return known if len(known) == len(found) and len(world.faults) == before else None
+        joints = {coordinate(letter): self._joint(world, letter, name) for letter, name in self.lettered.items()}
+        measured = {letter: joint for letter, joint in joints.items() if joint is not None}
+        return measured if len(measured) == len(joints) and len(world.faults) == before else None
 
     def _joint(self, world: World, letter: str, written: str) -> MeasuredJoint | None:
         why = valid_name(letter)
@@ -156,16 +158,16 @@ class Coupling(ConstraintBase):
             return None
         measures = joint.measures if isinstance(joint, Joint) else {}
         if not isinstance(joint, Axial) or (not what and len(measures) != 1) or (what and what not in measures):
-            told = " or ".join(f"`{name}.{key}`" for key in measures)
-            hint = f"write {told}" if told else "name a revolute, prismatic, cylindrical or screw joint"
+            choices = " or ".join(f"`{name}.{key}`" for key in measures)
+            hint = f"write {choices}" if choices else "name a revolute, prismatic, cylindrical or screw joint"
             world.fault(f"'{written}' is not an angle or a displacement of a joint", "joints", letter, hint=hint)
             return None
         what = what or next(iter(measures))
-        found = self._located(world, letter, joint, measures[what])
-        return None if found is None else found._replace(name=f"{name}.{what}")
+        measured = self._located(world, letter, joint, measures[what])
+        return None if measured is None else measured._replace(name=f"{name}.{what}")
 
     def _located(self, world: World, letter: str, joint: Axial, measure: Measure) -> MeasuredJoint | None:
-        """The joint where it is drawn."""
+        """Return the joint where it is drawn."""
         planar = world.dimension == 2 and measure.turns
         if any(end not in world.frames and end != world.ground.name for end in joint.between):
             return None
@@ -226,7 +228,7 @@ class MeasuredJoint(NamedTuple):
         return self.measure.value(self.first, self.second, self.place, self.axis)
 
     def rate(self, slope: Expr) -> JointRate:
-        """How its rate enters where the relation has that slope."""
+        """Return how its rate enters where the relation has that slope."""
         size = ONE if self.axis is None else length(self.axis.vector)
         return JointRate(
             self.name,
@@ -240,7 +242,7 @@ class MeasuredJoint(NamedTuple):
         )
 
     def half(self) -> tuple[Expr, Expr] | None:
-        """The cosine and sine of half its angle up to a positive factor; None for what is no angle of Gibbs charts."""
+        """Return cosine and sine of half its angle up to a positive factor; None for no angle of Gibbs charts."""
         turned = relative(self.first, self.second) if self.axis is not None and self.measure.turns else None
         if turned is None or self.axis is None:
             return None
@@ -248,7 +250,7 @@ class MeasuredJoint(NamedTuple):
 
 
 def _most(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> float:
-    """The most that a sum of several angles of space can be, each at most pi; of anything else no bound."""
+    """Return the most that a sum of several angles of space can be, each at most pi; of anything else no bound."""
     slopes = {letter: approximate(diff(e, letter)) for letter in measured}
     moving = [letter for letter, slope in slopes.items() if slope != 0]
     at = approximate(substitute(e, dict.fromkeys(measured, ZERO)))
@@ -258,8 +260,8 @@ def _most(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> float:
     return at + pi * sum(abs(slope or 0.0) for slope in slopes.values())
 
 
-def _told_by_arcs(low: float, high: float) -> bool:
-    """Do bounds say of an angle between -pi and pi what they say of the same angle counted on?"""
+def _stated_by_arcs(low: float, high: float) -> bool:
+    """Return whether bounds state of an angle between -pi and pi what they state of the angle counted on."""
     if not isfinite(low + high):
         return low < pi and high > -pi
     return (-pi <= low and high <= pi) or (low <= -pi and high >= pi)
@@ -276,18 +278,18 @@ def _bounds_of(letter: Expr, relations: Sequence[Expr]) -> tuple[float, float]:
 
 
 def _split(written: str, entries: Mapping[str, object]) -> tuple[str, str]:
-    """The joint's name, and what of it is meant."""
+    """Return the joint's name, and what of it is meant."""
     name, dot_, what = written.rpartition(".")
     return (name, what) if dot_ and written not in entries else (written, "")
 
 
 def _in_arcs(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr:
-    """The relation with every angle as an arc."""
+    """Return the relation with every angle as an arc."""
     return substitute(e, {letter: joint.value for letter, joint in measured.items()})
 
 
 def _in_turns(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr | None:
-    """A homogeneous linear relation of angles of space with small whole factors, without arcs: Im prod z^k."""
+    """Return a homogeneous linear relation of angles of space with small whole factors, without arcs: Im prod z^k."""
     terms = linear_terms(e)
     halves = {letter: measured[letter].half() for letter in terms if letter in measured}
     if len(halves) < len(terms) or any(half is None for half in halves.values()):
@@ -298,21 +300,21 @@ def _in_turns(e: Expr, measured: Mapping[Expr, MeasuredJoint]) -> Expr | None:
     total = ONE, ZERO
     for half, k in zip(halves.values(), factors, strict=True):
         if half is not None:
-            one = half if k > 0 else (half[0], mul(MINUS_ONE, half[1]))
+            factor = half if k > 0 else (half[0], mul(MINUS_ONE, half[1]))
             for _ in range(abs(k)):
-                total = _product(total, one)
+                total = _product(total, factor)
     return total[1]
 
 
 def _product(a: tuple[Expr, Expr], b: tuple[Expr, Expr]) -> tuple[Expr, Expr]:
-    """Of complex numbers."""
+    """Return the product of two complex numbers."""
     if is_zero((a[1],)):
         return mul(a[0], b[0]), mul(a[0], b[1])
     return difference(mul(a[0], b[0]), mul(a[1], b[1])), mul(a[0], b[1]) + mul(a[1], b[0])
 
 
 def _whole(factors: Sequence[Fraction]) -> list[int]:
-    """The same ratios in the smallest integers."""
+    """Return the same ratios in the smallest integers."""
     below = lcm(*(f.denominator for f in factors))
     above = [int(f * below) for f in factors]
     common = gcd(*above)

@@ -56,12 +56,12 @@ class Link(ConstraintBase):
             hint = "name two different points"
             world.fault(f"a link needs two different points, not {first.label} twice", "between", 1, hint=hint)
             return
-        given = None if self.length is None else world.expression(self.length, "length")
-        if given is not None:
-            _check_length(world, first, second, given, "length")
-        if first.frame is None and second.frame is None and (given is None or not _moves(given)):
+        given_length = None if self.length is None else world.expression(self.length, "length")
+        if given_length is not None:
+            _check_length(world, first, second, given_length, "length")
+        if first.frame is None and second.frame is None and (given_length is None or not _moves(given_length)):
             world.links.append((world.index, first.label, second.label))
-        yield Relation(distance(world, first, second, given))
+        yield Relation(distance(world, first, second, given_length))
 
     def texts(self) -> Iterator[str]:
         if isinstance(self.length, str):
@@ -69,18 +69,20 @@ class Link(ConstraintBase):
 
     @classmethod
     def offers(cls, names: NamesAtHand, known: Sequence[Mapping[str, Any]]) -> Iterator[Mapping[str, Any]]:
-        """A link between two particles that have none, where others have."""
-        own = [frozenset(one["between"]) for one in known if one.get("type") == cls.kind() and _between_names(one)]
-        points = [owner for owner in names.owned if any(owner in pair for pair in own)]
+        """Yield a link between two particles that have none, where others have."""
+        pairs = [
+            frozenset(entry["between"]) for entry in known if entry.get("type") == cls.kind() and _between_names(entry)
+        ]
+        points = [owner for owner in names.owned if any(owner in pair for pair in pairs)]
         for pair in combinations(points, 2):
-            if frozenset(pair) not in own:
+            if frozenset(pair) not in pairs:
                 yield {"type": cls.kind(), "between": list(pair)}
 
     def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
-        """Its length in motion, or the place in the world that it hangs on."""
-        found = length_in_motion(self.written(), names)
-        if found is not None:
-            yield found
+        """Yield its length in motion, or the place in the world that it hangs on."""
+        replacement = length_in_motion(self.written(), names)
+        if replacement is not None:
+            yield replacement
         moved = _hung_on_what_moves(self, names)
         if moved is not None:
             yield moved
@@ -92,7 +94,7 @@ class Link(ConstraintBase):
 
 
 def _hung_on_what_moves(link: Link, names: NamesAtHand) -> Replacement | None:
-    """A particle on a link of constant length whose other end moves to and fro in the world, as an equation."""
+    """Return a particle on a link of constant length whose other end moves to and fro in the world, as an equation."""
     places = [end for end in link.between if isinstance(end, tuple)]
     points = [names.owned.get(end, ()) for end in link.between if isinstance(end, str)]
     length = "" if link.length is None else as_written(link.length)
@@ -114,8 +116,8 @@ def _hung_on_what_moves(link: Link, names: NamesAtHand) -> Replacement | None:
     whole = length if length.isalnum() else f"({length})"
     fields = {"type": "equation", "text": f"{' + '.join(f'{s}^2' for s in squares)} = {whole}^2"}
     fields |= {} if link.name is None else {"name": link.name}
-    told = f"its support moves by {reach} cos({rate} t)"
-    return Replacement("supports", fields, {reach: "positive", rate: "positive"}, told)
+    note = f"its support moves by {reach} cos({rate} t)"
+    return Replacement("supports", fields, {reach: "positive", rate: "positive"}, note)
 
 
 def _between_names(written: Mapping[str, Any]) -> bool:
@@ -130,11 +132,11 @@ def _moves(length: Expr) -> bool:
     return any(symbol.args[0] != "parameter" for symbol in length.symbols)
 
 
-def distance(world: World, first: Placed, second: Placed, given: Expr | None) -> Expr:
+def distance(world: World, first: Placed, second: Placed, length: Expr | None) -> Expr:
     """|A - B|^2 - length^2, cleared of denominators."""
     drawn = square_between(first.reference, second.reference) if first.reference and second.reference else None
-    if given is not None:
-        squared = power(given, TWO)
+    if length is not None:
+        squared = power(length, TWO)
         if squared.is_zero:
             world.warnings.append(
                 f"the link {first.label}-{second.label} has length 0: one equation that is satisfied only "
@@ -167,12 +169,12 @@ def _between_particles(world: World, first: Placed, second: Placed, squared: Exp
     )
 
 
-def _check_length(world: World, first: Placed, second: Placed, given: Expr, *where: str | int) -> None:
+def _check_length(world: World, first: Placed, second: Placed, length: Expr, *where: str | int) -> None:
     """A length that contradicts the drawing is a fault that shows both."""
-    start = substitute(given, {TIME: ZERO})
-    shown = approximate(start)
-    if shown is not None and shown < 0:
-        world.fault(f"a length cannot be negative ({shown:.6g})", *where, hint=f"write `length: {-shown:.6g}`")
+    start = substitute(length, {TIME: ZERO})
+    figure = approximate(start)
+    if figure is not None and figure < 0:
+        world.fault(f"a length cannot be negative ({figure:.6g})", *where, hint=f"write `length: {-figure:.6g}`")
     if first.reference is None or second.reference is None:
         return
     drawn = square_between(first.reference, second.reference)
@@ -180,9 +182,9 @@ def _check_length(world: World, first: Placed, second: Placed, given: Expr, *whe
         return
     measured = root(drawn)
     apart = f"{first.label} and {second.label} are {_figure(measured)} apart"
-    message = f"the length {_figure(shown)} contradicts the reference configuration, where {apart}"
+    message = f"the length {_figure(figure)} contradicts the reference configuration, where {apart}"
     hint = f"write `length: {_figure(measured)}` or leave it out; set `tolerance` if it is measured"
-    world.misfit(_less(shown, measured), message, *where, hint=hint)
+    world.misfit(_less(figure, measured), message, *where, hint=hint)
 
 
 def _less(a: float | None, b: float | None) -> float | None:
@@ -256,35 +258,35 @@ class String(ConstraintBase):
 
     def relations(self, world: World) -> Iterator[Relation]:
         points = [world.point(point, "along", i) for i, point in enumerate(self.along)]
-        parts, drawn = [], []
+        lengths, drawn = [], []
         for i, (first, second) in enumerate(pairwise(points)):
             if first.label == second.label or _same_place(first, second):
                 world.fault(f"the string passes {first.label} twice in a row", "along", i + 1)
                 return
             arm, under = between(first, second)
-            parts.append(_length(arm) / under)
+            lengths.append(_length(arm) / under)
             if first.reference is not None and second.reference is not None:
                 drawn.append(sqrt(square_between(first.reference, second.reference)))
-        total = add(*drawn) if len(drawn) == len(parts) else None
+        total = add(*drawn) if len(drawn) == len(lengths) else None
         if self.length is not None:
-            given = world.expression(self.length, "length")
+            given_length = world.expression(self.length, "length")
             if total is not None:
-                _check_string(world, given, total)
+                _check_string(world, given_length, total)
         else:
-            given = world.fresh("L") if total is None else total
+            given_length = world.fresh("L") if total is None else total
         for first, second in combinations(points, 2):
             if first.label != second.label:
-                world.apart(first, second, power(given, TWO), at_most=True)
-        yield Relation(difference(add(*parts), given))
+                world.apart(first, second, power(given_length, TWO), at_most=True)
+        yield Relation(difference(add(*lengths), given_length))
 
     def texts(self) -> Iterator[str]:
         if isinstance(self.length, str):
             yield self.length
 
     def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
-        found = length_in_motion(self.written(), names)
-        if found is not None:
-            yield found
+        replacement = length_in_motion(self.written(), names)
+        if replacement is not None:
+            yield replacement
 
     @classmethod
     def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
@@ -306,10 +308,10 @@ def _length(arm: Vec) -> Expr:
     return fn("abs", arm[0]) if len(arm) == 1 else sqrt(square(arm))
 
 
-def _check_string(world: World, given: Expr, drawn: Expr) -> None:
-    gap = difference(substitute(given, {TIME: ZERO}), drawn)
+def _check_string(world: World, length: Expr, drawn: Expr) -> None:
+    gap = difference(substitute(length, {TIME: ZERO}), drawn)
     if not world.differs(gap):
         return
-    a, b = approximate(substitute(given, {TIME: ZERO})), approximate(drawn)
+    a, b = approximate(substitute(length, {TIME: ZERO})), approximate(drawn)
     message = f"the length {_figure(a)} contradicts the reference configuration, where the string is {_figure(b)} long"
     world.misfit(_less(a, b), message, "length", hint="leave `length` out to take that length")

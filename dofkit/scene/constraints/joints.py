@@ -10,19 +10,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import ClassVar, NamedTuple
+from itertools import chain
+from typing import ClassVar, Literal, NamedTuple
 
 from pydantic import Field
 
 from dofkit.exact.matrices import sparse as rows
 from dofkit.expressions.renaming import Unwritten
+from dofkit.expressions.terms import longest_number
 from dofkit.expressions.tree import HALF, MINUS_ONE, ONE, ZERO, Expr, fn, mul
 from dofkit.expressions.vectors import Vec, cross, difference, dot, is_zero, length, minus, scaled, unit
 from dofkit.scene.constraints.base import ConstraintBase, component_relations
 from dofkit.scene.constraints.places import along
 from dofkit.scene.fields import Text, Vector
 from dofkit.scene.frames import Frame, between, relative
-from dofkit.scene.joint_geometry import JointGeometry, Mentions, coordinates_mentioned, longest_of
 from dofkit.scene.ledger import LAW
 from dofkit.scene.parts import show_vector
 from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation
@@ -32,6 +33,63 @@ from dofkit.system import DRIVE, Kinematics, Relation, VelocityRow
 _UP = {2: "[1, 0]", 3: "[0, 0, 1]"}
 #: Independent motions of a body, d(d+1)/2.
 MOTIONS = {2: 3, 3: 6}
+#: What no part of a joint's equations leaves out; see `Joint`.
+Mentions = Literal["place", "turn", "moving", "apart"]
+#: Numbers of so many bits make no long ones.
+FEW_BITS = 16
+
+
+class JointGeometry(NamedTuple):
+    """The geometry of a joint: its ``place`` (None where its equations need none), its axes, a screw's pitch."""
+
+    place: Vec | None = None
+    axes: tuple[Direction, ...] = ()
+    number: Expr | None = None
+
+    @property
+    def axis(self) -> Direction:
+        """The only axis, or the first."""
+        return self.axes[0]
+
+    @property
+    def at(self) -> Vec:
+        """The place of a joint that has one."""
+        return self.place or ()
+
+
+def longest_of(first: Frame, second: Frame, drawn: JointGeometry) -> int | None:
+    """Return the bits of the longest number in equations of two frames drawn in fractions; None for others."""
+    moving = [frame for frame in (first, second) if not frame.fixed]
+    if not moving or any(frame.chart not in ("plane", "gibbs") for frame in moving) or drawn.number is not None:
+        return None
+    numbers = [
+        *chain.from_iterable((*frame.start, *(frame.initial if frame.chart == "plane" else ())) for frame in moving),
+        *(drawn.place or ()),
+        *chain.from_iterable(axis.vector for axis in drawn.axes),
+    ]
+    if any(part.op != "num" for part in numbers):
+        return None
+    bits = longest_number(numbers)
+    return bits if bits < FEW_BITS else 2 * bits + 4
+
+
+def coordinates_mentioned(
+    mentions: Mentions | None, first: Frame, second: Frame, drawn: JointGeometry
+) -> frozenset[str] | None:
+    """Return the coordinates that equations of two frames mention, where no part of these stands alone; else None.
+
+    The angles of a body occur in all equations of a place that is not its origin, unless the plane needs no axis. What
+    is stated in the directions of the first of two moving bodies mentions all their coordinates.
+    """
+    positions = [str(x.args[1]) for frame in (first, second) for x in frame.position if x.op == "sym"]
+    one_origin = mentions == "apart" and first.start == second.start
+    if mentions in ("moving", "apart") and not (first.fixed or second.fixed or one_origin):
+        return frozenset(positions).union(first.angles, second.angles)
+    if mentions not in ("place", "turn"):
+        return None
+    armed = [frame for frame in (first, second) if not frame.fixed and frame.start != drawn.at]
+    turning = (first, second) if mentions == "turn" and drawn.axes else armed
+    return frozenset(positions).union(*(frame.angles for frame in turning)) if armed else None
 
 
 class Measure(NamedTuple):
@@ -62,7 +120,7 @@ class Joint(ConstraintBase):
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
 
     def ends(self, world: World) -> tuple[Frame, Frame] | None:
-        """The frames of the two ends; None after a fault."""
+        """Return the frames of the two ends; None after a fault."""
         before = len(world.faults)
         first, second = (world.frame(name, "between", i) for i, name in enumerate(self.between))
         if self.between[0] == self.between[1]:
@@ -70,21 +128,21 @@ class Joint(ConstraintBase):
         return None if len(world.faults) > before else (first, second)
 
     def geometry(self, world: World) -> JointGeometry:
-        """What it asks of the world; faults go there."""
+        """Return what it asks of the world; faults go there."""
         del world
         return JointGeometry()
 
     def equations(self, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
-        """The relations between the two frames, the drive's apart."""
+        """Yield the relations between the two frames, the drive's apart."""
         raise NotImplementedError
 
     def laws(self, world: World, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
-        """The drive's relation, if it is driven."""
+        """Yield the drive's relation, if it is driven."""
         del world, first, second, drawn
         yield from ()
 
     def joined(self, world: World, first: Frame, second: Frame) -> Sequence[Relation]:
-        """The relations between the two frames; written out later where the drawing alone tells what they mention."""
+        """Return the relations between the two frames, written out later where the drawing states what they mention."""
         drawn = self.geometry(world)
         laws = tuple(self.laws(world, first, second, drawn))
         equations = partial(self.equations, first, second, drawn)
@@ -107,13 +165,13 @@ class Joint(ConstraintBase):
 
     @property
     def in_words(self) -> str:
-        told = f"{self.kind()} {self.between[0]}-{self.between[1]}"
+        words = f"{self.kind()} {self.between[0]}-{self.between[1]}"
         for key, word in (("at", "at"), ("axis", "along")):
             vector: Vector | None = getattr(self, key, None)
             if vector is not None:
-                told += f" {word} {show_vector(vector)}"
+                words += f" {word} {show_vector(vector)}"
         drive = getattr(self, "drive", None)
-        return told if drive is None else f"{told}, driven by {drive}"
+        return words if drive is None else f"{words}, driven by {drive}"
 
 
 class LocatedJoint(Joint):
@@ -128,7 +186,7 @@ class Axial(LocatedJoint):
     axis: Vector | None = Field(None, description="the joint's axis in the reference configuration")
 
     def directed(self, world: World) -> Direction:
-        """The axis; one that is left out where the place is given is a fault."""
+        """Return the axis; one that is left out where the place is given is a fault."""
         if self.axis is None and self.at is not None:
             world.fault(
                 f"this {self.kind()} joint has a position (`at`) but no `axis`",
@@ -150,26 +208,26 @@ class Driven(Axial):
             yield Replacement("supports", free, {}, "it is not driven")
             return
         rate = names.fresh("omega")
-        told = f"it is driven by {rate} t"
-        yield Replacement("supports", {**written, "drive": f"{rate}*t"}, {rate: "positive"}, told)
+        words = f"it is driven by {rate} t"
+        yield Replacement("supports", {**written, "drive": f"{rate}*t"}, {rate: "positive"}, words)
 
     def laws(self, world: World, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
         if self.drive is not None:
             yield self.law(first, second, drawn, world.expression(self.drive, "drive", allow=LAW))
 
     def law(self, first: Frame, second: Frame, drawn: JointGeometry, driven: Expr) -> Relation:
-        """The relation that says what is ``driven``."""
+        """Return the relation that says what is ``driven``."""
         raise NotImplementedError
 
 
 def turn_rate(at: Kinematics) -> VelocityRow:
-    """How fast the second body turns against the first, in space about the axis."""
+    """Return how fast the second body turns against the first, in space about the axis."""
     turn = at.turn()
     return turn[0] if at.dimension == 2 else rows.along(at.directions[0], turn)
 
 
 def slide_rate(at: Kinematics) -> VelocityRow:
-    """How fast the second body moves along the axis against the first."""
+    """Return how fast the second body moves along the axis against the first."""
     return rows.along(at.directions[0], at.shift())
 
 
@@ -201,7 +259,7 @@ def together(first: Frame, second: Frame, place: Vec) -> Iterator[Relation]:
 
 
 def aligned(first: Frame, second: Frame, axis: Direction) -> Iterator[Relation]:
-    """The axis keeps its direction in both bodies of space: 2 relations, (R1 n).(R2 u) = 0 or v.u = 0.
+    """Yield 2 relations that keep the direction of the axis in both bodies: (R1 n).(R2 u) = 0 or v.u = 0.
 
     The first keeps them from turning about n x u, the second about u.
     """
@@ -232,7 +290,7 @@ def parallel(first: Frame, second: Frame) -> Iterator[Relation]:
 
 
 def carrier(first: Frame, second: Frame) -> Frame:
-    """The frame in which directions common to both are simplest: the ground's, else the first."""
+    """Return the frame in which directions common to both are simplest: the ground's, else the first."""
     return second if second.fixed else first
 
 
@@ -248,7 +306,7 @@ def shift(first: Frame, second: Frame, direction: Vec) -> tuple[Expr, Expr]:
 
 
 def slide(first: Frame, second: Frame, place: Vec, direction: Vec) -> tuple[Expr, Expr]:
-    """How far the second body's point at ``place`` has moved from the first's along a direction of both."""
+    """Return how far the second body's point at ``place`` has moved from the first's along a direction of both."""
     frame = carrier(first, second)
     if frame is second:
         point = first.point(place)
@@ -268,7 +326,7 @@ def crossing(axis: Direction) -> tuple[Vec, Vec]:
 
 
 def angle_law(first: Frame, second: Frame, axis: Direction, law: Expr) -> Relation:
-    """The second body's angle against the first about the axis, right-handed, is ``law``.
+    """Return the relation that the angle of the second body against the first about the axis is ``law``.
 
     In the plane theta2 - theta1 - f = 0. In space v.n cos(f/2) - s |n| sin(f/2) = 0, or with
     w = n x u: (R1 w).(R2 u) cos f - |n| (R1 u).(R2 u) sin f = 0.
@@ -287,7 +345,7 @@ def angle_law(first: Frame, second: Frame, axis: Direction, law: Expr) -> Relati
 
 
 def angle_of(first: Frame, second: Frame, axis: Direction) -> Expr:
-    """The second body's angle against the first about a shared axis of space, right-handed."""
+    """Return the second body's angle against the first about a shared axis of space, right-handed."""
     size = length(axis.vector)
     turned = relative(first, second)
     if turned is not None:

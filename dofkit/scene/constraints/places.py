@@ -96,9 +96,9 @@ class Coincident(ConstraintBase):
     def relations(self, world: World) -> Iterator[Relation]:
         first, second = (world.point(end, "between", i) for i, end in enumerate(self.between))
         if first.label == second.label or (first.frame is not None and first.frame == second.frame):
-            told = first.label if first.label == second.label else f"two points of {first.frame}"
+            words = first.label if first.label == second.label else f"two points of {first.frame}"
             hint = "name points of two different bodies or particles"
-            world.fault(f"{told} cannot be joined to itself", "between", 1, hint=hint)
+            world.fault(f"{words} cannot be joined to itself", "between", 1, hint=hint)
             return
         meet(world, first, second, "between")
         world.apart(first, second, ZERO)
@@ -158,17 +158,17 @@ class Slot(ConstraintBase):
     @classmethod
     def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
         """Return a faulty entry with `between: [point, body]` as the two fields."""
-        given = dict(entry)
-        if isinstance(given.get("between"), (list, tuple)) and len(given["between"]) == 2:
-            given["point"], given["body"] = given.pop("between")
-        return given
+        fields = dict(entry)
+        if isinstance(fields.get("between"), (list, tuple)) and len(fields["between"]) == 2:
+            fields["point"], fields["body"] = fields.pop("between")
+        return fields
 
     @property
     def in_words(self) -> str:
-        told = f"slot {show_point(self.point)} on {self.body}"
+        words = f"slot {show_point(self.point)} on {self.body}"
         if self.at is not None:
-            told += f" through {show_vector(self.at)}"
-        return told + ("" if self.axis is None else f" along {show_vector(self.axis)}")
+            words += f" through {show_vector(self.at)}"
+        return words + ("" if self.axis is None else f" along {show_vector(self.axis)}")
 
 
 def along(frame: Frame, point: Placed, place: Vec, direction: Vec) -> Expr:

@@ -15,7 +15,9 @@ from dofkit.scene.constraints.joints import (
     SHIFT,
     Driven,
     Joint,
+    JointGeometry,
     Measure,
+    Mentions,
     aligned,
     angle_law,
     apart,
@@ -27,7 +29,6 @@ from dofkit.scene.constraints.joints import (
     turn_rate,
 )
 from dofkit.scene.frames import Frame
-from dofkit.scene.joint_geometry import JointGeometry, Mentions
 from dofkit.scene.symbols import RING, Stroke, Symbol, axle, box, cylinder, prism, rail
 from dofkit.scene.world import World
 from dofkit.system import DRIVE, Kinematics, Relation, TypeFacts, VelocityRow

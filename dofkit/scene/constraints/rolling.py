@@ -108,15 +108,15 @@ class Gear(Joint):
         ratio = world.mentioned.number = world.fixed(self.ratio, "ratio")
         if ratio.is_zero:
             world.fault("a gear ratio cannot be 0", "ratio")
-        one, other = first.angle, second.angle
+        first_angle, second_angle = first.angle, second.angle
         if self.carrier is not None:
             if self.carrier in self.between:
                 world.fault(f"'{self.carrier}' cannot carry its own wheel", "carrier", hint="name a third body")
             arm = world.frame(self.carrier, "carrier").angle
-            one, other = difference(one, arm), difference(other, arm)
-        return (Relation(difference(other, mul(ratio, one))),)
+            first_angle, second_angle = difference(first_angle, arm), difference(second_angle, arm)
+        return (Relation(difference(second_angle, mul(ratio, first_angle))),)
 
     @property
     def in_words(self) -> str:
-        told = f"{super().in_words}, ratio {as_written(self.ratio)}"
-        return told if self.carrier is None else f"{told}, carried by {self.carrier}"
+        words = f"{super().in_words}, ratio {as_written(self.ratio)}"
+        return words if self.carrier is None else f"{words}, carried by {self.carrier}"

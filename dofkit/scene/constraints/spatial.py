@@ -16,8 +16,10 @@ from dofkit.scene.constraints.joints import (
     SLIDE,
     Axial,
     Driven,
+    JointGeometry,
     LocatedJoint,
     Measure,
+    Mentions,
     aligned,
     angle_law,
     angle_of,
@@ -30,7 +32,6 @@ from dofkit.scene.constraints.joints import (
 )
 from dofkit.scene.fields import Value, Vector, as_written
 from dofkit.scene.frames import Frame, relative
-from dofkit.scene.joint_geometry import JointGeometry, Mentions
 from dofkit.scene.parts import show_vector
 from dofkit.scene.symbols import RING, Stroke, Symbol, arc, axle, cylinder, helix, plate, prism
 from dofkit.scene.variation import TypeVariation
@@ -39,7 +40,7 @@ from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
 
 def coaxial(first: Frame, second: Frame, place: Vec, axis: Direction) -> Iterator[Relation]:
-    """The axis stays one line: 2 relations for its direction, 2 for its place."""
+    """Yield 4 relations that keep the axis one line: 2 for its direction, 2 for its place."""
     yield from aligned(first, second, axis)
     for u in axis.across:
         yield Relation(slide(first, second, place, u)[0], part="across", vector=u)
@@ -175,21 +176,21 @@ class Universal(LocatedJoint):
             if self.at is not None:
                 hint = "add `axes: [[1, 0, 0], [0, 1, 0]]`, or leave both out for a joint in general position"
                 world.fault("this universal joint has a position (`at`) but no `axes`", hint=hint)
-            one = world.direction(None)
-            return one, Direction(plus(one.across[0], scaled(world.fresh(), one.across[1])), ())
-        one, other = (world.direction(axis, "axes", i) for i, axis in enumerate(self.axes))
-        cosine = dot(one.vector, other.vector)
+            first = world.direction(None)
+            return first, Direction(plus(first.across[0], scaled(world.fresh(), first.across[1])), ())
+        first, second = (world.direction(axis, "axes", i) for i, axis in enumerate(self.axes))
+        cosine = dot(first.vector, second.vector)
         if world.differs(cosine):
-            size = approximate(fn("abs", cosine / (length(one.vector) * length(other.vector))))
+            size = approximate(fn("abs", cosine / (length(first.vector) * length(second.vector))))
             if not (size is not None and within(size, world.tolerance, 1.0)):
-                shown = f"{show_vector(self.axes[0])} and {show_vector(self.axes[1])}"
-                world.fault(f"the axes {shown} are not perpendicular", "axes", hint="their dot product must be 0")
-        return one, other
+                axes = f"{show_vector(self.axes[0])} and {show_vector(self.axes[1])}"
+                world.fault(f"the axes {axes} are not perpendicular", "axes", hint="their dot product must be 0")
+        return first, second
 
     @property
     def in_words(self) -> str:
-        told = super().in_words
-        return told if self.axes is None else f"{told} along {' and '.join(show_vector(axis) for axis in self.axes)}"
+        words = super().in_words
+        return words if self.axes is None else f"{words} along {' and '.join(show_vector(axis) for axis in self.axes)}"
 
 
 def _spherical_rows(at: Kinematics) -> Iterator[VelocityRow]:

@@ -1,4 +1,16 @@
-"""What the drawn configuration allows: to first order, and as a motion."""
+"""What the reference configuration allows: instantaneously, and as a finite motion.
+
+Where the equations are dependent there, only what is dependent has to be looked at. Let B be a basis of the rows of the
+Jacobian at P, and M the manifold on which the equations of B are satisfied. The set that all equations cut out is M if
+those outside B vanish on M too. One of them that is a combination of rows S of B is looked at together with any set of
+equations that holds S: where these cut out the manifold M' of their part of B [ImplicitFunctions], it vanishes on M',
+and M lies in M'. So equations in no dependent set (coloops) are not looked at, and mechanisms that share nothing are
+apart.
+
+Two rows are in one class if a minimal dependent set holds both. Together with a class those equations are kept that
+mention its coordinates only: without them a bar across a square could not tell that the square is held. Where that is
+not enough, all equations on its bodies are looked at (`widened`).
+"""
 
 from __future__ import annotations
 
@@ -9,13 +21,12 @@ from typing import Any
 
 from flint import arb, ctx
 
+from dofkit.base.libraries import nx
 from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import gap_in_words
-from dofkit.configuration.drawing.dependent_classes import DependentClass, chart_of, dependent_parts, widened
-from dofkit.configuration.drawing.fewer_coordinates import smaller
+from dofkit.configuration.fewer_coordinates import smaller
 from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
-from dofkit.configuration.local import dimension as local_dimension
-from dofkit.configuration.local import first_order
+from dofkit.configuration.local import conclusions, criteria
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
 from dofkit.exact.errors import NoValueError
@@ -100,7 +111,7 @@ def _by_field(chart: Chart, known: Mapping[Expr, Expr]) -> AtReference | None:
         looked = FollowedClasses(coordinates=n - spared, spared=spared)
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, looked=looked)
     ball = ball_point(chart, known, point.rng) if rank < len(matrix) and "balls" in chart.engines else None
-    local = _at_fixed_time(local_dimension.local_at(chart, point, ball, rigid, chart.time), timed)
+    local = _at_fixed_time(criteria.local_at(chart, point, ball, rigid, chart.time), timed)
     return AtReference(n - rank_q, local, matrix, point.p, rank, rigid)
 
 
@@ -123,7 +134,7 @@ def _with_fewer(
     kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]
     rigid = rank_of([[field[i] for i in kept] for field in fields], point.p)
     ball = ball_point(small, known, here.rng) if "balls" in chart.engines else None
-    local = local_dimension.local_at(small, here, ball, rigid)
+    local = criteria.local_at(small, here, ball, rigid)
     return replace(local, dimension=None if local.dimension is None else local.dimension + free), spared
 
 
@@ -137,7 +148,7 @@ def _by_parts(
     """
     dimension = len(chart.columns) - rank
     if rank == len(matrix):
-        regular = LocalDimension(dimension, "proved", first_order.INDEPENDENT, argument="independent relations")
+        regular = LocalDimension(dimension, "proved", conclusions.INDEPENDENT, argument="independent relations")
         return regular, FollowedClasses(rank)
     reduced = echelon(matrix, p, supports=True)
     parts = dependent_parts(chart, reduced)
@@ -165,7 +176,7 @@ def _by_parts(
 
 def _rigid() -> str:
     """Why what depends on itself does not move."""
-    return f"the dependent part is rigid: {first_order.WHOLE}"
+    return f"the dependent part is rigid: {conclusions.WHOLE}"
 
 
 def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[LocalDimension | None, int]:
@@ -228,7 +239,7 @@ def _by_balls(chart: Chart, known: Mapping[Expr, Expr]) -> AtReference | None:
 
 def _dimension_along_curves(manifold: Manifold, rigid: int, time: int | None) -> LocalDimension:
     try:
-        return local_dimension.numeric_dimension(manifold, rigid, time)
+        return criteria.numeric_dimension(manifold, rigid, time)
     except NoValueError:
         return LocalDimension(
             None, "undecided", "the equations could not be evaluated along a curve through this configuration"
@@ -272,3 +283,69 @@ def _ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) ->
         except NoValueError:
             return None
     return BallPoint(symbols, 0)
+
+
+# Classes of dependent equations
+
+
+@dataclass(frozen=True)
+class DependentClass:
+    """Rows that are looked at together, by their numbers, and how many of them are independent."""
+
+    rows: tuple[int, ...]
+    rank: int
+
+
+def dependent_parts(chart: Chart, found: Echelon) -> list[DependentClass]:
+    """The classes with dependent rows, each with what else is said of its coordinates; ``found`` with its supports."""
+    graph: nx.Graph = nx.Graph()
+    for row, support in found.supports.items():
+        graph.add_node(row)
+        graph.add_edges_from((row, other) for other in support)
+    own = frozenset(s for s in chart.symbols)
+    mentioned = [g.symbols & own for g in chart.relations]
+    users: dict[Expr, list[int]] = {}
+    for i, symbols in enumerate(mentioned):
+        for s in symbols:
+            users.setdefault(s, []).append(i)
+    parts = []
+    for component in nx.connected_components(graph):
+        held = frozenset[Expr]().union(*(mentioned[i] for i in component))
+        beside = {i for s in held for i in users[s] if mentioned[i] <= held and i not in found.supports}
+        rows = tuple(sorted(component | beside))
+        parts.append(DependentClass(rows, len(rows) - sum(r in found.supports for r in rows)))
+    return sorted(parts, key=lambda part: part.rows)
+
+
+def widened(chart: Chart, part: DependentClass, found: Echelon) -> DependentClass:
+    """The class with all that is said of the bodies and particles that it mentions: a loop with all of its joints.
+
+    The height alone of hinges whose axes are upright closes round a loop to first order only; beside the other
+    equations of these hinges it follows from them. Dependent rows of other classes come along with their own.
+    """
+    owners = {c.name: c.owner for c in chart.roles if c.owner is not None}
+    mentioned = [frozenset(owners.get(s.args[1], s) for s in g.symbols) for g in chart.relations]
+    held = frozenset[object]().union(*(mentioned[i] for i in part.rows))
+    within = {i for i, those in enumerate(mentioned) if those <= held}
+    rows = {i for i in within if i not in found.supports or within.issuperset(found.supports[i])} | {*part.rows}
+    return DependentClass(tuple(sorted(rows)), len(rows) - sum(i in found.supports for i in rows))
+
+
+def chart_of(chart: Chart, rows: Sequence[int]) -> Chart:
+    """Some of the relations on the columns that they mention."""
+    relations = tuple(chart.relations[r] for r in rows)
+    ring = Ring(relations, chart.positive)
+    nodes = tuple(ring.node(g) for g in relations)
+    mentioned = frozenset[Expr]().union(*(g.symbols for g in relations))
+    symbols = tuple(s for s in chart.symbols if s in mentioned)
+    columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
+    return replace(
+        chart,
+        ring=ring,
+        nodes=nodes,
+        symbols=symbols,
+        columns=columns,
+        unknowns=tuple(u for u in chart.unknowns if u in mentioned),
+        relations=relations,
+        kinds=tuple(chart.kinds[r] for r in rows),
+    )

@@ -1,1 +1,0 @@
-"""At the drawing: what is allowed to first order, and which of it moves."""
