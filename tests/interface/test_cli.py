@@ -57,19 +57,6 @@ def test_one_object_a_line_in_the_order_given(files: Path, capsys: pytest.Captur
     assert told[2]["error"]["line"] is None
 
 
-def test_the_report_is_the_same_as_from_python(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, _ = called(capsys, "classify", str(files / "good.yaml"), "--json")
-    report = dofkit.classify(dofkit.load(files / "good.yaml"))
-    assert status == 0
-    assert lines(out) == [report.model_dump(mode="json")]
-
-
-def test_catalog_names_stand_for_files(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, _ = called(capsys, "classify", "--json", "pendulum-cartesian", "particle-in-space", "nonsense")
-    assert status == 2
-    assert [line["scene"] for line in lines(out)] == ["pendulum-cartesian", "particle-in-space", "nonsense"]
-
-
 def test_readable_errors_show_the_line_with_a_mark(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = str(files / "bad.yaml")
     status, out, err = called(capsys, "classify", path)
@@ -160,13 +147,6 @@ def test_catalog_lists_and_shows(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_methods_are_those_of_the_table() -> None:
     assert tuple(METHODS) == options.METHODS
-
-
-def test_titles_are_those_of_the_scenes() -> None:
-    from dofkit.scene.catalog import catalog_titles
-
-    for name, title in catalog_titles().items():
-        assert dofkit.load(name).title == title
 
 
 def test_the_schema_is_json_schema(capsys: pytest.CaptureFixture[str]) -> None:

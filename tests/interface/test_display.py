@@ -112,12 +112,6 @@ def test_a_report_in_a_notebook() -> None:
     assert "[data-jp-theme-light=false] .dofkit" in style
 
 
-def test_joints_are_words_and_equations_are_mathematics() -> None:
-    html = shown(dofkit.classify("four-bar-linkage"))
-    assert "<td>revolute ground-crank at (0, 0)</td>" in html
-    assert "<math" not in html
-
-
 def test_a_constraint_by_itself() -> None:
     entry = dofkit.classify({"coordinates": ["x", "y"], "constraints": ["x dy + y dx = 0"]}).constraints[0]
     assert str(entry).startswith("c1  x dy + y dx = 0\n")

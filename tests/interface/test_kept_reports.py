@@ -15,7 +15,7 @@ from shared.command_line import called
 from shared.late import LONG
 
 import dofkit
-from dofkit.base.runs import BusyError, Journal, Pool
+from dofkit.base.runs import Journal, Pool
 from dofkit.base.workers import Job, JobOutcome
 from dofkit.interface.answers import streams
 from dofkit.interface.jobs import Cut, Printed, Request
@@ -71,13 +71,6 @@ def test_folders_and_patterns_stand_for_what_is_in_them(tmp_path: Path) -> None:
     assert named("**/*.yaml") == ["a.yaml", "b/z.yaml"]
     assert named("no*", "empty", "none.yaml") == ["no*", "empty", "none.yaml"]
     assert named_files(["four-bar-linkage", "-"]) == ["four-bar-linkage", "-"]
-
-
-def test_an_empty_folder_is_a_fault(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "empty").mkdir()
-    status, _, err = called(capsys, "classify", str(tmp_path / "empty"))
-    assert status == 2
-    assert "is a folder, not a scene" in err
 
 
 # The reports
@@ -180,27 +173,12 @@ def test_a_run_that_was_stopped_goes_on(counting: Counting, files: list[Path], t
     assert sorted(path.name for path in out.iterdir()) == ["reports.jsonl", "reports.jsonl.ledger"]
 
 
-def test_a_torn_line_is_written_again(counting: Counting, files: list[Path], tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    counting.run(out, files)
-    whole = (out / "reports.jsonl").read_bytes()
-    (out / "reports.jsonl").write_bytes(whole[:7])
-    assert (counting.run(out, files), lines(out)) == ([], "123456")
-
-
 def test_a_damaged_journal_is_begun_anew(counting: Counting, files: list[Path], tmp_path: Path) -> None:
     out = tmp_path / "out"
     for damaged in (b"", b"mark\n", b"SQLite format 3\0" + b"x" * 5000):
         counting.run(out, files)
         (out / "reports.jsonl.ledger").write_bytes(damaged)
         assert (counting.run(out, files), lines(out)) == (list("abcdef"), "123456")
-
-
-def test_two_runs_do_not_write_to_one_folder(tmp_path: Path) -> None:
-    one = Journal(tmp_path / "reports.jsonl.ledger", "m")
-    with pytest.raises(BusyError, match=r"another run is writing to .*reports\.jsonl$"):
-        Journal(tmp_path / "reports.jsonl.ledger", "m")
-    one.close()
 
 
 def test_a_journal_keeps_what_is_written_again(tmp_path: Path) -> None:

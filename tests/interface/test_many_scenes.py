@@ -80,12 +80,6 @@ def test_three_are_in_full_and_so_are_all_that_are_asked_for(capsys: pytest.Capt
 
 
 @pytest.mark.sweep
-def test_json_has_neither_summary_nor_headline(capsys: pytest.CaptureFixture[str]) -> None:
-    _, out, _ = called(capsys, "classify", "--json", *FOUR)
-    assert [json.loads(line)["scene"] for line in out.splitlines()] == list(FOUR)
-
-
-@pytest.mark.sweep
 def test_what_cannot_be_read_and_what_is_otherwise_than_expected_is_counted(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -179,14 +173,6 @@ def test_a_redundant_one_is_not_missed(capsys: pytest.CaptureFixture[str], tmp_p
     assert "Without c2, c1\n  system: non-holonomic, scleronomic -> holonomic, scleronomic\n" in out
 
 
-def test_what_is_no_number_is_missed_all_the_same(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    """A second inequality bounds the motion, though it changes no number and no label."""
-    file = tmp_path / "quarter.yaml"
-    file.write_text("coordinates: [x, y]\nconstraints: [x >= 0, y >= 0]\n", encoding="utf-8")
-    _, out, _ = called(capsys, "classify", "--without", "c2", str(file))
-    assert "Without c2\n  no degree of freedom, no count and no label changes\n" in out
-
-
 def test_what_is_undecided_is_not_said_to_be_the_same() -> None:
     report = dofkit.classify({"coordinates": ["x", "y"], "constraints": ["x = y"]})
     sure = {**report.verdicts, "dof": FieldVerdict(verdict="undecided")}
@@ -221,10 +207,6 @@ def test_a_run_fails_on_what_it_is_told(
     status, _, err = called(capsys, "classify", "--fail-on", "inconsistant", str(file))
     assert status == 2
     assert "did you mean 'inconsistent'?" in err
-
-
-def test_undecided_fails_where_it_is_asked(capsys: pytest.CaptureFixture[str]) -> None:
-    assert called(capsys, "classify", "--budget", "0", "--fail-on", "undecided", FOUR[3])[0] == 1
 
 
 # Words
@@ -295,13 +277,6 @@ def test_the_catalog_is_searched(capsys: pytest.CaptureFixture[str]) -> None:
     assert (status, out) == (2, "")
     assert "did you mean 'four-bar-linkage'?" in err
     assert called(capsys, "catalog")[1].splitlines() == dofkit.catalog_names()
-
-
-@pytest.mark.parametrize("command", [[], ["classify"], ["catalog"], ["explain"], ["export"]])
-def test_short_help(command: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, _ = called(capsys, *command, "-h")
-    assert status == 0
-    assert "Usage: " in out
 
 
 @pytest.mark.sweep

@@ -12,7 +12,7 @@ from dofkit.base.verdicts import ArgumentKey, Verdict
 from dofkit.interface.show.decimals import as_the_scene
 from dofkit.interface.show.report import MOST_ROWS, labels, sheet_of_report
 from dofkit.interface.show.terminal import Screen, as_text
-from dofkit.report import ConstraintEntry, Count, FieldVerdict, ForceEntry, Redundancy, Report, SpecialCase
+from dofkit.report import ConstraintEntry, Count, FieldVerdict, ForceEntry, Redundancy, Report
 
 
 def entry(**fields: Any) -> ConstraintEntry:
@@ -45,18 +45,6 @@ def shown(
     told: Report, title: str | None = "A title", width: int = 80, how: bool = False, coloured: bool = False
 ) -> str:
     return as_text(sheet_of_report(told, title, how), Screen(width, "standard" if coloured else None))
-
-
-def test_it_says_what_is_asked_first() -> None:
-    text = shown(report())
-    assert text.startswith("example  A title\n")
-    for piece in (
-        "f = N d - k = 9", "(2 particles, 1 body, 12\n", "degrees of freedom       10",
-        "velocity freedom         9", "non-holonomic, scleronomic", "x, y  (a local chart)",
-        "c1: x*y = C   (exact as written)",
-        "c1: It is closed.",
-    ):  # fmt: skip
-        assert piece in text
 
 
 def test_arguments_are_shown_where_they_are_asked_for() -> None:
@@ -92,11 +80,6 @@ def test_what_is_not_proved_has_one_line_with_the_reason(verdict: Verdict, bound
     assert line in shown(report(verdict=verdict, verdicts=found), width=200)
 
 
-def test_what_a_model_has_besides_has_one_line() -> None:
-    text = shown(report(modelled="everything; left out: the ranges of joints"))
-    assert re.search(r"not modelled +the ranges of joints\n", text)
-
-
 def test_time_is_counted_in_a_growth_vector_that_begins_above_the_velocities() -> None:
     assert re.search(
         r"growth vector +\(10, 11\)  in \(q, t\): time is counted\n", shown(report(growth_vector=[10, 11]))
@@ -109,21 +92,6 @@ def test_the_way_is_told_without_the_words_of_the_engines() -> None:
     assert "the rank of the equations, computed twice" in text
     assert "GF(p)" not in text
     assert "balls" not in text
-
-
-def test_where_the_count_errs_it_says_so() -> None:
-    wrong = report().count.model_copy(update={"errs": "one link too many"})
-    assert re.search(r"why the count is off +one link too many\n", shown(report(count=wrong)))
-
-
-def test_special_cases_stand_apart() -> None:
-    cases = [
-        SpecialCase(where="R = 0", kind="parameters", what="dof 2 instead of 4", constraints=["c1"], verdict="proved"),
-        SpecialCase(where="y = 0", kind="locus", what="it is flat", constraints=["c1", "c2"], verdict="probable"),
-    ]
-    text = shown(report(special_cases=cases))
-    assert "Special cases\n  R = 0: dof 2 instead of 4 (c1)\n  y = 0: it is flat (c1, c2) [probable]" in text
-    assert "Special cases" not in shown(report())
 
 
 def test_a_singular_configuration_is_told() -> None:

@@ -58,12 +58,3 @@ def test_what_is_no_picture_is_told(capsys: pytest.CaptureFixture[str], tmp_path
     assert status == 2
     assert "needs differential constraints" in err
     assert called(capsys, "animate", "four-bar-linkage", "--format", "svg")[0] == 2
-
-
-def test_a_scene_with_a_fault_is_told_with_its_line(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    path = tmp_path / "bad.yaml"
-    path.write_text("coordinates: [theta]\nconstraints:\n- thta = 1\n", encoding="utf-8")
-    status, _, err = called(capsys, "draw", str(path), "--out", str(tmp_path / "a.svg"))
-    assert status == 2
-    assert "did you mean `theta`" in err
-    assert not (tmp_path / "a.svg").exists()

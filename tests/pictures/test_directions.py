@@ -6,7 +6,6 @@ import re
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 import dofkit
@@ -85,12 +84,6 @@ def test_what_is_not_linear_in_velocities_has_no_directions(text: str) -> None:
     assert not any("infinitesimal" in clip.name for clip in dofkit.animate(scene).clips)
 
 
-def test_it_is_told_that_time_stands_still() -> None:
-    scene = {"coordinates": ["x", "y", "z"], "constraints": ["dz = x dy + t dx"]}
-    assert "Time is fixed." in dofkit.phase(scene).sketch.notes[0]
-    assert not any("Time" in note for note in dofkit.phase(HEISENBERG).sketch.notes)
-
-
 def test_the_picture_of_the_start_page_is_of_today() -> None:
     kept = (Path(dofkit.__file__).parent / "site" / "pages" / "disc.svg").read_text(encoding="utf-8")
     drawn = dofkit.phase("disc-rolling-on-plane").svg()
@@ -106,17 +99,6 @@ def test_a_growth_vector_that_is_not_told_is_not_made_up() -> None:
         == "The growth vector is undecided; in floating point it is (2, 3) at this point; shown: x, y, z."
     )
     assert sketch.notes[0] in sketch.alternative
-
-
-def test_small_discs_lie_in_what_is_allowed() -> None:
-    sketch = dofkit.phase(SKATE).sketch
-    discs = [s for s in sketch.shapes if s.kind == "area"]
-    assert len(discs) > 50
-    for disc in discs:
-        corners = np.array([v.at for v in disc.vertices])
-        centre = np.mean(corners, axis=0)
-        across = np.array([np.sin(centre[2]), -np.cos(centre[2]), 0])
-        assert (corners - centre) @ across == pytest.approx(np.zeros(len(corners)), abs=1e-5)
 
 
 def test_finite_constraints_have_no_such_picture() -> None:

@@ -21,7 +21,7 @@ from dofkit.pictures.layout import page_of
 from dofkit.pictures.mechanism import FREE_PLACES
 from dofkit.pictures.paper import HIGH, Page, width_of
 from dofkit.pictures.shapes import ON_DARK, WHITE, Role, Shape, State, ink_of, keys_of
-from dofkit.pictures.still import Picture, svg
+from dofkit.pictures.still import Picture
 from dofkit.report import FieldVerdict
 
 DOOR: dict[str, Any] = {
@@ -93,14 +93,6 @@ def test_every_line_and_name_is_as_clear_on_dark_paper() -> None:
         wanted = 4.5 if role == "name" else min(3.0, contrast(ink.line, WHITE))
         assert contrast(ON_DARK[ink.line], ON_DARK[WHITE]) >= wanted, role
         assert ink.fill is None or ink.fill in ON_DARK
-
-
-def test_an_svg_knows_light_and_dark() -> None:
-    told = dofkit.draw(DOOR).svg()
-    style = ElementTree.fromstring(told).find(f"{SVG}style")
-    assert style is not None
-    assert f'[fill="{WHITE}"]{{fill:light-dark({WHITE},{ON_DARK[WHITE]})}}' in (style.text or "")
-    assert f'fill="{WHITE}"' in told
 
 
 def test_a_typesetter_that_knows_no_light_and_dark_has_white_paper(tmp_path: Path) -> None:
@@ -227,15 +219,6 @@ def test_odd_scenes_are_drawn(odd: dict[str, Any]) -> None:
         assert ElementTree.fromstring(door(odd).svg()).tag == f"{SVG}svg"
 
 
-@pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("name", ["orbit-three-variables", "disc-rolling-on-plane", "four-bar-linkage", "rolling-ball"])
-def test_no_arithmetic_of_a_picture_warns(name: str, tmp_path: Path) -> None:
-    report = dofkit.classify(name)
-    for picture in (dofkit.draw(name, report), dofkit.graph(name, report)):
-        assert picture.html()
-        assert picture.save(tmp_path / "a.png").stat().st_size > 5000
-
-
 # -- on paper --------------------------------------------------------------------------------------
 
 
@@ -259,12 +242,6 @@ def test_names_do_not_overlap_and_stay_on_the_sheet(name: str) -> None:
     assert all(0 <= x <= page.width and 0 <= y <= page.height for x, y in spots)
 
 
-def test_what_is_drawn_fills_the_sheet() -> None:
-    page = page_of(dofkit.draw("four-bar-linkage").sketch)
-    xs = [x for mark in page.marks if not mark.text for x, _ in mark.spots]
-    assert max(xs) - min(xs) > 0.75 * page.width
-
-
 # -- files -----------------------------------------------------------------------------------------
 
 
@@ -274,21 +251,6 @@ HOSTILE: dict[str, Any] = {
     "particles": ["P"],
     "constraints": [{"name": "</script><b>&", "type": "link", "between": [[0, 0], "P"], "length": 1}],
 }
-
-
-def test_svg_has_a_title_and_a_description() -> None:
-    root = ElementTree.fromstring(dofkit.draw("four-bar-linkage").svg())
-    assert root.attrib["role"] == "img"
-    assert [root.findtext(f"{SVG}{tag}") for tag in ("title", "desc")] == [
-        "Planar four-bar linkage",
-        "Planar four-bar linkage: 3 bodies, 4 constraints. 1 degree of freedom (proved).",
-    ]
-
-
-def test_a_small_picture_for_another_page() -> None:
-    text = svg("four-bar-linkage", dofkit.classify("four-bar-linkage"), width=200)
-    assert text.startswith("<svg ")
-    assert ElementTree.fromstring(text).attrib["width"] == "200"
 
 
 def test_names_are_text_and_never_markup() -> None:

@@ -17,9 +17,9 @@ from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES
 from dofkit.site import gallery as room
 from dofkit.site.building import SETTINGS, folders, settings
-from dofkit.site.constraint_pages import FOLDER, constraint_pages, equations_of, scene_of
+from dofkit.site.constraint_pages import FOLDER, constraint_pages, scene_of
 from dofkit.site.gallery import ShownScene, catalog_scenes, gallery_pages, in_a_line, shown
-from dofkit.site.markdown import fence, picture, prose, table
+from dofkit.site.markdown import prose
 from dofkit.site.reference_pages import GLOSSARY, THEOREMS, command_pages, commands, readme_page, report_pages
 
 DISC = """
@@ -58,12 +58,6 @@ def test_every_type_has_its_page_with_equations_a_picture_and_a_scene(types: dic
 def test_a_type_names_the_scenes_of_the_catalog_that_have_it(types: dict[str, str]) -> None:
     assert "../../gallery/l6.md#disc" in types[f"{FOLDER}/equation.md"]
     assert "In the catalog" not in types[f"{FOLDER}/cam.md"]
-
-
-def test_the_equations_of_a_scene() -> None:
-    told = list(equations_of("dimension: 2\nparticles: [A]\nconstraints: [{type: fixed, point: A}]"))
-    assert len(told) == 2
-    assert list(equations_of("coordinates: [x]\nconstraints: [x <= 3]")) == ["3 - x >= 0"]
 
 
 def test_every_field_and_verdict_is_told_of() -> None:
@@ -141,13 +135,6 @@ def test_nothing_is_fetched_from_anywhere() -> None:
 
 def test_the_readme_is_the_first_page() -> None:
     assert readme_page("# T\n\n[d](dofkit/site/pages/d.md)\n") == ("index.md", "# T\n\n[d](d.md)\n")
-
-
-def test_words_mean_themselves() -> None:
-    assert prose("``x_1`` and y_1 * z < |A|\n  again") == "`x_1` and y\\_1 \\* z &lt; \\|A\\| again"
-    assert table(("a",), [("`|x|`",)]).splitlines()[-1] == "| `\\|x\\|` |"
-    assert fence("yaml", "a: 1\n", "a.yaml") == '```yaml title="a.yaml"\na: 1\n```'
-    assert 'alt="&quot;a&quot; &lt; b"' in picture("a.svg", '"a" < b')
 
 
 def test_the_site_is_not_in_the_wheel_and_its_extra_says_what_builds_it() -> None:

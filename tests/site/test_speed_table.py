@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import sys
-from pathlib import Path
 
 import pytest
-from shared.speed_table import BEGIN, DATA, END, PAGE, Goal, Measured, Ran, SpeedRow, SpeedRun, shown, with_table
+from shared.speed_table import DATA, PAGE, Goal, Measured, Ran, SpeedRow, SpeedRun, shown, with_table
 
 RAN = Ran("python bench.py", "2026-01-02", "a machine", 2, "3.11", 4.2)
 ROWS = (
@@ -39,21 +38,6 @@ def test_the_table_by_hand() -> None:
     ]
     assert "2 of 5 rows reach their goal; not yet: forms; shuffles; a trap; not measured: links; a dog." in lines[-1]
     assert lines[-1].endswith("In the same run 1 answers were not the right one.*")
-
-
-def test_a_run_is_read_as_it_was_written(tmp_path: Path) -> None:
-    run = SpeedRun(RAN, ROWS)
-    run.write(tmp_path / "speed.json")
-    assert SpeedRun.read(tmp_path / "speed.json") == run
-
-
-def test_the_table_stands_between_its_lines() -> None:
-    run = SpeedRun(RAN, ROWS[:1])
-    page = with_table(f"a\n{BEGIN}\nold\n{END}\nb\n", run)
-    assert page == f"a\n{BEGIN}\n\n{shown(run)}\n\n{END}\nb\n"
-    assert with_table(page, run) == page
-    with pytest.raises(ValueError, match="no lines"):
-        with_table("a", run)
 
 
 def test_the_page_shows_the_run_that_is_kept() -> None:
