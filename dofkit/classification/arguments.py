@@ -90,7 +90,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "no configuration satisfies the equations",
         "",
         "a rational combination of linear equations is a nonzero number",
-        "dofkit.relations.linear.presolve",
+        "dofkit.relations.blocks.presolve",
     ),
     "no real solution": Argument(
         "no real configuration satisfies the equations",
@@ -275,7 +275,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the inequalities cannot all be satisfied",
         "Motzkin1936",
         "a contradictory combination, or a cover of space by excluded boxes",
-        "dofkit.classification.feasibility.refutation.refuted",
+        "dofkit.classification.feasibility.state_problem.refuted",
     ),
     "one method alone": Argument(
         "the answer of a single method",

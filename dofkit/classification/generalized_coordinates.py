@@ -28,7 +28,6 @@ from dofkit.exact.zero import BOTH
 from dofkit.expressions import tree as ex
 from dofkit.expressions.renaming import shape_of
 from dofkit.expressions.tree import Expr
-from dofkit.mobility import tree_pose
 from dofkit.relations.answer import BITS, Answer
 from dofkit.relations.blocks import Block
 from dofkit.relations.chart import make_chart
@@ -147,17 +146,8 @@ MAX_COLUMNS = 120
 
 
 def generalized_coordinates(study: Study) -> list[str] | None:
-    """An independent choice of ``dof`` coordinates: those that are not pivots of what integrates.
-
-    Of an open tree where that is not known at the drawing, by the rows of its joints at another pose.
-    """
-    result = unless_late(partial(_of_system, study), None)
-    return unless_late(partial(_on_tree, study), None) if result is None else result
-
-
-def _on_tree(study: Study) -> list[str] | None:
-    result = None if not study.outcome.dof else tree_pose.free_coordinates(study.system, study.setting.positive)
-    return result if result is not None and len(result) == study.outcome.dof else None
+    """Return an independent choice of ``dof`` coordinates: those that are not pivots of what integrates."""
+    return unless_late(partial(_of_system, study), None)
 
 
 def _of_system(study: Study) -> list[str] | None:

@@ -17,7 +17,6 @@ from flint import Ordering, fmpq_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.program import ADD, MUL, NUM
 from dofkit.exact.ring.ring import Ring
 
 #: Unknowns, degree and terms of what is looked at.
@@ -164,18 +163,3 @@ def echelon_by_degree(canon: Canon, relations: Sequence[int]) -> list[dict[tuple
         return None
     reduced, rank = fmpq_mat([[table.get(m, 0) for m in monomials] for table in tables]).rref()
     return [{m: reduced[r, c] for c, m in enumerate(monomials) if reduced[r, c] != 0} for r in range(rank)]
-
-
-def combined(ring: Ring, relations: Sequence[int]) -> list[int] | None:
-    """Return nodes that vanish together where the relations do, of the lowest degrees; None where that is too large."""
-    rows = echelon_by_degree(Canon(ring), relations)
-    return None if rows is None else [_polynomial_node(ring, row) for row in rows]
-
-
-def _polynomial_node(ring: Ring, table: dict[tuple[int, ...], Any]) -> int:
-    n, terms = len(next(iter(table))), []
-    for exponents, value in table.items():
-        factors = [ring.emit(NUM, Fraction(int(value.p), int(value.q)))]
-        factors += [ring.power_node(ring.var_node[n - 1 - i], int(k)) for i, k in enumerate(exponents) if k]
-        terms.append(ring.emit(MUL, tuple(factors)))
-    return ring.emit(ADD, tuple(terms))

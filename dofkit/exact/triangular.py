@@ -16,7 +16,6 @@ from typing import Any
 
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoPointError, NoValueError, raising_no_value
-from dofkit.exact.ideals import combined
 from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.ring.program import ADD, MUL, POW, reachable
 from dofkit.exact.ring.ring import Ring
@@ -93,7 +92,6 @@ class Planner:
     def _solved_last(self, remaining: list[int]) -> list[tuple[int, Unit]]:
         """Return the steps, those that are taken last first."""
         solved_last: list[tuple[int, Unit]] = []
-        tried = False
         while remaining:
             check()
             if self._peel(remaining, solved_last):
@@ -109,12 +107,8 @@ class Planner:
             self._clash(remaining)
             if self.plan.contradictory:
                 break
-            together = None if tried else combined(self.ring, remaining)
-            tried = True
-            if together is None:
-                self.plan.stuck = True
-                break
-            remaining = together
+            self.plan.stuck = True
+            break
         return solved_last
 
     def _peel(self, remaining: list[int], solved_last: list[tuple[int, Unit]]) -> bool:

@@ -1,7 +1,7 @@
 """Homework: is a student's answer right, and if not, which misconception explains it?
 
 Types
-    An `Assignment` (`assignment`) has problems (`problem`, with its text in `statement`) over scenes; a question is
+    An `Assignment` (`assignment`) has problems (`problem`, with its text) over scenes; a question is
     one of the kinds of `questions`. The `Key` of a problem (in `key`) is what the report says of its scene. A
     `Judgement` (`judgement`) is what was decided of one answer; a `Result` (`result`) has the points, the feedback
     codes and how every answer was read.

@@ -22,14 +22,14 @@ from dofkit.homework.problem import (
     Variants,
     combinations_of,
     faults_of_names,
+    faults_of_places,
     pick_text,
     weighted,
     with_values,
 )
 from dofkit.homework.questions import QuestionBase
-from dofkit.homework.review.queue import Decisions
-from dofkit.homework.sentences.translations import Language
-from dofkit.homework.statement import faults_of_places
+from dofkit.homework.review import Decisions
+from dofkit.homework.sentences import Language
 from dofkit.scene.catalog import find
 from dofkit.scene.fields import WrittenModel, exact, fault_error, faults_of
 from dofkit.scene.hints import with_hint, without_echoes

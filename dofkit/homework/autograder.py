@@ -32,7 +32,7 @@ from dofkit.homework.formats.review import TABLE, RunReview
 from dofkit.homework.judgement import needs_review
 from dofkit.homework.result import Item, Result
 from dofkit.homework.runs.batch import MODULES, Keeper, Orders
-from dofkit.homework.sentences.translations import Language
+from dofkit.homework.sentences import Language
 from dofkit.homework.variants import NobodysVariantError, own
 
 #: A longer file of a platform is not read.

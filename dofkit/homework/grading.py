@@ -37,9 +37,8 @@ from dofkit.homework.key.key import Key
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, PossibleReading, Result
-from dofkit.homework.review.filled_table import read_table
-from dofkit.homework.review.queue import Decision, answer_id
-from dofkit.homework.sentences.translations import Said, in_language, say
+from dofkit.homework.review import Decision, answer_id, read_table
+from dofkit.homework.sentences import Said, in_language, say
 from dofkit.homework.variants import NobodysVariantError, own
 from dofkit.report import ReportModel
 

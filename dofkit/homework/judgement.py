@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.homework.result import Status
-from dofkit.homework.sentences.translations import Language, Said, say
+from dofkit.homework.sentences import Language, Said, say
 
 #: What stands in a submission as an answer.
 Given = str | int | float | Fraction | Sequence["Given"]

@@ -19,7 +19,7 @@ from dofkit.homework.key.key import Key
 from dofkit.homework.problem import Pick, StudentVariant, Variants, pick_text, plain_name
 from dofkit.homework.questions import NumberQuestion, QuestionBase
 from dofkit.homework.questions.labels import LabelQuestion
-from dofkit.homework.sentences.translations import say
+from dofkit.homework.sentences import say
 
 
 class NobodysVariantError(DofkitError):

@@ -9,7 +9,7 @@ Mechanisms, cheapest first
     1. `counts` are f = N d - k, with d(d+1)/2 for a rigid body, and the count of Gruebler and Kutzbach
        [GrueblerKutzbach], each with the reason why it is off; a loop's screws say by how many conditions it closes.
     2. `joint_tree` has the joint coordinates of a tree of joints, and finds joints that close no loop: an open tree
-       needs no equation at all. `tree_pose` moves it to a pose without singular angles, to choose coordinates.
+       needs no equation at all.
     3. `graph` decides links in general position: the graphic matroid on a line, the (2,3) pebble game in the plane
        [Laman1970], ranks at random positions in space, where no count suffices.
     4. `placement` puts the same connections at random places modulo a prime, as drawn, or in floating point;

@@ -235,6 +235,8 @@ def _see(fault: Fault, value: Mapping[str, Any]) -> str | None:
     if where[:1] == ("constraints",) and len(where) > 1:
         kind = _type_at(value, where[1]) or (suggested[1] if suggested else None)
         entry = _entry_at(value, where[1])
+        if isinstance(entry, Mapping) and entry.get("type") in _FORCES:
+            return "forces"
         if kind is None or kind not in TYPES:
             kinds = likely_types(None, entry) if isinstance(entry, Mapping) else []
             kind = kinds[0] if len(kinds) == 1 else None

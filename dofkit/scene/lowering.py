@@ -375,10 +375,11 @@ def _joint_warnings(constraints: Sequence[Constraint], connections: Sequence[Con
         for joint in joints if motor.driven else ():
             if joint is not motor and _repeats(motor, joint):
                 name, other = constraints[motor.constraint].name, constraints[joint.constraint].name
+                drive = constraints[motor.constraint].text.rpartition("driven by ")[2]
                 yield (
                     f"'{name}' and '{other}' join '{motor.members[0]}' and '{motor.members[1]}' at the same place, so "
-                    f"their equations occur twice. If '{name}' is the motor of '{other}', write its `drive` on "
-                    f"'{other}' and remove '{name}'."
+                    f"their equations occur twice. If '{name}' is the motor of '{other}', write `drive: {drive}` "
+                    f"on '{other}' and remove '{name}'."
                 )
 
 

@@ -84,7 +84,7 @@ def load(source: SceneLike, *, name: str | None = None, limits: bool = False) ->
         if deep is not None:
             hint = "write the scene with fewer levels"
             raise SceneError((Fault(f"nested deeper than {DEEPEST} levels", deep, hint=hint),), name)
-        return SceneFile(Document(name or "scene", "", source, ()), located=False).scene()
+        return SceneFile(Document(name or "", "", source, ()), located=False).scene()
     if not isinstance(source, str | os.PathLike):
         raise ArgumentError(f"a scene is given as {_TAKEN}, not {description_of(source)}")
     found = find(source)
@@ -160,7 +160,7 @@ class SceneFile:
                 faults.append(Fault("a scene is a mapping of keys to values", hint=hint))
             raise self.error(faults)
         value = self._words.value
-        if value.get("name") is None:
+        if value.get("name") is None and self.document.name:
             value = {**value, "name": self.document.name}
         try:
             scene = Scene.model_validate(value)
@@ -190,7 +190,7 @@ class SceneFile:
         if len(located) > MOST_FAULTS:
             message = f"and {len(located) - MOST_FAULTS} further faults from here on"
             located[MOST_FAULTS:] = [replace(located[MOST_FAULTS], message=message, hint="correct these first")]
-        return SceneError(tuple(located), self.document.name)
+        return SceneError(tuple(located), self.document.name or None)
 
     def _with_place(self, fault: Fault) -> Fault:
         if fault.line is not None:

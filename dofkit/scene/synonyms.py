@@ -54,9 +54,7 @@ def standard_words(value: Mapping[str, Any]) -> StandardWords:
     {'constraints': [{'type': 'revolute', 'between': ['ground', 'a'], 'axis': [0, 0, 1]}]}
     """
     places: dict[Path, Path] = {}
-    standard = dict(value)
-    if _has_decorated_names(value):
-        standard = {key: part if key in SAID else _named(part, (key,), places) for key, part in value.items()}
+    standard = {key: part if key in SAID else _named(part, (key,), places) for key, part in value.items()}
     if "joints" in standard:
         standard = _one_section(standard, places)
     d = dimension_of(standard)
@@ -153,22 +151,6 @@ def _vector(axis: Any, dimension: int) -> Any:
         return axis
     sign = -1 if match[1] in ("-", "−") else 1
     return [sign if letter == match[2] else 0 for letter in "xyz"[:dimension]]
-
-
-def _has_decorated_names(value: Any) -> bool:
-    """Return whether a subscript digit or a sign of LaTeX stands anywhere in a document."""
-    stack = [value]
-    while stack:
-        part = stack.pop()
-        if isinstance(part, str):
-            if _DECORATION.search(part):
-                return True
-        elif isinstance(part, (list, tuple)):
-            stack += part
-        elif isinstance(part, (dict, Mapping)):
-            stack += part
-            stack += part.values()
-    return False
 
 
 def _named(value: Any, here: Path, places: dict[Path, Path]) -> Any:

@@ -29,7 +29,7 @@ from dofkit.homework.assignment import AssignmentError, load_assignment
 from dofkit.homework.autograder import SITES, grade_at, main
 from dofkit.homework.export import PYTHONS as PYTHONS_THERE
 from dofkit.homework.export import ExportError, export_gradescope, wheels
-from dofkit.homework.export.inline import exact_json, inlined
+from dofkit.homework.export.gradescope import exact_json, inlined
 from dofkit.interface.cli import app
 
 MEMORY = 2 << 30
@@ -414,7 +414,7 @@ def test_an_assignment_in_one_piece(sheet: Path, tmp_path: Path) -> None:
         assert second.keys[name].report == key.report
 
 
-@pytest.mark.parametrize("module", ["export.inline"])
+@pytest.mark.parametrize("module", ["export.gradescope"])
 def test_documentation(module: str) -> None:
     outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.{module}"))
     assert outcome.failed == 0

@@ -12,8 +12,7 @@ import pytest
 import dofkit
 from dofkit.homework.assignment import AssignmentError, Prepared, load_assignment
 from dofkit.homework.handout.composition import safe_example
-from dofkit.homework.handout.figures import FigureError
-from dofkit.homework.handout.markup import formula
+from dofkit.homework.handout.markup import FigureError, formula
 from dofkit.homework.handout.sheets import HANDOUTS, remarks, write_sheet, written_sheet
 from dofkit.homework.questions import KINDS
 from dofkit.interface import cli

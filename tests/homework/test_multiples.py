@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import dofkit
-from dofkit.classification.dependence.multiples import same_up_to_numbers
+from dofkit.classification.dependence.comparison import same_up_to_numbers
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.homework.key.key import Key
 from dofkit.scene.added_equations import read_equations, with_equations

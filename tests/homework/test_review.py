@@ -23,8 +23,7 @@ from dofkit.homework.assignment import load_assignment
 from dofkit.homework.formats.wording import stop_of
 from dofkit.homework.key.misconceptions import CODES
 from dofkit.homework.result import Item
-from dofkit.homework.review.filled_table import ReviewError, read_table
-from dofkit.homework.review.queue import Decision, answer_id, mark_of, question_mark
+from dofkit.homework.review import Decision, ReviewError, answer_id, mark_of, question_mark, read_table
 from dofkit.homework.runs.run import fingerprint
 
 ROD = {
@@ -107,7 +106,7 @@ def saved(rows: list[dict[str, str]], delimiter: str) -> str:
     return stream.getvalue()
 
 
-@pytest.mark.parametrize("module", ["review.queue", "answers.words"])
+@pytest.mark.parametrize("module", ["review", "answers.words"])
 def test_documentation(module: str) -> None:
     outcome = doctest.testmod(importlib.import_module(f"dofkit.homework.{module}"))
     assert outcome.failed == 0

@@ -14,7 +14,7 @@ from dofkit.homework.assignment import load_assignment
 from dofkit.homework.formats.wording import STATUSES
 from dofkit.homework.grading import grade
 from dofkit.homework.key.misconceptions import ERRORS
-from dofkit.homework.sentences.translations import Language, catalogue, stopped
+from dofkit.homework.sentences import Language, catalogue, stopped
 
 ROOM = Path(dofkit.homework.__file__).parent
 TOLD = [

@@ -13,6 +13,6 @@ Mechanisms, in the order in which they are tried (`redundancy` is the driver)
     4. `implied_constraints`: a constraint is redundant if it is satisfied at every state of motion that the others
        allow, on all branches (`implication`, [SchwartzZippel]); it also finds minimal conflicts.
 
-`equivalence` asks `implication` in both directions; `multiples`, `inequalities` and `regularity` are its shorter ways.
+`equivalence` asks `implication` in both directions; `comparison` has its shorter ways, inequalities and gradients.
 Handed on: `Redundancies`, with the points for which they are valid.
 """

@@ -13,10 +13,16 @@ from enum import Enum
 from functools import cached_property
 
 from dofkit.base.deadline import part, unless_late
+from dofkit.classification.dependence.comparison import (
+    Regularity,
+    bounds,
+    loses_nothing,
+    power_of,
+    same_side,
+    same_up_to_numbers,
+    unsound,
+)
 from dofkit.classification.dependence.implication import follows
-from dofkit.classification.dependence.inequalities import bounds, loses_nothing, same_side, unsound
-from dofkit.classification.dependence.multiples import power_of, same_up_to_numbers
-from dofkit.classification.dependence.regularity import Regularity
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import all_of, prepared
 from dofkit.exact.points.balls import precise_for

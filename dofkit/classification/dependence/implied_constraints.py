@@ -17,7 +17,7 @@ from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import all_of
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.linear import linear, presolve
+from dofkit.relations.blocks import linear, presolve
 from dofkit.relations.normal.pieces import Finite, Normal, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System
@@ -155,9 +155,9 @@ def conflict(system: System, reduced: Sequence[Reduced], setting: Setting, outco
     plain = replace(setting, grows=False, flag=False)
     guilty = next(b for b, a in zip(outcome.blocks, outcome.answers, strict=True) if a.consistent is False)
     kept = sorted({row.constraint for row in guilty.rows})
-    text = next(a.conflict for a in outcome.answers if a.consistent is False)
-    if text and set(text) <= set(kept):
-        return Conflict(list(text), True)
+    members = next(a.conflict for a in outcome.answers if a.consistent is False)
+    if members and set(members) <= set(kept):
+        return Conflict(list(members), True)
     sets = ConstraintSets(system, reduced, plain)
     if not sets.inconsistent(kept):
         kept = [i for i, r in enumerate(reduced) if r.normals]

@@ -15,8 +15,14 @@ from flint import arb
 
 from dofkit.base.deadline import limited, unless_late
 from dofkit.base.verdicts import ArgumentKey, Claim, Verdict, weakest
-from dofkit.classification.feasibility.refutation import contradictory, refuted
-from dofkit.classification.feasibility.state_problem import Part, StateProblem, parts_of, problems_of
+from dofkit.classification.feasibility.state_problem import (
+    Part,
+    StateProblem,
+    contradictory,
+    parts_of,
+    problems_of,
+    refuted,
+)
 from dofkit.classification.feasibility.witness import Values, value_of, witness
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import copies

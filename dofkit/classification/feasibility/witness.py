@@ -29,7 +29,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
-from dofkit.relations.linear import linear
+from dofkit.relations.blocks import linear
 from dofkit.relations.normal.domain import DomainCondition
 
 #: Searches along slacks, from so many starts each, with so many steps; equations and conditions that one may have.
@@ -189,8 +189,8 @@ def _by_slacks(problem: StateProblem, positive: frozenset[Expr]) -> Witness | No
         point = search.found(seed)
         if point is not None and _is_certified(problem, search, point):
             at = point.point.symbols
-            text = {s: arb(at[s]) for s in (*problem.unknowns, *problem.constants) if s in at}
-            return Witness({**dict.fromkeys(problem.unknowns, ex.ZERO), **text})
+            point_values = {s: arb(at[s]) for s in (*problem.unknowns, *problem.constants) if s in at}
+            return Witness({**dict.fromkeys(problem.unknowns, ex.ZERO), **point_values})
     return None
 
 

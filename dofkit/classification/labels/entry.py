@@ -86,14 +86,14 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     form: Form = max((form_of(p) for p in pieces), key=FORMS.index, default="finite")
     forms = _integrable_forms(normals, evidence.rows)
     own_constants = {c: evidence.constants.get(c, ex.parameter(c)) for c in reduced.constants}
-    text = [*(with_constants(p, own_constants) for n in normals for p in n.pieces), *reduced.inequalities]
+    clauses = [*(with_constants(p, own_constants) for n in normals for p in n.pieces), *reduced.inequalities]
     own_forms = [p for f in forms if isinstance(p := with_constants(f, own_constants), Pfaffian)]
     proofs = _proofs(form, own_forms, evidence.by_itself, setting)
     labels = _labels_of(reduced, evidence, form, proofs, forms, consistent)
     integrals = _integrals_of(form, labels, proofs, evidence, bool(consistent))
-    own_traits = _traits_of(pieces, text, normals, evidence)
-    single = evidence.rows[0] if len(evidence.rows) == len(text) == 1 else None
-    timed = timed_in_system(text[0], single.block, single.answer, integrals.others, setting) if single else None
+    own_traits = _traits_of(pieces, clauses, normals, evidence)
+    single = evidence.rows[0] if len(evidence.rows) == len(clauses) == 1 else None
+    timed = timed_in_system(clauses[0], single.block, single.answer, integrals.others, setting) if single else None
     every = _of_every_form(labels, evidence.rows, normals)
     traits = traits_together([*own_traits, *branches_of_time(normals, bool(consistent))], form, every, timed)
     reasons = _labels(labels.in_system, labels.alone, evidence.rows)

@@ -54,11 +54,11 @@ class Reals:
         ring = canon.ring
         self.never = self.signs.positive | {v.index for v in ring.vars if v.kind == "symbol" and v.key in nonzero}
         self.free = {v.index for v in ring.vars if v.kind == "symbol"} - self.never
-        text = [e.symbols for e in ring.var_expr]
-        self.moving = {i for i, s in enumerate(text) if any(x.args[0] in ("coordinate", "time") for x in s)}
+        symbols = [e.symbols for e in ring.var_expr]
+        self.moving = {i for i, s in enumerate(symbols) if any(x.args[0] in ("coordinate", "time") for x in s)}
         self.moving |= {v.index for v in ring.vars if v.kind == "call"}
         self.inside = frozenset().union(
-            *(s for v, s in zip(ring.vars, text, strict=True) if v.kind != "symbol"), frozenset[Expr]()
+            *(s for v, s in zip(ring.vars, symbols, strict=True) if v.kind != "symbol"), frozenset[Expr]()
         )
 
     def never_zero(self, poly: Poly) -> bool:

@@ -64,8 +64,8 @@ class Derivation:
         return self.lowest(self.canon.reduce(total), below)
 
     def _of_generator(self, index: int, symbol: Expr) -> Quotient:
-        var, text = self.canon.ring.vars[index], self.canon.ring.var_expr[index]
-        if symbol not in text.symbols:
+        var, generator = self.canon.ring.vars[index], self.canon.ring.var_expr[index]
+        if symbol not in generator.symbols:
             return self.zero
         if var.kind == "symbol":
             return self.canon.one, self.canon.one

@@ -9,7 +9,6 @@ from flint import arb, arb_mat, ctx
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
 from dofkit.configuration.local.critical_set import Split
-from dofkit.configuration.local.long_paths import holds_afar
 from dofkit.configuration.local.manifold import Manifold
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.ring.program import values
@@ -19,8 +18,8 @@ from dofkit.expressions.tree import Expr
 FAR, NEAR, STEPS = 0.5, 2.0**-24, 8
 #: The least cosine between steps, and what a correction may add to one.
 STRAIGHT = 0.9
-#: What counts as not 0 there, relative to the relation's gradient; with more relations floats do (`long_paths`).
-SURE, MANY = 2.0**-150, 60
+#: What counts as not 0 there, relative to the relation's gradient; with more relations than this, in floats.
+SURE, MANY, ROUGH = 2.0**-150, 60, 1e-8
 #: Bits that large numbers which cancel may cost: a million sizes from the origin, squared, and more.
 LOST = 90
 #: Bits, and what is not 0, where a curve begins at exact coordinates.
@@ -134,12 +133,12 @@ def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool |
     None where the curve could not be followed far enough to see.
     """
     try:
-        if len(ball.rows) > MANY:
-            return holds_afar(ball, direction)
         here = Neighbourhood(ball)
         reach = FAR
         while reach > NEAR:
             u = _walk(here, direction, reach)
+            if u is not None and len(ball.rows) > MANY:
+                return bool(np.max(np.abs(here.floats(u, ball.others)[0])) <= ROUGH)
             if u is not None:
                 with ctx.workprec(DEEP if deep else ctx.prec):
                     return _holds_at(here, u, DEEP_SURE if deep else SURE)

@@ -8,9 +8,8 @@ from fractions import Fraction
 
 from dofkit.base.errors import TextError
 from dofkit.expressions.text import Names, parse_relations
-from dofkit.homework.answers.notation import script_of
+from dofkit.homework.answers.notation import Script, script_of
 from dofkit.homework.answers.prose import DOUBTS, LEADING, NEGATIONS, NUMBERS, REASONS, UNITS, plain, takes_back, words
-from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import DoubtError
 

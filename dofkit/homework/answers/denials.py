@@ -7,28 +7,11 @@ from collections.abc import Collection
 
 from dofkit.homework.answers.prose import FILLING, REASONS, YES, phrases, plain, words
 
-#: The answers that there is none, in small letters and without accents; a dash alone is no answer.
+#: Answers that there is none which are no sentence of the words below; a dash alone is no answer.
 NONE = phrases(
-    "none|no|nope|nothing|null|nil|empty|∅|{}|[]|()|there is none|there are none|does not exist|no integral|"
-    "not integrable|it does not integrate|does not integrate|doesn't integrate|it is not integrable|"
-    "cannot be integrated|can't be integrated|non integrable|non-integrable|nonintegrable|no integrable|no redundant|"
-    "no redundancy|not redundant|nothing is redundant|"
-    "nothing can be dropped|none can be dropped|no constraint can be dropped|"
-    "no integral exists|there is no such relation|none of them|none is redundant|none are redundant|"
-    "no redundant constraints|no constraint|no constraints|no redundant constraint|there is no integral|"
-    "no finite relation|none exists|no such relation|not possible|not holonomic|nonholonomic|non-holonomic|"
-    "it is non-holonomic|it is nonholonomic|non holonomic|"
-    "nein|keine|keiner|keines|keins|nichts|nicht integrierbar|ist nicht integrierbar|gibt es nicht|gibt keine|"
-    "es gibt keine|es gibt keines|es gibt keins|kein integral|leer|leere menge|keine redundanten|keine redundant|"
-    "keine redundante|keine redundanz|keine ist redundant|nichtholonom|nicht holonom|anholonom|existiert nicht|"
-    "lasst sich nicht integrieren|nicht moglich|integriert nicht|"
-    "non|aucun|aucune|rien|il n'y en a pas|il n'y en a aucune|pas integrable|n'est pas integrable|"
-    "ce n'est pas integrable|n'existe pas|pas d'integrale|aucune integrale|vide|aucune redondance|"
-    "aucune n'est redondante|elle n'est pas integrable|pas de redondance|non holonome|"
-    "ninguno|ninguna|nada|no hay|no existe|no es integrable|vacio|no hay ninguna|no hay ninguno|"
-    "ninguna es redundante|no se integra|no se puede integrar|no holonoma|"
-    "nessuno|nessuna|niente|non esiste|non e integrabile|non integrabile|non ce ne sono|vuoto|anolonomo|"
-    "nao|nenhum|nenhuma|nao ha|nao existe|nao e integravel|nao integravel|vazio"
+    "no|nope|null|nil|empty|∅|{}|[]|()|nein|leer|leere menge|non|vide|vacio|vuoto|nao|vazio|not possible|nicht moglich|"
+    "il n'y en a pas|il n'y en a aucune|no hay|no hay ninguna|no hay ninguno|non ce ne sono|nao ha|gibt es nicht|"
+    "gibt keine|es gibt keine|es gibt keines|es gibt keins|there is none|there are none|none of them"
 )
 #: What stands between the parts of an answer.
 _PARTS = r"[,;:(\n]| - | – | — "

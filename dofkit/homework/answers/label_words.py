@@ -9,9 +9,8 @@ from typing import NamedTuple
 
 from dofkit.base.errors import TextError
 from dofkit.base.wording import closest
-from dofkit.homework.answers.notation import script_of
+from dofkit.homework.answers.notation import Script, script_of
 from dofkit.homework.answers.prose import DOUBTS, NO, YES, plain, words
-from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import Word, one_text, split_words
 from dofkit.homework.judgement import DoubtError, Given
 

@@ -10,9 +10,8 @@ from dofkit.base.errors import TextError
 from dofkit.expressions.text import Names, parse_relations, spelled
 from dofkit.expressions.text.characters import GREEK
 from dofkit.expressions.text.tokens import read_word
-from dofkit.homework.answers.notation import ARROW, script_of, with_differentials
+from dofkit.homework.answers.notation import ARROW, Script, script_of, with_differentials
 from dofkit.homework.answers.prose import plain, takes_back, words
-from dofkit.homework.answers.script import Script
 from dofkit.homework.answers.words import one_text
 from dofkit.homework.judgement import DoubtError, Given
 

@@ -15,8 +15,8 @@ from dofkit.expressions.text.names import in_words, unmarked
 from dofkit.expressions.text.tokens import read_word
 from dofkit.expressions.tree import E, Expr, coordinate, parameter
 from dofkit.homework.answers.declared import DeclaredNames, usual_name
+from dofkit.homework.answers.notation import Script
 from dofkit.homework.answers.pieces import Pieces, pieces_of, plainer
-from dofkit.homework.answers.script import Script
 from dofkit.homework.judgement import DoubtError
 from dofkit.scene.added_equations import Read, as_text
 

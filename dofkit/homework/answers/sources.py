@@ -11,7 +11,7 @@ import stat
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from io import BufferedReader, BytesIO, RawIOBase, TextIOWrapper
+from io import BytesIO, TextIOWrapper
 from itertools import islice
 from typing import Any, BinaryIO
 
@@ -31,7 +31,6 @@ from dofkit.homework.answers.tables import MOST_CHARACTERS, Columns, TableError,
 
 DOCUMENTS, LINES, TABLES = (".json", ".yaml", ".yml"), (".jsonl", ".ndjson"), (".csv", ".tsv")
 STDIN = "-"
-HAND_INS = (*DOCUMENTS, *LINES, *TABLES)
 #: What a file with answers is called that tells nothing of who hands it in.
 GENERIC = frozenset({"answers", "answer", "submission", "solution", "antworten", "abgabe", "homework", "sheet"})
 #: Files that systems leave in folders.
@@ -206,32 +205,13 @@ def _lines(first: bytes, stream: BinaryIO, file: str) -> Iterator[Handed]:
 def _text(first: bytes, stream: BinaryIO) -> Iterator[str]:
     """The lines of a text in UTF-8, or in UTF-16 where its first bytes say so; each at most so long."""
     wide = {b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}.get(first[:2])
-    source = BufferedReader(RewoundStream(first, stream))
-    text = TextIOWrapper(source, encoding=wide or "utf-8", errors="surrogateescape", newline="")
+    text = TextIOWrapper(BytesIO(first + stream.read()), encoding=wide or "utf-8", errors="surrogateescape", newline="")
     start = True
     while line := text.readline(MOST_CHARACTERS + 1):
         yield line.removeprefix("\ufeff") if start else line
         start = False
         while not line.endswith(("\n", "\r")) and (line := text.readline(MOST_CHARACTERS)):
             pass
-
-
-class RewoundStream(RawIOBase):
-    """A stream again from its beginning, of which the first bytes were read already."""
-
-    def __init__(self, first: bytes, stream: BinaryIO) -> None:
-        self._first = first
-        self._stream = stream
-
-    def readable(self) -> bool:
-        return True
-
-    def readinto(self, buffer: Any) -> int:
-        """Fill a buffer; 0 at the end."""
-        found = self._first[: len(buffer)] or self._stream.read(len(buffer))
-        self._first = self._first[len(found) :]
-        buffer[: len(found)] = found
-        return len(found)
 
 
 def _table(lines: Iterator[str], file: str, known: Columns) -> Iterator[Handed]:

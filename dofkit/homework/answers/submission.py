@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from fractions import Fraction
@@ -89,7 +89,7 @@ def of_text(
     if len(data) > MOST_BYTES:
         return [refused(name, place, f"it is longer than {MOST_BYTES // 10**6} MB")]
     document = _with_backslashes(data, name)
-    value, faults = _mended(document)
+    value, faults = document.value, document.faults
     if faults:
         found = _STUDENT.search(document.text[:100_000])
         student = clean(next(g for g in found.groups() if g is not None).strip()) if found else name
@@ -234,28 +234,6 @@ def _source(document: Document, path: tuple[str | int, ...]) -> str:
     start, _ = document.places.get(path, (len(document.text), -1))
     found = _SCALAR.match(document.text, start)
     return found[0].partition(" #")[0].strip() if found else ""
-
-
-def _mended(document: Document) -> tuple[Any, tuple[Fault, ...]]:
-    """The value, with numbers beyond all bounds as the texts that they are where they stand for answers."""
-    if not document.faults or not isinstance(document.value, Mapping):
-        return document.value, document.faults
-    value, left = document.value, list(document.faults)
-    for problem, question in list(_answered_questions(value.get("answers"))):
-        path = ("answers", problem, question)
-        if path not in document.places:
-            continue
-        at = document.place(path)
-        mine = [fault for fault in left if (fault.line, fault.column) == at]
-        if mine and isinstance(value["answers"][problem][question], int):
-            value["answers"][problem][question] = _source(document, path)
-            left = [fault for fault in left if fault not in mine]
-    return value, tuple(left)
-
-
-def _answered_questions(answers: object) -> Iterator[tuple[str, str]]:
-    for problem, given in answers.items() if isinstance(answers, Mapping) else ():
-        yield from ((problem, question) for question in given if isinstance(given, Mapping))
 
 
 def _ours(fault: Fault) -> Fault:

@@ -13,9 +13,8 @@ from dofkit.base.errors import TextError
 from dofkit.base.wording import nearest
 from dofkit.expressions.text import spelled
 from dofkit.homework.answers.denials import affirms, beside_none, says_none
-from dofkit.homework.answers.notation import script_of
+from dofkit.homework.answers.notation import Script, script_of
 from dofkit.homework.answers.prose import DOUBTS, FILLING, NEGATIONS, NUMBERS, REASONS, plain
-from dofkit.homework.answers.script import Script
 from dofkit.homework.judgement import DoubtError, Given
 from dofkit.scene.fields import as_written, exact
 

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import json
 import os
 import tempfile
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
+from dofkit.base.documents import read_document
 from dofkit.base.errors import DofkitError
 from dofkit.homework.assignment import load_assignment
 from dofkit.homework.autograder import undecided
-from dofkit.homework.export.inline import exact_json, inlined
 from dofkit.homework.export.wheels import download, own_wheel, requirements
 from dofkit.homework.formats.base import text
 from dofkit.homework.formats.gradescope import document, visibility_of
 from dofkit.homework.formats.review import TABLE, RunReview
+from dofkit.scene.catalog import find
 
 #: The Pythons of the images that Gradescope offers, that of Ubuntu 24.04 first.
 PYTHONS = ("3.12", "3.11", "3.13")
@@ -89,3 +94,38 @@ def _zip(files: dict[str, bytes], out: Path) -> None:
             packed = zipfile.ZIP_STORED if name.endswith(".whl") else zipfile.ZIP_DEFLATED
             archive.writestr(info, data, packed)
     os.replace(beside, out)
+
+
+def inlined(source: str | os.PathLike[str]) -> dict[str, Any]:
+    """The assignment of a file, every scene in place. Raises AssignmentError, as `load_assignment` does."""
+    load_assignment(source)
+    shown = os.fspath(source)
+    found = find(shown)
+    value: Any = read_document(found.data, found.name).value
+    problems = [{**problem, "scene": _scene(problem["scene"], Path(shown).parent)} for problem in value["problems"]]
+    return {**value, "problems": problems}
+
+
+def _scene(scene: Any, base: Path) -> Any:
+    if isinstance(scene, Mapping):
+        return scene
+    found = find(base / scene if (base / scene).is_file() else scene)
+    value: Any = read_document(found.data, found.name).value
+    return {"name": found.name, **value}
+
+
+def exact_json(value: Any) -> str:
+    """JSON with every number as it was written: 0.1 is one tenth there, too.
+
+    >>> exact_json({"a": [Decimal("0.10"), 1, True, None, "é"], "b": {}})
+    '{"a": [0.10, 1, true, null, "\\\\u00e9"], "b": {}}'
+    """
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{json.dumps(str(key))}: {exact_json(each)}" for key, each in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(exact_json, value)) + "]"
+    if isinstance(value, Decimal):
+        return str(value)
+    if isinstance(value, Fraction):
+        return json.dumps(str(value))
+    return json.dumps(value)

@@ -24,7 +24,7 @@ from dofkit.homework.assignment import Prepared, Visibility
 from dofkit.homework.formats.base import Format, Target, write_documents
 from dofkit.homework.formats.wording import line, open_points, plain, points, remark, standing, title
 from dofkit.homework.result import Item, Result
-from dofkit.homework.sentences.translations import Language, in_language
+from dofkit.homework.sentences import Language, in_language
 
 
 def numbers(items: Sequence[Item]) -> list[str | None]:

@@ -13,7 +13,7 @@ from dofkit.homework.formats.pages import BADGES, percent, question_text
 from dofkit.homework.formats.wording import number
 from dofkit.homework.key.misconceptions import CODES
 from dofkit.homework.result import Item, Result, Status
-from dofkit.homework.review.queue import Queue, QueuedAnswer
+from dofkit.homework.review import Queue, QueuedAnswer
 
 #: Rows of each list that are shown; how many more there are is said.
 MOST_ROWS = 1000

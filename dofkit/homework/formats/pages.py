@@ -13,7 +13,7 @@ from dofkit.homework.formats.wording import STATUSES, line, number, open_points,
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, Result, Status
-from dofkit.homework.sentences.translations import Language, in_language
+from dofkit.homework.sentences import Language, in_language
 
 if TYPE_CHECKING:
     from jinja2 import Environment

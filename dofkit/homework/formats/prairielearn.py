@@ -17,7 +17,7 @@ from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, Target, text, write_documents
 from dofkit.homework.formats.wording import line, plain, remark, shortened, standing, title
 from dofkit.homework.result import Item, Result
-from dofkit.homework.sentences.translations import Language, in_language
+from dofkit.homework.sentences import Language, in_language
 
 #: PrairieLearn takes no more than a megabyte; and the characters of one text where that is too much.
 MOST_BYTES, MOST_CHARACTERS = 1_000_000, 1000

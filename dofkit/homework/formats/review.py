@@ -21,8 +21,7 @@ from dofkit.homework.formats.base import cell
 from dofkit.homework.formats.pages import problem_title, question_text, rendered
 from dofkit.homework.formats.wording import unmarked
 from dofkit.homework.result import Result
-from dofkit.homework.review.filled_table import FilledTable, read_table
-from dofkit.homework.review.queue import COLUMNS, Queue, QueuedAnswer, ReviewRow
+from dofkit.homework.review import COLUMNS, FilledTable, Queue, QueuedAnswer, ReviewRow, read_table
 
 TABLE, PAGE = "review.csv", "review.html"
 #: Answers of each list that are shown; how many more there are is said.

@@ -7,7 +7,7 @@ import re
 from typing import NamedTuple
 
 from dofkit.homework.result import Item, Result, Status
-from dofkit.homework.sentences.translations import Language, in_language
+from dofkit.homework.sentences import Language, in_language
 
 #: What each status is called, in English.
 STATUSES: dict[Status, str] = {

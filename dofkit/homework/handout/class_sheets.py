@@ -18,8 +18,7 @@ from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Assignment, Prepared, load_assignment
 from dofkit.homework.formats.base import cell
 from dofkit.homework.formats.wording import FileNames
-from dofkit.homework.handout.figures import Draw
-from dofkit.homework.handout.markup import pictures_of
+from dofkit.homework.handout.markup import Draw, pictures_of
 from dofkit.homework.handout.sheets import write_sheet, written_sheet
 from dofkit.homework.problem import DRAWN, UNDRAWN, Problem, StudentVariant, Variants
 from dofkit.homework.variants import VaryError, differing_share, drawn, picked, rows_of

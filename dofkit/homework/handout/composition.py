@@ -13,13 +13,12 @@ from itertools import groupby
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import number
 from dofkit.homework.grading import Grader
-from dofkit.homework.handout.figures import SheetFigure
+from dofkit.homework.handout.markup import SheetFigure
 from dofkit.homework.key.key import Key
-from dofkit.homework.problem import Problem
+from dofkit.homework.problem import ALL, Problem, filled, marked, places, shown
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.questions.equations import EquationQuestion
-from dofkit.homework.sentences.translations import Language, described, say
-from dofkit.homework.statement import ALL, filled, marked, places, shown
+from dofkit.homework.sentences import Language, described, say
 from dofkit.scene.fields import as_written
 from dofkit.scene.names import coordinate_table
 from dofkit.scene.parts import Force, show_point

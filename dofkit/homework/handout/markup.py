@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from base64 import b64encode
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, lru_cache
 from html import escape
 from pathlib import Path
@@ -16,9 +16,13 @@ from markdown_it import MarkdownIt
 from markdown_it.token import Token
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
+from dofkit.base.errors import DofkitError
+from dofkit.base.wording import no_such
 from dofkit.expressions.text.typesetting import mathml, typeset
 from dofkit.homework.formats.wording import line
-from dofkit.homework.handout.figures import SheetFigure
+from dofkit.homework.problem import DRAWN, UNDRAWN, Problem
+from dofkit.report import Report
+from dofkit.scene.scene import Scene
 
 _TEMPLATE = Path(__file__).parent / "templates" / "sheet.html"
 #: Typed text, which stays as it is, or a formula.
@@ -123,3 +127,52 @@ def page_of(markdown: str, title: str, language: str, figures: Mapping[str, Shee
     page = _TEMPLATE.read_text(encoding="utf-8")
     parts = {"language": language, "title": escape(line(title)), "body": reader().render(markdown, dict(figures))}
     return re.sub(r"\{\{(language|title|body)\}\}", lambda found: parts[found[1]], page)
+
+
+#: Draws a scene, under a title, as SVG; None for a scene that has no places. Its report is known.
+Draw = Callable[[Scene, Report, str], str | None]
+#: Endings of files -> what they are called on a page.
+KINDS = {".svg": "image/svg+xml", ".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg"}
+#: No picture of a problem is larger.
+MOST_BYTES = 10_000_000
+
+
+class FigureError(DofkitError):
+    """A figure's file that cannot be shown."""
+
+
+class SheetFigure(NamedTuple):
+    """A picture: its path within the sheet's folder, and what is in it."""
+
+    path: str
+    data: bytes
+
+    @property
+    def kind(self) -> str:
+        """What a page calls it."""
+        return KINDS[Path(self.path).suffix.lower()]
+
+
+def figure_of(problem: Problem, drawn: Callable[[], str | None], base: Path, name: str) -> SheetFigure | None:
+    """The picture of a problem; ``drawn`` draws its scene, ``name`` is its path in the sheet without the ending.
+
+    Raises FigureError, and OSError for what cannot be read.
+    """
+    if problem.figure == UNDRAWN:
+        return None
+    if problem.figure in (None, DRAWN):
+        found = drawn()
+        return None if found is None else SheetFigure(f"{name}.svg", found.encode())
+    return file_of(str(problem.figure), base, name)
+
+
+def file_of(source: str, base: Path, name: str) -> SheetFigure:
+    """A picture's file; its path in the sheet begins with ``name``. Raises FigureError and OSError."""
+    path = base / source
+    if path.suffix.lower() not in KINDS:
+        raise FigureError(f"the figure '{source}': {no_such(path.suffix or source, list(KINDS), 'ending')}")
+    if not path.is_file():
+        raise FigureError(f"there is no figure '{source}' in {base}; name a file beside the assignment, scene or none")
+    if path.stat().st_size > MOST_BYTES:
+        raise FigureError(f"the figure '{source}' has more than {MOST_BYTES} bytes")
+    return SheetFigure(f"{name}{path.suffix.lower()}", path.read_bytes())

@@ -11,12 +11,19 @@ from dofkit.base.wording import no_such
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import stem
 from dofkit.homework.handout.composition import SheetComposer
-from dofkit.homework.handout.figures import Draw, SheetFigure, figure_of, file_of
-from dofkit.homework.handout.markup import page_of, pictures_of, unset_formulas, with_latex
-from dofkit.homework.problem import Problem
+from dofkit.homework.handout.markup import (
+    Draw,
+    SheetFigure,
+    figure_of,
+    file_of,
+    page_of,
+    pictures_of,
+    unset_formulas,
+    with_latex,
+)
+from dofkit.homework.problem import Problem, named
 from dofkit.homework.questions import MOTION
 from dofkit.homework.questions.equations import EquationQuestion
-from dofkit.homework.statement import named
 
 
 class WrittenSheet(NamedTuple):

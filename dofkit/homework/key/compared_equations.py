@@ -19,7 +19,7 @@ from dofkit.homework.judgement import HALF, NOTHING, JudgedReading, Judgement, n
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_names import renamed, without_own
 from dofkit.homework.key.regions import Condition, compared_regions, conditions, counterexample
-from dofkit.homework.sentences.translations import Said, say
+from dofkit.homework.sentences import Said, say
 from dofkit.methods.classify import classify
 from dofkit.scene.added_equations import Read, with_equations
 from dofkit.scene.lowering import lower

@@ -11,7 +11,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
-from itertools import permutations
 from typing import NamedTuple
 
 from flint import nmod_mat
@@ -22,12 +21,9 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
-from dofkit.expressions.tree import MINUS_ONE, ONE, ZERO, Expr
+from dofkit.expressions.tree import ONE, ZERO, Expr
 from dofkit.homework.key.right_motion import POINTS, RightMotion, is_zero, points
 from dofkit.motion.lagrange.elimination import by_time
-
-#: Systems up to this size are solved by Cramer's rule where points alone may mislead.
-BY_CRAMER = 3
 
 
 def euler(e: Expr, name: str) -> Expr:
@@ -165,29 +161,12 @@ class AnsweredMotion:
             return None
         sound = [all(t.sound[i] for t in told) for i in range(len(rows))]
         if not all(sound) and not independent_generators(ring):
-            exact = self._by_cramer()
-            if exact is None:
-                return None
-            sound = exact
+            return None
         n = len(self.columns)
         rank = max(t.rank if all(sound) else t.sound_rank(sound, n) for t in told)
         still = [not any(v for t in told for v in t.rows[i][:n]) for i in range(len(rows))]
         verdicts = [_verdict(s, z) for s, z in zip(sound, still, strict=True)]
         return Followed(verdicts, rank, any(sound) and all(t.contradictory(n) for t in told))
-
-    def _by_cramer(self) -> list[bool] | None:
-        """Which equations the accelerations satisfy, identically: det(M) times the equation, by Cramer's rule."""
-        n = len(self.columns)
-        if self.own or self.known.multipliers or n > BY_CRAMER or self.rows is None:
-            return None
-        matrix = [row[:n] for row in self.right]
-        rest = [row[n] for row in self.right]
-        whole = determinant(matrix)
-        solved = [determinant([[*r[:j], ex.mul(MINUS_ONE, b), *r[j + 1 :]] for r, b in zip(matrix, rest, strict=True)])
-                  for j in range(n)]  # fmt: skip
-        sums = [ex.add(row[n] * whole, *(a * s for a, s in zip(row[:n], solved, strict=True))) for row in self.rows]
-        told = [is_zero(e, self.known.positive) for e in sums]
-        return None if None in told else [t is True for t in told]
 
 
 def _verdict(sound: bool, still: bool) -> MotionSameness:
@@ -279,12 +258,3 @@ def linear(e: Expr, unknown: Sequence[Expr]) -> list[Expr] | None:
     if any(s.args[0] in ("acceleration", "differential", "dt") for s in rest.symbols):
         return None
     return [*row, rest]
-
-
-def determinant(rows: Sequence[Sequence[Expr]]) -> Expr:
-    """By Leibniz's formula, for a few rows."""
-    terms = []
-    for order in permutations(range(len(rows))):
-        swaps = sum(a > b for i, a in enumerate(order) for b in order[i + 1 :])
-        terms.append(ex.mul(MINUS_ONE if swaps % 2 else ONE, *(rows[i][j] for i, j in enumerate(order))))
-    return ex.add(*terms)

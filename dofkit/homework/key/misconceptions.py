@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from dofkit.homework.key.facts import SceneCounts
 from dofkit.homework.key.key import Key
-from dofkit.homework.sentences.translations import Said, say
+from dofkit.homework.sentences import Said, say
 from dofkit.report import ConstraintEntry
 
 Numbers = Iterator[int | Fraction]

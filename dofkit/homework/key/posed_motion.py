@@ -16,9 +16,9 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.text import Comparison, spelled, to_text
 from dofkit.expressions.tree import ZERO, Expr
 from dofkit.homework.answers.declared import DeclaredNames
+from dofkit.homework.answers.notation import Script
 from dofkit.homework.answers.pieces import with_energies
 from dofkit.homework.answers.relations import AnswerNames, AnswerReading, readings_of, with_explained_names
-from dofkit.homework.answers.script import Script
 from dofkit.homework.judgement import Given, Reading
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_coordinates import extended, offered

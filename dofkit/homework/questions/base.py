@@ -13,7 +13,7 @@ from dofkit.base.errors import Fault
 from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.judgement import Given, Judgement, Reading, Sentence, shown_text_of, verdict
 from dofkit.homework.key.key import Key
-from dofkit.homework.sentences.translations import Said, say
+from dofkit.homework.sentences import Said, say
 from dofkit.scene.fields import Number, WrittenModel, exact, fault_error
 
 #: The numbers that a student gave to earlier questions of the same problem, by what was asked.

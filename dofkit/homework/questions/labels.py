@@ -26,7 +26,7 @@ from dofkit.homework.judgement import (
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.misconceptions import explain_label
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.homework.sentences.translations import Said, say
+from dofkit.homework.sentences import Said, say
 from dofkit.report import ConstraintEntry
 from dofkit.scene.fields import Listed, suggestion
 

@@ -22,7 +22,7 @@ from dofkit.homework.key.own_coordinates import offered
 from dofkit.homework.key.posed_motion import PosedMotion, motion_readings, posed_motion
 from dofkit.homework.key.right_motion import RightMotion, is_zero
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.homework.sentences.translations import Said, say
+from dofkit.homework.sentences import Said, say
 from dofkit.scene.fields import suggestion
 
 

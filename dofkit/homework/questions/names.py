@@ -13,7 +13,7 @@ from dofkit.homework.key.key import Key
 from dofkit.homework.key.own_coordinates import chosen_coordinates, with_chosen
 from dofkit.homework.key.selection import can_be_dropped, determine
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.homework.sentences.translations import say
+from dofkit.homework.sentences import say
 
 
 class Coordinates(QuestionBase):

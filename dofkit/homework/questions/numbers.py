@@ -15,7 +15,7 @@ from dofkit.homework.judgement import HALF, Given, Judgement, Reading, Sentence,
 from dofkit.homework.key.key import Key
 from dofkit.homework.key.misconceptions import explain
 from dofkit.homework.questions.base import Earlier, QuestionBase
-from dofkit.homework.sentences.translations import say
+from dofkit.homework.sentences import say
 from dofkit.scene.fields import as_written
 
 #: A number that follows from an earlier wrong one; the number of the other convention.

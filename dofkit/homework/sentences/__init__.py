@@ -1,1 +1,114 @@
-"""What students are told, in English, German, French and Spanish."""
+"""What students are told, in English, German, French and Spanish: sentences with places for what differs."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from importlib.resources import files
+from typing import Literal, NamedTuple
+
+from dofkit.base.documents import read_document
+
+Language = Literal["en", "de", "fr", "es"]
+
+
+@cache
+def catalogue() -> dict[str, dict[str, str]]:
+    """Language -> English sentence -> the same in this language."""
+    data = files("dofkit.homework.sentences").joinpath("catalogue.yaml").read_bytes()
+    rows: list[dict[str, str]] = read_document(data, "catalogue").value
+    return {language: {row["en"]: row[language] for row in rows} for language in ("de", "fr", "es")}
+
+
+@cache
+def _reading(language: Language) -> list[tuple[re.Pattern[str], str]]:
+    """What matches an English text of why reading stopped, and the same in a language with the names that it found."""
+    data = files("dofkit.homework.sentences").joinpath("reading.yaml").read_bytes()
+    rows: list[dict[str, str]] = read_document(data, "reading").value
+    return [(_pattern(row["en"]), row[language]) for row in rows]
+
+
+def _pattern(sentence: str) -> re.Pattern[str]:
+    parts = _PLACE.split(sentence)
+    return re.compile(
+        "".join(re.escape(part) if i % 2 == 0 else f"(?P<{part}>.+?)" for i, part in enumerate(parts)), re.DOTALL
+    )
+
+
+_PLACE = re.compile(r"\{(\w+)\}")
+
+
+def stopped(text: str, language: Language) -> str:
+    """Why reading stopped, or what to do, in a language; in English where it has no such text.
+
+    >>> stopped("`q` is not declared", "fr")
+    "`q` n'est pas déclaré"
+    """
+    for pattern, told in _reading(language) if language != "en" else ():
+        found = pattern.fullmatch(text)
+        if found is not None:
+            return told.format(**found.groupdict())
+    return text
+
+
+@cache
+def _scene_words(language: Language) -> dict[str, str]:
+    data = files("dofkit.homework.sentences").joinpath("scene_words.yaml").read_bytes()
+    rows: list[dict[str, str]] = read_document(data, "scene_words").value
+    return {row["en"]: row[language] for row in rows}
+
+
+def described(text: str, language: Language) -> str:
+    """Return the description of a constraint or a force in a language.
+
+    >>> described("link (0, 0)-A, length l", "de")
+    'Stab (0, 0)-A, Länge l'
+    """
+    words = _scene_words(language)
+    types = "|".join(re.escape(word) for word in words if not word.endswith(" "))
+    joining = "|".join(re.escape(word) for word in words if word.endswith(" "))
+    return re.sub(rf"\A(?:{types})\b|{joining}", lambda match: words[match[0]], text)
+
+
+#: The places of a sentence in which it stands why reading stopped.
+FAULTS = frozenset({"fault", "hint"})
+
+
+class Said(NamedTuple):
+    """``sentence``: in English, with names in braces for ``values``; those that are words are translated too."""
+
+    sentence: str
+    values: tuple[tuple[str, object], ...] = ()
+
+    def told(self, language: Language = "en") -> str:
+        """The sentence in a language; in English where it has none.
+
+        >>> say("The correct answer is {number}.", number=3).told("de")
+        'Die richtige Antwort ist 3.'
+        """
+        known = {} if language == "en" else catalogue()[language]
+        sentence = known.get(self.sentence, self.sentence)
+        if not self.values:
+            return sentence
+        return sentence.format(
+            **{n: stopped(str(v), language) if n in FAULTS else _word(str(v), known) for n, v in self.values}
+        )
+
+
+def _word(text: str, known: dict[str, str]) -> str:
+    """Return a value with its words translated, if all of them are known."""
+    return "".join(known.get(word, word) for word in re.split("(, | / )", text))
+
+
+def in_language(language: Language, sentence: str, **values: object) -> str:
+    """Return a sentence of the catalogue in a language, its places filled.
+
+    >>> in_language("de", "{score} of {most}", score=1, most=2)
+    '1 von 2'
+    """
+    return say(sentence, **values).told(language)
+
+
+def say(sentence: str, **values: object) -> Said:
+    """A sentence and what stands in its places."""
+    return Said(sentence, tuple(values.items()))

@@ -2,6 +2,5 @@
 
 `normal_form.normalise` is the entry. `pieces` has the types; `zero_set` and `polynomial_zeros` split an expression into
 branches; `semidefinite` proves signs of polynomials; `domain` says where an expression has a value and tells absolute
-values apart; `no_solution` proves that there is no real point; `exact_zeros` lists candidates for zeros of analytic
-functions of one coordinate.
+values apart; `no_solution` proves that there is no real point.
 """

@@ -202,8 +202,8 @@ def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] 
 
 def _outside(ring: Ring, index: int) -> bool:
     """Does no other generator have the root in its argument?"""
-    text = ring.var_expr[index]
-    return all(text not in ex.nodes(ring.var_expr[v.index]) for v in ring.vars if v.index != index)
+    root = ring.var_expr[index]
+    return all(root not in ex.nodes(ring.var_expr[v.index]) for v in ring.vars if v.index != index)
 
 
 def _lowered(exponents: Sequence[int], place: int) -> tuple[int, ...]:

@@ -210,8 +210,8 @@ class PolynomialZeros:
             return False
 
     def _depends(self, factor: Any) -> bool:
-        text = (self.canon.ring.var_expr[i] for i in self.canon.generators_in(factor))
-        return any(not self.variables.isdisjoint(s.symbols) for s in text)
+        generators = (self.canon.ring.var_expr[i] for i in self.canon.generators_in(factor))
+        return any(not self.variables.isdisjoint(s.symbols) for s in generators)
 
     def _factor(self, factor: Any, written: Expr | None) -> tuple[list[Conjunction], list[str]]:
         exponent = difference_of_exponents(self.canon, factor)
@@ -238,12 +238,12 @@ class PolynomialZeros:
 
     def _varying(self, zeros: list[int]) -> list[int]:
         """The generators that depend on the variables; generic constants do not vanish."""
-        text = self.canon.ring.var_expr
-        return [i for i in zeros if not self.variables.isdisjoint(text[i].symbols)] or zeros
+        generators = self.canon.ring.var_expr
+        return [i for i in zeros if not self.variables.isdisjoint(generators[i].symbols)] or zeros
 
     def _generator_zero(self, index: int) -> Expr:
-        text = self.canon.ring.var_expr[index]
-        return ex.children(text)[0] if self.canon.ring.vars[index].kind == "root" else text
+        generator = self.canon.ring.var_expr[index]
+        return ex.children(generator)[0] if self.canon.ring.vars[index].kind == "root" else generator
 
 
 def difference_of_exponents(canon: Canon, factor: Any) -> Expr | None:
@@ -253,11 +253,11 @@ def difference_of_exponents(canon: Canon, factor: Any) -> Expr | None:
     if len(terms) != 2 or any(canon.ring.vars[i].kind != "exp" for i in present):
         return None
     (first, a), (second, b) = terms
-    text = {i: canon.ring.var_expr[i] for i in present}
-    moving = any(s.args[0] == "velocity" for e in text.values() for s in e.symbols)
-    if a * b > 0 or moving or any(e.op != "fn" for e in text.values()):
+    generators = {i: canon.ring.var_expr[i] for i in present}
+    moving = any(s.args[0] == "velocity" for e in generators.values() for s in e.symbols)
+    if a * b > 0 or moving or any(e.op != "fn" for e in generators.values()):
         return None
     last = len(first) - 1
     powers = {i: int(first[last - i]) - int(second[last - i]) for i in present}
     scale = ex.fn("log", ex.num(fraction(fmpq(-a) / fmpq(b))))
-    return ex.add(scale, *(ex.mul(ex.num(k), text[i].args[1]) for i, k in powers.items()))
+    return ex.add(scale, *(ex.mul(ex.num(k), generators[i].args[1]) for i, k in powers.items()))

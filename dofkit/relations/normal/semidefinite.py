@@ -161,7 +161,7 @@ def semidefinite(canon: Canon, signs: Signs, factor: Any) -> list[Expr] | None:
     rows = _semidefinite_rows(form)
     if rows is None:
         return None
-    text = [canon.ring.var_expr[i] for i in present] + [ex.ONE]
+    generators = [canon.ring.var_expr[i] for i in present] + [ex.ONE]
     reduced, rank = fmpq_mat(rows).rref() if rows else (fmpq_mat(0, one + 1), 0)
     linear = []
     for r in range(rank):
@@ -169,7 +169,7 @@ def semidefinite(canon: Canon, signs: Signs, factor: Any) -> list[Expr] | None:
         answer = [i for i, v in zip(present, entries[:one], strict=True) if v != 0]
         if not answer or (len(answer) == 1 and answer[0] in signs.positive and entries[one] == 0):
             return []
-        linear.append(ex.add(*(ex.mul(ex.num(fraction(v)), s) for v, s in zip(entries, text, strict=True))))
+        linear.append(ex.add(*(ex.mul(ex.num(fraction(v)), s) for v, s in zip(entries, generators, strict=True))))
     return linear
 
 

@@ -1,0 +1,336 @@
+"""Comparisons of an answer with what was asked for: multiples and powers, gradients on the same set, inequalities.
+
+Two equations state the same where one is a number times the other, or a polynomial in it with one real root. What is no
+polynomial in coordinates, parameters, sines, cosines and exponentials is not compared so: a root or a quotient may have
+no value where its multiple has one. a sqrt(P) + b = 0 is one branch of b^2 = a^2 P, on which a b <= 0; where the other
+constraints state that, the root loses nothing.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from itertools import product as cartesian
+from typing import Any
+
+from flint import arb, fmpq, fmpq_poly
+
+from dofkit.classification.dependence.implication import follows
+from dofkit.configuration.generic_points import field_jacobian
+from dofkit.configuration.search import find
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.matrices.certified import ball_part
+from dofkit.exact.matrices.sparse import rank_of_rows
+from dofkit.exact.points.balls import BallPoint, jacobian
+from dofkit.exact.points.real_search import RealSearch
+from dofkit.exact.ring.canonical import Canon, Poly
+from dofkit.exact.ring.program import POW, values
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero import is_proved_zero
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff, in_velocities, replace_nodes, substitute
+from dofkit.expressions.tree import HALF, MINUS_ONE, ZERO, Expr
+from dofkit.relations.blocks import Block, Row, split
+from dofkit.relations.chart import make_chart
+from dofkit.relations.normal.normal_form import velocities_of
+from dofkit.relations.normal.pieces import Finite, Inequality, Normal, Pfaffian, Piece, Reduced
+from dofkit.relations.normal.polynomial_zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
+from dofkit.relations.setting import Setting
+from dofkit.relations.velocity_reductions import eliminated, form_rate
+
+#: Generators of a ring that have a value everywhere.
+_ENTIRE = frozenset({"symbol", "cos", "sin", "exp", "pi"})
+
+
+def same_up_to_numbers(given: Sequence[Reduced], wanted: Sequence[Reduced], positive: frozenset[Expr]) -> bool:
+    """Is every equation given a number times one that is wanted, as it was written, and each of those met?
+
+    True is a proof that they say the same and are as regular; False says nothing.
+    """
+    asked = [_terms(n) for r in wanted for n in r.normals]
+    answer = [terms for r in given for terms in _written(r)]
+    if not answer or [] in asked or [] in answer:
+        return False
+    table = [[_proportional(one, other, positive) for other in asked] for one in answer]
+    return all(map(any, table)) and all(any(row[k] for row in table) for k in range(len(asked)))
+
+
+def power_of(given: Sequence[Reduced], wanted: Sequence[Reduced], positive: frozenset[Expr]) -> int | None:
+    """m where the one equation given is P(g) = 0 for the one g = 0 wanted, and 0 is P's only real root, m times.
+
+    They have the same zeros then, and are as regular where m = 1: u^3 + u = 0 says u = 0, and u^3 = 0 does so worse.
+    A number is a proof; None says nothing.
+    """
+    asked = [n for r in wanted for n in r.normals]
+    answer = [relation.expr for r in given for relation in r.constraint.relations]
+    terms = _terms(asked[0]) if len(asked) == len(answer) == 1 else []
+    if not terms or terms[0][0]:
+        return None
+    ring = Ring([answer[0], terms[0][1]], positive)
+    nodes = ring.node(answer[0]), ring.node(terms[0][1])
+    if not _entire(ring):
+        return None
+    canon = Canon(ring)
+    try:
+        (h, over), (g, under) = canon.quotient(nodes[0]), canon.quotient(nodes[1])
+    except NoValueError:
+        return None
+    digits = _digits(h, g) if over.is_constant() and under.is_constant() and not g.is_constant() else None
+    return None if digits is None else _only_root(fmpq_poly(digits))
+
+
+def _digits(h: Poly, g: Poly) -> list[fmpq] | None:
+    """The c_k of h = c_0 + c_1 g + c_2 g^2 + ..., where there are such numbers."""
+    digits: list[fmpq] = []
+    while h != 0:
+        h, remainder = divmod(h, g)
+        if not remainder.is_constant():
+            return None
+        digits.append(remainder.leading_coefficient() if remainder != 0 else fmpq(0))
+    return digits
+
+
+def _only_root(p: fmpq_poly) -> int | None:
+    """How often 0 is a root of p; None where it is none, or not the only real one."""
+    low = next((k for k in range(p.degree() + 1) if p[k] != 0), 0)
+    remainder = fmpq_poly([p[k] for k in range(low, p.degree() + 1)])
+    roots: Any = remainder.numer().complex_roots()
+    return low if low and not any(z.imag == 0 for z, _ in roots) else None
+
+
+def _entire(ring: Ring) -> bool:
+    """Have all of its nodes a value everywhere?"""
+    kinds = {var.kind for var in ring.vars}
+    return kinds <= _ENTIRE and not any(op == POW and p[1] < 0 for op, p in ring.code)
+
+
+def _written(r: Reduced) -> list[list[tuple[str, Expr]]]:
+    """The equations of a constraint before anything was taken out of them; an empty one for what is not looked at."""
+    if len(r.normals) != len(r.constraint.relations) or any(n.notes for n in r.normals):
+        return [[]]
+    result = []
+    for normal, relation in zip(r.normals, r.constraint.relations, strict=True):
+        terms = _terms(normal)
+        result.append([("", relation.expr)] if terms and terms[0][0] == "" else terms)
+    return result
+
+
+def _terms(normal: Normal) -> list[tuple[str, Expr]]:
+    """g of g = 0 under no name, or a form's coefficients by coordinate; none of what has branches or conditions."""
+    if len(normal.branches) != 1 or len(normal.branches[0]) != 1 or normal.constants:
+        return []
+    (piece,) = normal.branches[0]
+    if isinstance(piece, Finite):
+        return [("", piece.expr)]
+    if type(piece) is Pfaffian:
+        return [*sorted(piece.coefficients.items()), ("dt", piece.dt)]
+    return []
+
+
+def _proportional(a: Sequence[tuple[str, Expr]], b: Sequence[tuple[str, Expr]], positive: frozenset[Expr]) -> bool:
+    """Is one number c, not 0, such that every a_i = c b_i identically? Proved in the canonical ring."""
+    first, second = dict(a), dict(b)
+    names = sorted(first.keys() | second.keys())
+    pairs = [(first.get(name, ZERO), second.get(name, ZERO)) for name in names]
+    ring = Ring([e for pair in pairs for e in pair], positive)
+    nodes = [(ring.node(x), ring.node(y)) for x, y in pairs]
+    if not _entire(ring):
+        return False
+    canon = Canon(ring)
+    try:
+        result = [(canon.quotient(x)[0], canon.quotient(y)[0]) for x, y in nodes]
+    except NoValueError:
+        return False
+    if any((x == 0) != (y == 0) for x, y in result):
+        return False
+    remaining = [(x, y) for x, y in result if x != 0]
+    if not remaining:
+        return False
+    c, d = (poly.leading_coefficient() for poly in remaining[0])
+    return all(x * d == y * c for x, y in remaining)
+
+
+#: Choices of branches on which gradients are looked at.
+MAX_BRANCHES = 16
+
+
+@dataclass(frozen=True)
+class Regularity:
+    """The relations of others, those that were asked for, and the constraints of an answer with the same solutions."""
+
+    others: Sequence[Normal]
+    wanted: Sequence[Normal]
+    given: Sequence[Reduced]
+    setting: Setting
+    coordinates: Sequence[str]
+
+    def irregular(self) -> bool | None:
+        """Does the answer's gradient lose rank where that of what was asked for does not? None: not decided."""
+        answer = [n for r in self.given for n in r.normals]
+        if any(isinstance(p, Pfaffian) for n in (*answer, *self.wanted) for p in n.pieces):
+            choices = list(cartesian(*(n.branches for n in self.wanted if n.branches)))[:MAX_BRANCHES]
+            return any(_is_flat(r, choice, self.setting.positive) for r in self.given for choice in choices)
+        if _lost(answer) and not _lost(self.wanted):
+            return True
+        branches = list(cartesian(*(n.branches for n in (*self.others, *self.wanted) if n.branches)))
+        regular = {self._as_regular(choice) for choice in branches[:MAX_BRANCHES]}
+        if False in regular:
+            return True
+        return None if None in regular or len(branches) > MAX_BRANCHES else False
+
+    def _as_regular(self, choice: Sequence[Sequence[Piece]]) -> bool | None:
+        """Do the gradients of the answer as written span as much as those that were asked for, on one branch?"""
+        finite = [[p for p in branch if isinstance(p, Finite)] for branch in choice]
+        others = len([n for n in self.others if n.branches])
+        before = [p.expr for branch in finite[:others] for p in branch]
+        wanted = [p.expr for branch in finite[others:] for p in branch]
+        if not wanted:
+            return True
+        raw = [e.expr for r in self.given for e in r.constraint.relations]
+        ranks = self._ranks([*chain(*finite)], [*before, *raw], [*before, *wanted])
+        return None if ranks is None else ranks[0] >= ranks[1]
+
+    def _ranks(self, on: Sequence[Finite], *sets: Sequence[Expr]) -> list[int] | None:
+        """The ranks of the gradients of sets of expressions at a generic point of the set where ``on`` vanish."""
+        blocks, _ = split(self.coordinates, [Row(0, p) for p in on])
+        rows = tuple(row for b in blocks for row in b.rows)
+        whole = Block(tuple(n for n in self.coordinates if any(n in b.coordinates for b in blocks)), rows)
+        chart = make_chart(whole, self.setting, more=list(chain(*sets)))
+        result = find(chart, {}, 7)
+        nodes = [[chart.ring.node(e) for e in s] for s in sets]
+        try:
+            if result.samples:
+                point = result.samples[0]
+                return [rank_of_rows(field_jacobian(chart, point, some), point.p) for some in nodes]
+            if result.real is None or not result.real.certified:
+                return None
+            real, columns = result.real.point, [c for c in chart.columns if c >= 0]
+            at = values(chart.ring, real)
+            slopes = [jacobian(chart.ring, at, real, some, columns, arb(0)) for some in nodes]
+        except NoValueError:
+            return None
+        return [ball_part(j).rank if j else 0 for j in slopes]
+
+
+def _lost(normals: Sequence[Normal]) -> bool:
+    """Was a relation a power or a sum of squares in exponentials? Points over GF(p) do not know the zeros of those."""
+    return any(EXPONENT_NOTE in n.notes and not {POWER_NOTE, SQUARES_NOTE}.isdisjoint(n.notes) for n in normals)
+
+
+def _is_flat(r: Reduced, choice: Sequence[Sequence[Piece]], positive: frozenset[Expr]) -> bool:
+    """Return whether the slopes of a relation by all velocities are 0 on forms, as a square's are, or have no value."""
+    written = [in_velocities(e.expr)[0] for e in r.constraint.relations]
+    slopes = [diff(e, v) for e in written for v in velocities_of(e)]
+    if not slopes:
+        return False
+    try:
+        forms = [form_rate(p) for branch in choice for p in branch if isinstance(p, Pfaffian)]
+        return all(is_proved_zero(eliminated(e, forms)[0], positive) for e in slopes)
+    except NoValueError:
+        return True
+
+
+#: Random points at which signs are compared, and how far out they lie.
+POINTS, SCALES = 24, (1, 1, 10, 1000)
+
+
+def same_side(a: Inequality, b: Inequality, others: Sequence[Normal], setting: Setting) -> bool | None:
+    """Do a >= 0 and b >= 0 hold at the same configurations that the others allow? None where that was not decided.
+
+    The signs differ at some point (a ball proves it), or agree at all that are drawn and the boundaries are the same.
+    Where the others leave the boundary only, all of space is looked at.
+    """
+    if a.expr == b.expr:
+        return True
+    finite = [p.expr for n in others for p in n.pieces if isinstance(p, Finite)]
+    seen = list(_signs(a.expr, b.expr, finite, setting))
+    if not seen and others:
+        return same_side(a, b, (), setting)
+    if any(one != other for one, other in seen):
+        return False
+    sides = [follows(_boundary(x), [*others, _boundary(y)], setting) for x, y in ((a, b), (b, a))]
+    if False in sides:
+        return False
+    return True if seen and all(sides) else None
+
+
+def _boundary(q: Inequality) -> Normal:
+    return Normal(((Finite(q.expr),),))
+
+
+def _signs(a: Expr, b: Expr, finite: Sequence[Expr], setting: Setting) -> Iterator[tuple[bool, bool]]:
+    """(a > 0, b > 0) at random points, where both are certain."""
+    ring = Ring([a, b, *finite], setting.positive, {})
+    nodes = [ring.node(g) for g in finite]
+    first, second = ring.node(a), ring.node(b)
+    symbols = sorted({s for e in (a, b, *finite) for s in e.symbols}, key=repr)
+    for k in range(POINTS):
+        point = _point(ring, nodes, symbols, setting, k)
+        try:
+            at = None if point is None else values(ring, point)
+        except (NoValueError, OverflowError, ValueError):
+            continue
+        if at is not None and not at[first].contains(0) and not at[second].contains(0):
+            yield bool(at[first] > 0), bool(at[second] > 0)
+
+
+def _point(ring: Ring, nodes: Sequence[int], symbols: Sequence[Expr], setting: Setting, seed: int) -> BallPoint | None:
+    if nodes:
+        moving = [s for s in symbols if s.args[0] != "parameter"]
+        result = RealSearch(ring, nodes, moving, setting.positive).search(seed)
+        return None if result is None else result.point
+    rng = random.Random(f"dofkit side {seed}")
+    scale = SCALES[seed % len(SCALES)]
+
+    def drawn(s: Expr) -> arb:
+        size = rng.randint(1, 2**20)
+        number = arb(size if s in setting.positive or rng.random() < 0.5 else -size) / 2**19
+        return number if s.args[0] == "parameter" else number * scale
+
+    return BallPoint({s: drawn(s) for s in symbols}, seed)
+
+
+_ROOT = ex.parameter("value of a root")
+
+
+def bounds(wanted: Sequence[Normal], others: Sequence[Reduced]) -> list[Inequality]:
+    """The inequalities of others about coordinates of what is wanted."""
+    symbols = {s for n in wanted for p in n.pieces if isinstance(p, Finite) for s in p.expr.symbols}
+    moving = {s for s in symbols if s.args[0] == "coordinate"}
+    return [q for r in others for q in r.inequalities if moving & q.expr.symbols]
+
+
+def unsound(given: Sequence[Reduced], sound: Sequence[bool | None]) -> list[Expr]:
+    """The equations as written that do not follow; none where they are not one for each relation."""
+    written = [relation.expr for r in given for relation in r.constraint.relations]
+    return [e for e, s in zip(written, sound, strict=True) if not s] if len(written) == len(sound) else []
+
+
+def loses_nothing(
+    e: Expr, wanted: Sequence[Normal], others: Sequence[Normal], sides: Iterable[Inequality], setting: Setting
+) -> bool:
+    """Is e = 0, with one root in it, all that is ``wanted`` where the inequalities hold? False says nothing."""
+    parts = _by_root(e)
+    if parts is None:
+        return False
+    a, b, under = parts
+    squared = Normal(((Finite(b * b - a * a * under),),))
+    if follows(squared, [*others, *wanted], setting) is not True:
+        return False
+    allowed = Inequality(ex.mul(MINUS_ONE, a, b))
+    return any(same_side(allowed, side, others, setting) for side in sides)
+
+
+def _by_root(e: Expr) -> tuple[Expr, Expr, Expr] | None:
+    """(a, b, P) where e is a sqrt(P) + b, with no other root."""
+    roots = {n for n in ex.nodes(e) if n.op == "pow" and n.args[1] == HALF}
+    if len(roots) != 1:
+        return None
+    (root,) = roots
+    named = replace_nodes(e, {root: _ROOT})
+    slope = diff(named, _ROOT)
+    if _ROOT in slope.symbols or slope.is_zero:
+        return None
+    return slope, substitute(named, {_ROOT: ZERO}), root.args[0]
