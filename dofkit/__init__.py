@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from dofkit.methods.certificates.verifying import verify
     from dofkit.methods.classify import classify, derived_flag
     from dofkit.mobility.graph.linkage import Linkage, linkage, redundant_links
+    from dofkit.motion.configurations import configurations
     from dofkit.motion.lagrange.equations import lagrange
-    from dofkit.motion.sampled.configurations import configurations
     from dofkit.pictures.animation import animate
     from dofkit.pictures.still import draw, graph, phase
     from dofkit.report import Report
@@ -58,7 +58,7 @@ _MODULES = {
     "methods.classify": ["classify", "derived_flag"],
     "mobility.graph.linkage": ["Linkage", "linkage", "redundant_links"],
     "motion.lagrange.equations": ["lagrange"],
-    "motion.sampled.configurations": ["configurations"],
+    "motion.configurations": ["configurations"],
     "pictures.animation": ["animate"],
     "pictures.still": ["draw", "graph", "phase"],
     "report": ["Report"],

@@ -28,7 +28,7 @@ from dofkit.exact.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.integrals.normal_shape import arranged, upright
+from dofkit.integrability.integrals.search import arranged, upright
 from dofkit.integrability.pfaffian_system import Codistribution
 from dofkit.relations.chart import free_point
 

@@ -30,6 +30,8 @@ TraitAnswer = tuple[bool | None, Verdict]
 
 #: Points at which a degree is read off, the largest denominator that it has, and how close it comes.
 DRAWS, MAX_DEGREE, CLOSE = 8, 64, 1e-9
+#: Times at which a factor of time alone may rest at 0.
+TIMES = tuple(Fraction(n, 3) for n in (-80, -31, -14, -7, -2, 1, 4, 8, 11, 16, 29, 80))
 
 
 @dataclass(frozen=True)
@@ -91,8 +93,34 @@ def _is_still(f: Expr, sided: bool, positive: frozenset[Expr], engines: Engines)
     """Return whether the zero set of a factor is the same at all times: df/dt = 0 on it, where it is regular."""
     moving = [s for s in f.symbols if s.args[0] in ("coordinate", "velocity")]
     if not moving:
-        return None, "undecided"
+        return (False, "proved") if _rests_at_zero(f, positive) else (None, "undecided")
     return vanishes_on(f, diff(f, ex.TIME), positive, engines, None if sided else moving)
+
+
+def _rests_at_zero(f: Expr, positive: frozenset[Expr]) -> bool:
+    """Return whether f(t) is proved to be 0 through an interval of time, and not 0 at another time.
+
+    Near a time at which no absolute value is 0, f is what it is on that branch, an analytic function.
+    """
+    if f.symbols != {ex.TIME}:
+        return False
+    rests, acts = False, False
+    for time in TIMES:
+        value = interval_of(f, {ex.TIME: time})
+        if value is not None and not value.contains(0):
+            acts = True
+            continue
+        memo: dict[Expr, Expr] = {}
+        for node in ex.nodes(f):
+            new = ex.rebuild(node, tuple(memo[child] for child in ex.children(node)))
+            if new.op == "fn" and new.args[0] == "abs":
+                inside = interval_of(new.args[1], {ex.TIME: time})
+                if inside is not None and not inside.contains(0):
+                    new = new.args[1] if inside > 0 else -new.args[1]
+            memo[node] = new
+        branch = memo[f]
+        rests = rests or (is_analytic(branch, [ex.TIME], positive) and is_proved_zero(branch, positive))
+    return rests and acts
 
 
 def _rate(form: Pfaffian) -> Expr:

@@ -12,16 +12,11 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import accelerations_of, cleared, in_velocities
 from dofkit.expressions.tree import Expr
-from dofkit.methods.table import MethodReply
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Pfaffian
-from dofkit.scene.constraints.base import Equation
 from dofkit.scene.lowering import lower
 from dofkit.scene.scene import Scene
 from dofkit.system import System
-
-#: What an answer is called among the constraints of its scene.
-ANSWER = "the answer"
 
 
 @dataclass(frozen=True)
@@ -57,16 +52,6 @@ class Written:
         found = {ex.parameter(p) for p, sign in self.system.parameters.items() if sign == "positive"}
         return frozenset(found | {ex.parameter(p) for p in self.system.generic if p.startswith("_L")})
 
-    def only(self, constraints: Sequence[int]) -> Written:
-        """The equations of some constraints."""
-        kept = frozenset(constraints)
-        return Written(
-            self.system,
-            tuple((i, g) for i, g in self.finite if i in kept),
-            tuple((i, f) for i, f in self.forms if i in kept),
-            {i: why for i, why in self.others.items() if i in kept},
-        )
-
 
 def as_written(scene: Scene | System) -> Written:
     """The equations of a scene."""
@@ -101,27 +86,6 @@ def _read(e: Expr) -> Expr | Pfaffian | str:
         return Pfaffian({}, moving) if divided else moving
     form = linear_form(cleared(moving))
     return "nonlinear" if form is None else form
-
-
-@dataclass(frozen=True)
-class WrittenAnswer:
-    """An answer, the constraint that it should be, and the others, as written."""
-
-    answer: Written
-    asked: Written
-    rest: Written
-
-
-def posed(scene: Scene, answer: Mapping[str, str]) -> WrittenAnswer:
-    """What is compared where an answer is; raises SceneError where it cannot be read."""
-    texts = [part for part in answer["text"].replace("\n", ";").split(";") if part.strip()]
-    more = [Equation(name=f"{ANSWER} {k}", text=text) for k, text in enumerate(texts)]
-    whole = as_written(scene.model_copy(update={"constraints": (*scene.constraints, *more), "expect": {}}))
-    names = [c.name for c in whole.system.constraints]
-    asked = [i for i, name in enumerate(names) if name == answer["constraint"]]
-    given = [i for i, name in enumerate(names) if name.startswith(ANSWER)]
-    rest = [i for i in range(len(names)) if i not in asked and i not in given]
-    return WrittenAnswer(whole.only(given), whole.only(asked), whole.only(rest))
 
 
 def labelled(written: Written, holonomic: Mapping[int, bool]) -> dict[str, bool]:
@@ -273,69 +237,6 @@ def droppable(found: SampledPoints, numbers: Decider) -> list[str]:
             dropped.add(i)
     names = [c.name for c in rows.written.system.constraints]
     return sorted(names[i] for i in dropped)
-
-
-def same(question: WrittenAnswer, numbers: Decider) -> MethodReply:
-    """Does each hold where the other does, at the points that are looked at?"""
-    answer, asked, rest = question.answer, question.asked, question.rest
-    if answer.others or asked.others:
-        return MethodReply(
-            None, "inequalities and equations nonlinear in the velocities are not compared at points", True
-        )
-    if bool(answer.forms) != bool(asked.forms) or bool(answer.finite) != bool(asked.finite):
-        return MethodReply(False, "one is about positions, the other about velocities")
-    if asked.forms:
-        return _same_span(answer, asked, rest, numbers)
-    for given, held in ((asked, answer), (answer, asked)):
-        held_there = _holds_on(together(rest, given), held, numbers)
-        if held_there is None:
-            return MethodReply(None, "no point of the constraints was found")
-        if not held_there:
-            return MethodReply(False, "there is a point where one holds and the other does not")
-    return MethodReply(True)
-
-
-def together(first: Written, second: Written) -> Written:
-    """The equations of both."""
-    others = {**first.others, **second.others}
-    return Written(first.system, first.finite + second.finite, first.forms + second.forms, others)
-
-
-def _holds_on(given: Written, held: Written, numbers: Decider) -> bool | None:
-    standing = Written(given.system, given.finite, ())
-    rows = WrittenRows(standing, held.expressions)
-    asked = WrittenRows(together(standing, held))
-    points = numbers.points(standing, rows, False)
-    if not points:
-        return None
-    start = len(standing.finite)
-    for point in points:
-        s = asked.at(point, numbers.zero)
-        for residual, row in zip(s.residuals[start:], s.finite[start:], strict=True):
-            if not numbers.vanishes(residual, [*row, numbers.zero + 1]):
-                return False
-    return True
-
-
-def _same_span(answer: Written, asked: Written, rest: Written, numbers: Decider) -> MethodReply:
-    """At points of the finite equations, the forms of both and of the others span the same."""
-    whole = together(rest, together(asked, answer))
-    standing = Written(whole.system, rest.finite, ())
-    points = numbers.points(standing, WrittenRows(standing, whole.expressions), False)
-    if not points:
-        return MethodReply(None, "no point of the constraints was found")
-    given, wanted, both = (WrittenRows(together(rest, w)) for w in (answer, asked, together(asked, answer)))
-    for point in points:
-        mine, theirs, all_rows = (numbers.rank(_padded(r, whole, point, numbers)) for r in (given, wanted, both))
-        if not mine == theirs == all_rows:
-            return MethodReply(False, "at a point they allow different velocities")
-    return MethodReply(True)
-
-
-def _padded(rows: WrittenRows, whole: Written, point: Point, numbers: Decider) -> Matrix:
-    """The rows over (q, t) even where time does not occur."""
-    more = [numbers.zero] if whole.timed and not rows.written.timed else []
-    return [[*row, *more] for row in rows.at(point, numbers.zero).rows]
 
 
 def drawn_value(value: Expr, point: Any) -> Scalar:

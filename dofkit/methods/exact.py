@@ -28,16 +28,14 @@ from dofkit.methods.as_written import (
     independent_at_reference,
     labels,
     look,
-    posed,
-    same,
 )
 from dofkit.methods.ask import CONTRADICTORY
 from dofkit.methods.table import Knobs, MethodReply, cannot
 from dofkit.scene.scene import Scene
 from dofkit.system import System
 
-#: Draws of a rational point, and points that answers are compared at.
-DRAWS, COMPARED = 8, 3
+#: Draws of a rational point.
+DRAWS = 8
 IRRATIONAL = "a number that occurs is irrational, and only rational ones are computed with"
 KINK = "something within abs() is 0 there, where there is no gradient"
 NOWHERE = "no rational configuration is given, and none was found by solving the equations one after the other"
@@ -114,8 +112,8 @@ class Rationals:
 
     zero = fmpq(0)
 
-    def __init__(self, seed: int, draws: int = 1) -> None:
-        self.seed, self.draws = seed, draws
+    def __init__(self, seed: int) -> None:
+        self.seed = seed
 
     def rank(self, matrix: Matrix) -> int:
         return fmpq_mat(matrix).rank() if matrix and matrix[0] else 0
@@ -140,7 +138,7 @@ class Rationals:
     def points(self, written: Written, rows: WrittenRows, drawn: bool) -> list[RationalPoint]:
         if drawn:
             return [self._drawn(written)]
-        order, found = solvable(written), list[RationalPoint]()
+        order = solvable(written)
         if order is None and not _linear(written):
             return []
         for k in range(DRAWS):
@@ -153,10 +151,8 @@ class Rationals:
                 value_of_all(rows, point)
             except (IrrationalError, NoValueError):
                 continue
-            found.append(point)
-            if len(found) == self.draws:
-                break
-        return found
+            return [point]
+        return []
 
     def _drawn(self, written: Written) -> RationalPoint:
         point = RationalPoint(random.Random(f"dofkit rational {self.seed}"), free=False)
@@ -278,8 +274,3 @@ def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
 def _unless_contradictory(told: MethodReply) -> MethodReply:
     """Where the constraints contradict each other there are no labels."""
     return MethodReply(None, told.reason, told.cannot)
-
-
-def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> MethodReply:
-    """By what holds at a few rational points."""
-    return same(posed(scene, answer), Rationals(knobs.seed, COMPARED))

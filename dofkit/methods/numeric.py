@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -26,8 +26,6 @@ from dofkit.methods.as_written import (
     independent_at_reference,
     labels,
     look,
-    posed,
-    same,
 )
 from dofkit.methods.ask import CONTRADICTORY
 from dofkit.methods.table import Knobs, MethodReply
@@ -132,11 +130,6 @@ def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By the numeric ranks with and without each constraint."""
     found, numbers = _look(scene, knobs)
     return MethodReply(None, NOWHERE.format(STARTS)) if found is None else MethodReply(droppable(found, numbers))
-
-
-def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> MethodReply:
-    """By differences within the tolerance, at a few points."""
-    return same(posed(scene, answer), Floats(knobs.tolerance, knobs.seed))
 
 
 def _is_clear(found: SampledPoints, numbers: Floats) -> bool:

@@ -6,7 +6,7 @@ on which the constraints hold, but for a drawing that is put in.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import combinations
 from typing import Any
 
@@ -15,7 +15,7 @@ import sympy
 from dofkit.expressions import tree as ex
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.tree import Expr
-from dofkit.methods.as_written import Written, as_written, labelled, posed
+from dofkit.methods.as_written import Written, as_written, labelled
 from dofkit.methods.table import Knobs, MethodReply
 from dofkit.scene.scene import Scene
 from dofkit.system import System
@@ -144,31 +144,3 @@ def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
             dropped.add(i)
     names = [c.name for c in symbols.written.system.constraints]
     return MethodReply(sorted(names[i] for i in dropped))
-
-
-def equivalence(scene: Scene, knobs: Knobs, answer: Mapping[str, str]) -> MethodReply:
-    """simplify(a - b) == 0, or simplify(a + b) == 0, equation by equation."""
-    del knobs
-    question = posed(scene, answer)
-    if question.answer.others or question.asked.others:
-        return MethodReply(None, "inequalities and equations nonlinear in the velocities are not compared", True)
-    given, asked = _entries(question.answer), _entries(question.asked)
-    if len(given) != len(asked):
-        return MethodReply(False, "they are not as many equations")
-    met = [any(_alike(a, b) for b in given) for a in asked]
-    used = [any(_alike(a, b) for a in asked) for b in given]
-    return MethodReply(all(met) and all(used))
-
-
-def _entries(written: Written) -> list[list[Any]]:
-    """Each equation as what is compared: a finite one as it is, a form by its coefficients."""
-    symbols = Symbols(written)
-    width = len(symbols.written.coordinates) + 1
-    forms = [[f.get((k,), sympy.Integer(0)) for k in range(width)] for _, f in symbols.forms]
-    return [[g] for _, g in symbols.finite] + forms
-
-
-def _alike(a: Sequence[Any], b: Sequence[Any]) -> bool:
-    if len(a) != len(b):
-        return False
-    return any(all(sympy.simplify(x + sign * y) == 0 for x, y in zip(a, b, strict=True)) for sign in (-1, 1))

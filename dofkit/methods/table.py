@@ -140,7 +140,6 @@ METHODS: Mapping[MethodName, Method] = {
             ),
             "integrability": Use("that a form fails Frobenius' test at a regular point", "O(n^3 k) at one point"),
             "redundancy": Use("that nothing is, where all equations are independent at that point", "O(m n^2)"),
-            "equivalence": Use("that an answer is a different equation", "one rational point"),
         },
         "it looks at one point, which may be special, knows rational numbers only, and neither follows a motion nor "
         "sees holonomic equations that differential ones imply",
@@ -153,7 +152,6 @@ METHODS: Mapping[MethodName, Method] = {
             "dof": Use("velocities at a configuration, where a clear gap separates the singular values", "O(n^3)"),
             "integrability": Use("nothing for sure: small is taken for 0", "O(n^3 k) at a few points"),
             "redundancy": Use("nothing for sure: small is taken for 0", "O(m n^3): a rank for each constraint"),
-            "equivalence": Use("nothing for sure: small is taken for 0", "Newton's method at a few starts"),
         },
         "it does not distinguish a small number from 0, an infinitesimal motion from a finite one, or the absence of a "
         "solution from a failed search",
@@ -165,7 +163,6 @@ METHODS: Mapping[MethodName, Method] = {
             "dof": Use("matrices whose zeros SymPy sees, away from the constraints' own set", "grows exponentially"),
             "integrability": Use("what SymPy simplifies to 0 for one system of forms", "grows exponentially in k"),
             "redundancy": Use("matrices whose zeros SymPy sees", "grows exponentially, once for each constraint"),
-            "equivalence": Use("differences that SymPy simplifies to 0", "simplify: no bound"),
         },
         "it looks at the whole space and not at where the constraints hold, takes for non-zero what it cannot "
         "simplify, and may not end",

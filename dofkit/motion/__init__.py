@@ -4,15 +4,15 @@ The question: which accelerations do energies, forces and the classified constra
 does a motion pass through? The results are a `MotionReport` and a list of configurations.
 
 `lagrange`, in the order of a derivation
-    1. `energies` and `forces` read T, V, D and the applied forces of a scene; `joint_motion` gives those of a tree of
-       bodies in the angles and displacements of its joints.
+    1. `energies` reads T, V, D and the applied forces of a scene; `joint_motion` gives those of a tree of bodies in
+       the angles and displacements of its joints.
     2. `elimination` solves finite relations in closed form; `model` has the energies and the constraints that are left.
     3. `derivation` has Lagrange's equations of the second kind by SymPy, which `tidying` writes as on a board.
-    4. `conserved` has cyclic coordinates and first integrals [Noether1918], `small_motions` equilibria and the
-       linearization about one; `equations` has the entry point `dofkit.lagrange`, `report` its result.
+    4. `small_motions` has equilibria and the linearization about one, `equations` cyclic coordinates and first
+       integrals [Noether1918] and the entry point `dofkit.lagrange`, `report` its result.
     Every equation can be rechecked by `dofkit.checker`.
 
-`sampled`
+Samples
     `configurations` follows a motion by arclength: `continuation` has the predictor along the tangent space and
     Newton's method back to the configuration space, `poses` the relations in floating point with quaternions for
     rotations. It is for pictures and samples; no verdict rests on it.

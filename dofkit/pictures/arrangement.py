@@ -17,7 +17,7 @@ import numpy as np
 
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import DT, TIME, Expr, coordinate, differential, parameter, velocity
-from dofkit.motion.sampled.configurations import configurations
+from dofkit.motion.configurations import configurations
 from dofkit.pictures.evaluation import by_pivots, derivatives, evaluated, kernel, values_at, with_unit_rows
 from dofkit.pictures.shapes import AT_REST, Array, Displacement, Place, place
 from dofkit.system import GROUND, PARTICLE_ROLES, Coordinate, System

@@ -10,7 +10,7 @@ import numpy as np
 from dofkit.base.deadline import limited
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import TIME, coordinate, parameter
-from dofkit.motion.sampled.configurations import configurations
+from dofkit.motion.configurations import configurations
 from dofkit.pictures.arrangement import MOVES, Arrangement, FreeMotion, displaced, poses_of
 from dofkit.pictures.shapes import Clip, Poses, Sketch
 from dofkit.pictures.stage import StagedScene

@@ -16,7 +16,7 @@ BAD: list[tuple[str, list[str]]] = [
     ("[1, 2]", ["an assignment is a mapping of keys to values"]),
     ("title: T", ["1:1 an assignment needs 'problems'"]),
     ("title: T\nproblem: []", ["2:1 unknown key 'problem' in an assignment"]),
-    ("title: T\nproblems: []", ["2:11 at least 1 entries are needed"]),
+    ("title: T\nproblems: []", ["2:11 at least 1 entry is needed, not 0"]),
     ("title: T\ntitle: U\nproblems: 3", ["2:1 the key 'title' is written twice"]),
     ("title: T\nproblems: [", ["2:12 a value is needed"]),
     (

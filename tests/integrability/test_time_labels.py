@@ -33,8 +33,8 @@ TABLE: list[tuple[str, list[str], bool | None, bool | None, str]] = [
     ("x y z", ["t (dz - y dx) = 0"], True, True, "analytic in t alone"),
     ("x y z", ["exp(t) (dx + y dz) = 0"], True, True, "never 0"),
     ("x y", ["cos(t) dx + sin(t) dy = 0"], False, True, "the direction turns with t"),
-    ("x y", ["(t + abs(t)) (dx - 2 dy) = 0"], None, True, "it binds after t = 0 only"),
-    ("x y", ["(t - 4 + abs(t - 4)) (dx - 2 dy) = 0"], None, True, "it binds after t = 4 only"),
+    ("x y", ["(t + abs(t)) (dx - 2 dy) = 0"], False, True, "it binds after t = 0 only"),
+    ("x y", ["(t - 4 + abs(t - 4)) (dx - 2 dy) = 0"], False, True, "it binds after t = 4 only"),
     ("x y z", ["(x - t) (xdot + y zdot) = 0"], False, True, "x = t is a branch"),
     # Pfaffian: integrable, alone or in the system.
     ("x y", ["dx = y dy"], True, True, "x - y^2/2 = C"),
@@ -98,7 +98,7 @@ def test_acatastatic_is_printed() -> None:
     assert "acatastatic" in report._repr_html_()
 
 
-def test_a_growth_vector_is_undecided_where_it_is_whether_time_enters() -> None:
-    """(dz - y dx) times what rests at 0 for t < 0: (2, 3) in q where time can be divided out, (3, 4) with it."""
-    assert classified("x y z", ["(t + abs(t)) (dz - y dx) = 0"]).growth_vector is None
+def test_a_growth_vector_counts_time_where_it_enters() -> None:
+    """(dz - y dx) times what rests at 0 for t < 0 and cannot be divided out: (3, 4) in (q, t) where it acts."""
+    assert classified("x y z", ["(t + abs(t)) (dz - y dx) = 0"]).growth_vector == [3, 4]
     assert classified("x y z", ["c(t) (dz - y dx) = 0"]).growth_vector == [2, 3]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import dofkit
-from dofkit.motion.sampled.configurations import NoMotionError
+from dofkit.motion.configurations import NoMotionError
 
 Configuration = dict[str, float]
 Array = np.ndarray[Any, Any]

@@ -23,9 +23,13 @@ from dofkit.exact.zero import BALLS, BOTH, doubt, independent_generators
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import SampledSpan, on_the_same_part, span_at
 from dofkit.integrability.nonlinear_velocities import first_order_beside_bends, set_velocity_freedom
-from dofkit.integrability.pfaffian_system import Codistribution, codistribution, first_order_freedom
+from dofkit.integrability.pfaffian_system import (
+    Codistribution,
+    codistribution,
+    first_order_freedom,
+    is_on_variety,
+)
 from dofkit.integrability.prolongation import confinements, prolong
-from dofkit.integrability.regular_reference import on_reference, regular_reference
 from dofkit.integrability.row_labels import ball_labels, field_labels
 from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
@@ -199,14 +203,12 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
         return result if alike else replace(result, about="component")
     if "field" not in forms.chart.engines:
         return Variety(None, None, "undecided", reasons=[IRREGULAR])
-    drawn = on_reference(forms, setting.reference)
-    if drawn is None:
-        return Variety(None, None, "undecided", reasons=[IRREGULAR])
-    if drawn and is_irreducible(forms.chart) and _as_large(forms, setting.reference):
-        return find(forms.chart, setting.pose)
-    if not drawn:
+    there = is_on_variety(forms, setting.reference)
+    if there is False:
         return replace(find(forms.chart, setting.pose), about="component")
-    return regular_reference(forms, drawn, setting.reference) or Variety(None, None, "undecided", reasons=[IRREGULAR])
+    if there and is_irreducible(forms.chart) and _as_large(forms, setting.reference):
+        return find(forms.chart, setting.pose)
+    return Variety(None, None, "undecided", reasons=[IRREGULAR])
 
 
 def _as_large(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool:

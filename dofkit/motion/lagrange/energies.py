@@ -7,16 +7,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Literal
 
 from dofkit.base.errors import Fault
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import HALF, ZERO, Expr
-from dofkit.expressions.vectors import Vec, square
-from dofkit.motion.lagrange.forces import PARTS, EntryWorlds, ForceReader, Numbered, mass, masses, moving
+from dofkit.expressions.vectors import Vec, dot, length, minus, plus, scaled, square
+from dofkit.motion.lagrange.elimination import by_time
 from dofkit.scene.drawing import Drawing
-from dofkit.scene.frames import Frame
+from dofkit.scene.frames import Frame, Placed
+from dofkit.scene.ledger import MOVING
+from dofkit.scene.parts import Force
 from dofkit.scene.scene import Scene
 from dofkit.scene.world import World
+from dofkit.system import GROUND
 
 
 @dataclass(frozen=True)
@@ -143,3 +149,222 @@ def body_spin(frame: Frame) -> Vec:
 
 def _speed_squared(names: tuple[str, ...]) -> Expr:
     return ex.add(*(ex.velocity(name) ** 2 for name in names))
+
+
+Part = Literal["potential", "dissipation", "applied"]
+PARTS: tuple[Part, ...] = ("potential", "dissipation", "applied")
+#: What a force enters.
+_PART: dict[str, Part] = {
+    "spring": "potential",
+    "gravity": "potential",
+    "damper": "dissipation",
+    "force": "applied",
+}
+#: A force and its place among those of the scene.
+Numbered = tuple[int, Force]
+
+
+@dataclass
+class ForceReader:
+    """Reads the forces of a scene, each in its world; ``notes`` say what was taken for granted."""
+
+    scene: Scene
+    worlds: EntryWorlds
+    notes: list[str] = field(default_factory=list)
+
+    def entering(self, part: Part) -> list[Numbered]:
+        """The forces that enter the potential energy, the dissipation function, or none of them."""
+        return [(i, force) for i, force in enumerate(self.scene.forces) if _PART[force.type] == part]
+
+    def potential(self, entries: Sequence[Numbered]) -> Expr:
+        """V of springs and gravity."""
+        terms = {"gravity": self._gravity, "spring": self._spring}
+        return ex.add(*(terms[force.type](self.worlds.at("forces", i), force) for i, force in entries))
+
+    def dissipation(self, entries: Sequence[Numbered]) -> Expr:
+        """D of dampers."""
+        return ex.add(*(_damper(self.worlds.at("forces", i), force) for i, force in entries))
+
+    def applied(self, entries: Sequence[Numbered]) -> dict[str, Expr]:
+        """Q by coordinate, where it is not 0."""
+        work: dict[str, Expr] = {}
+        for i, force in entries:
+            world = self.worlds.at("forces", i)
+            if force.point is not None:
+                place = _place(world.point(force.point, "point"))
+            elif force.body is not None:
+                place = world.frame(force.body, "body").position
+            else:
+                hint = "name its `point` or `body`, or give `energies: {forces: ...}`"
+                world.fault("the point at which the force acts is missing", hint=hint)
+                continue
+            vector = _vector(world, force.value, force.direction, "value", downward=False)
+            for q in world.table.coordinates:
+                symbol = ex.coordinate(q.name)
+                power = ex.add(*(f * diff(part, symbol) for f, part in zip(vector, place, strict=True)))
+                if not power.is_zero:
+                    work[q.name] = work.get(q.name, ZERO) + power
+        return work
+
+    def _gravity(self, world: World, force: Force) -> Expr:
+        pull = _pull(world, force)
+        return -ex.add(*(
+            mass * dot(pull, tuple(map(ex.coordinate, names))) for _, mass, names in masses(self.scene, self.worlds)
+        ))  # fmt: skip
+
+    def _spring(self, world: World, force: Force) -> Expr:
+        stiffness = needed(world, force.stiffness, "stiffness", "of a spring")
+        turned = _turned(world, force)
+        if turned is not None:
+            rest = ZERO if force.rest_length is None else moving(world, force.rest_length, "rest_length")
+            return HALF * stiffness * (turned - rest) ** 2
+        ends = _ends(world, force)
+        if ends is None:
+            return ZERO
+        gap = minus(_place(ends[1]), _place(ends[0]))
+        if force.rest_length is not None:
+            rest = moving(world, force.rest_length, "rest_length")
+        elif ends[0].reference is not None and ends[1].reference is not None:
+            rest = length(minus(ends[1].reference, ends[0].reference))
+            self.notes.append("A spring without `rest_length` is unstretched in the reference configuration.")
+        else:
+            world.fault("a spring needs its `rest_length` here", hint="write its length without load, perhaps 0")
+            return ZERO
+        if rest.is_zero:
+            return HALF * stiffness * square(gap)
+        return HALF * stiffness * (ex.sqrt(square(gap)) - rest) ** 2
+
+
+def gravity_of(scene: Scene, worlds: EntryWorlds) -> Vec:
+    """The acceleration of all gravity in a scene."""
+    pulls = [_pull(worlds.at("forces", i), force) for i, force in enumerate(scene.forces) if force.type == "gravity"]
+    return plus((ZERO,) * scene.dimension, *pulls)
+
+
+def _pull(world: World, force: Force) -> Vec:
+    return _vector(world, force.acceleration, force.direction, "acceleration", downward=True)
+
+
+def _damper(world: World, force: Force) -> Expr:
+    damping = needed(world, force.damping, "damping", "of a damper")
+    turned = _turned(world, force)
+    if turned is not None:
+        return HALF * damping * by_time(turned) ** 2
+    ends = _ends(world, force)
+    if ends is None:
+        return ZERO
+    gap = minus(_place(ends[1]), _place(ends[0]))
+    if len(gap) == 1:
+        return HALF * damping * by_time(gap[0]) ** 2
+    along = dot(gap, tuple(by_time(part) for part in gap))
+    return HALF * damping * along**2 / square(gap)
+
+
+def _ends(world: World, force: Force) -> tuple[Placed, Placed] | None:
+    if force.between is None or any(isinstance(e, str) and e in (*world.frames, GROUND) for e in force.between):
+        hint = "write `between: [point, point]`; a point of a body is {on: BODY, at: [..]}"
+        world.fault(f"a {force.type} needs the two points that it acts between", "between", hint=hint)
+        return None
+    first, second = (world.point(end, "between", j) for j, end in enumerate(force.between))
+    return first, second
+
+
+def _turned(world: World, force: Force) -> Expr | None:
+    """The angle between two planar bodies that a torsion spring or damper acts on."""
+    names = [e for e in force.between or () if isinstance(e, str) and e in (*world.frames, GROUND)]
+    if len(names) != 2 or world.dimension != 2:
+        return None
+    first, second = (world.frame(name, "between") for name in names)
+    return second.angle - first.angle
+
+
+def _vector(world: World, value: object, direction: object, key: str, downward: bool) -> Vec:
+    """A vector from its components, or from its size and direction (gravity's is the last axis, downward)."""
+    d = world.dimension
+    zero: Vec = (ZERO,) * d
+    if isinstance(value, tuple):
+        if len(value) != d:
+            world.fault(f"this vector has {len(value)} components, and the dimension of the scene is {d}", key)
+            return zero
+        return tuple(moving(world, part, key, i) for i, part in enumerate(value))
+    size = needed(world, value, key, "of gravity" if downward else "of a force")
+    if direction is None:
+        if not downward and d > 1:
+            world.fault("the `direction` of the force is missing", hint="or give its components as `value`")
+            return zero
+        return (*(ZERO,) * (d - 1), -size if downward else size)
+    if not isinstance(direction, tuple) or len(direction) != d:
+        world.fault(f"a direction has {d} components here", "direction")
+        return zero
+    along = tuple(moving(world, part, "direction", i) for i, part in enumerate(direction))
+    if all(part.is_zero for part in along):
+        world.fault("a direction cannot be zero", "direction")
+        return zero
+    return scaled(size / length(along), along)
+
+
+def _place(point: Placed) -> Vec:
+    return tuple(part / point.under for part in point.over)
+
+
+#: Stand for a mass or an inertia that the scene leaves out; an error where the motion depends on it.
+MISSING = "_missing "
+
+
+@dataclass
+class EntryWorlds:
+    """The world as each entry of a scene sees it that is read for the motion, and all their faults."""
+
+    drawing: Drawing
+    _worlds: list[World] = field(default_factory=list)
+
+    def at(self, *here: str | int) -> World:
+        """The world of the entry at a path."""
+        self._worlds.append(World(self.drawing, here))
+        return self._worlds[-1]
+
+    @property
+    def faults(self) -> tuple[Fault, ...]:
+        """In the order in which the entries were read."""
+        return tuple(fault for world in self._worlds for fault in world.faults)
+
+
+def moving(world: World, value: object, *where: str | int) -> Expr:
+    """A number or a text, which may mention velocities; 0, and a fault of the world's, where it is neither."""
+    if isinstance(value, (str, Fraction)):
+        return world.expression(value, *where, allow=MOVING)
+    world.fault("one value is needed here, not a list", *where, hint="write a number or a text")
+    return ZERO
+
+
+def needed(world: World, value: object, key: str, what: str) -> Expr:
+    """The same of a value that must be given."""
+    if value is None:
+        world.fault(f"the `{key}` {what} is missing", hint="give a number or a parameter")
+        return ZERO
+    return moving(world, value, key)
+
+
+def mass(world: World, value: object, key: str, name: str) -> Expr:
+    """A mass or an inertia, or a parameter in its place that says that it is missing."""
+    return ex.parameter(f"{MISSING}{key} of {name}") if value is None else moving(world, value, key)
+
+
+def masses(scene: Scene, worlds: EntryWorlds) -> Iterator[tuple[World, Expr, tuple[str, ...]]]:
+    """For every particle, then every body: its world, its mass and the coordinates of its place."""
+    table = worlds.drawing.vocabulary.table
+    for i, particle in enumerate(scene.particles):
+        world = worlds.at("particles", i)
+        yield world, mass(world, particle.mass, "mass", particle.name), table.particles[particle.name]
+    for i, body in enumerate(scene.bodies):
+        world = worlds.at("bodies", i)
+        yield world, mass(world, body.mass, "mass", body.name), table.bodies[body.name][: worlds.drawing.dimension]
+
+
+def missing(symbols: frozenset[Expr], scene: Scene) -> list[Fault]:
+    """A fault for everything that was left out and that the motion depends on, where it belongs."""
+    named = sorted(str(s.args[1]).removeprefix(MISSING) for s in symbols if str(s.args[1]).startswith(MISSING))
+    where: dict[str, tuple[str | int, ...]] = {p.name: ("particles", i) for i, p in enumerate(scene.particles)}
+    where.update({b.name: ("bodies", i) for i, b in enumerate(scene.bodies)})
+    hint = "give it, or `energies: {kinetic: ...}`"
+    return [Fault(f"the {name} is missing", where.get(name.rpartition(" ")[2], ()), hint=hint) for name in named]

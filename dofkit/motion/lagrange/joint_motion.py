@@ -32,8 +32,7 @@ from dofkit.expressions.vectors import (
     unit,
 )
 from dofkit.mobility.joint_tree import tree_coordinates
-from dofkit.motion.lagrange.energies import Energy, spin_energy
-from dofkit.motion.lagrange.forces import EntryWorlds, gravity_of, masses
+from dofkit.motion.lagrange.energies import Energy, EntryWorlds, gravity_of, masses, spin_energy
 from dofkit.scene.constraints.coupling import Coupling
 from dofkit.scene.drawing import Drawing
 from dofkit.scene.frames import Frame, euler

@@ -16,8 +16,8 @@ from dofkit.exact.points.balls import precise_for
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.motion.sampled.continuation import STRAIGHT, Follower, Reached
-from dofkit.motion.sampled.poses import Pose, PoseRelations, number
+from dofkit.motion.continuation import STRAIGHT, Follower, Reached
+from dofkit.motion.poses import Pose, PoseRelations, number
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian, Reduced
 from dofkit.relations.setting import Setting

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dofkit.configuration.local.neighbourhood import damped
-from dofkit.motion.sampled.poses import FAULTS, Array, Pose, PoseRelations
+from dofkit.motion.poses import FAULTS, Array, Pose, PoseRelations
 
 #: Relative residual of what is held, rounds of Newton's method, and those with much damping.
 HELD, ROUNDS, EASY = 1e-12, 60, 8

@@ -1,1 +1,0 @@
-"""Configurations along a motion, followed by arclength."""
