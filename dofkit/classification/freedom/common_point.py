@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from flint import arb
 
+from dofkit.base.errors import TextError
 from dofkit.base.libraries import components
 from dofkit.base.verdicts import weakest
 from dofkit.classification.freedom.block import answer
@@ -262,8 +263,11 @@ def _ball(text: str, exact: Expr | None) -> arb:
     try:
         value = arb(text)
     except ValueError:
-        known = interval_of(parse_expression(text, Names()) if exact is None else exact)
-        return arb("nan") if known is None else known
+        try:
+            ball = interval_of(parse_expression(text, Names()) if exact is None else exact)
+        except TextError:  # it has no real value there, as log(0)
+            ball = None
+        return arb("nan") if ball is None else ball
     return value + arb(0, 1) * (1 + abs(value)) * DIGITS_BALL if {".", "e"} & {*text} else value
 
 
