@@ -277,7 +277,11 @@ class PlaneGraph:
     def __init__(self, joints: int, ends: Any) -> None:
         self._joints = joints
         self._game = PebbleGame(joints, ends)
-        self._ends = list(zip(self._game.net.tail, self._game.net.head, strict=True))
+
+    @cached_property
+    def _ends(self) -> list[tuple[int, int]]:
+        """The joints of each link."""
+        return list(zip(self._game.net.tail, self._game.net.head, strict=True))
 
     @property
     def redundant(self) -> list[int]:
@@ -302,7 +306,7 @@ class PlaneGraph:
         return self._groups
 
     def clusters(self) -> list[list[int]]:
-        if len(self._ends) - len(self.redundant) == 2 * self._joints - 3:
+        if len(self._game.net.tail) - len(self.redundant) == 2 * self._joints - 3:
             return [list(range(self._joints))]
         game = deepcopy(self._game)
         game.complete_blocks()
