@@ -132,8 +132,6 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     native = options.native
     mark = fingerprint(prepared, options.check_only, roster)
     with grading(orders, options.workers, options.scheduler) as grade_all:
-        if native is not None and not native.exists():
-            unfinished(native).unlink(missing_ok=True)
         with nullcontext() if native is None else closing(Journal(unfinished(native), mark)) as journal:
             lines = settled(orders, _graded(grade_all, stream, people, journal))
             if options.out is None or native is None:
