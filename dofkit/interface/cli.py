@@ -137,6 +137,7 @@ def grade(
     form: options.ResultFormat = "native",
     out: options.ResultPath = None,
     workers: options.Workers = None,
+    scheduler: options.Scheduler = None,
     check_only: options.CheckOnly = False,
     reviewed: options.ReviewTable = None,
     roster: options.RosterPath = None,
@@ -144,7 +145,7 @@ def grade(
     """Grade the submissions of an assignment, with feedback."""
     from dofkit.homework.runs.run import GradingOptions, run
 
-    chosen = GradingOptions(form, out, workers, check_only, reviewed, roster)
+    chosen = GradingOptions(form, out, workers, scheduler, check_only, reviewed, roster)
     with failures_of(assignment):
         clean = run(assignment, submissions, chosen)
     if not clean:

@@ -182,7 +182,7 @@ Linearize = Annotated[bool, Option("--linearize", help=_LINEARIZE)]
 
 _SUBMISSION = "YAML, JSON, JSON lines or CSV files, folders of them, or - for standard input."
 Submissions = Annotated[list[str], Argument(metavar="SUBMISSION", help=_SUBMISSION)]
-_FORMAT = "native, html, or the format of a gradebook."
+_FORMAT = "native, html, or a platform: gradescope, prairielearn, coursera, canvas, moodle."
 ResultFormat = Annotated[str, Option("--format", metavar="NAME", help=_FORMAT)]
 _RESULT = "The file or folder to write; an interrupted run resumes there."
 ResultPath = Annotated[Path | None, Option("--out", metavar="PATH", help=_RESULT)]

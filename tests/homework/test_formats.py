@@ -29,7 +29,7 @@ ROD = {
     "particles": ["A"],
     "constraints": [{"name": "rod", "type": "link", "between": [[0, 0], "A"], "length": "l"}],
 }
-DOCUMENTS = ["gradescope", "prairielearn"]
+DOCUMENTS = ["gradescope", "prairielearn", "coursera"]
 MARKUP = "<script>alert(1)</script>"
 FORMULA = "=cmd|'/C calc'!A0"
 
@@ -76,7 +76,7 @@ def document(name: str, prepared: Prepared, *results: Result) -> dict[str, Any]:
 
 
 def test_the_table() -> None:
-    assert list(FORMATS) == ["native", "gradescope", "prairielearn", "canvas", "moodle", "html"]
+    assert list(FORMATS) == ["native", "gradescope", "prairielearn", "coursera", "canvas", "moodle", "html"]
     assert [name for name, f in FORMATS.items() if f.name != name] == []
 
 
@@ -173,8 +173,30 @@ def test_prairielearn_stays_below_a_megabyte(status: Status, prepared: Prepared)
         assert json.loads(text)["gradable"] is (status == "right")
 
 
+@pytest.mark.parametrize(
+    ("items", "share", "start"),
+    [
+        ((RIGHT, PARTLY), 0.6, "Points: 6 of 10."),
+        ((RIGHT, OPEN), 0.6, "This score is provisional: it includes half of the points (4 of 8)"),
+        ((OPEN,), 0.4, "This score is provisional: "),
+        (
+            (RIGHT, UNREADABLE),
+            0.2,
+            "Some answers could not be read (points: 8). Write them differently and submit again.",
+        ),
+        ((), 0.0, "Points: 0 of 10."),
+    ],
+)
+def test_coursera(items: tuple[Item, ...], share: float, start: str, prepared: Prepared) -> None:
+    found = document("coursera", prepared, result("ada", *items))
+    assert sorted(found) == ["feedback", "fractionalScore"]
+    assert found["fractionalScore"] == pytest.approx(share)
+    assert found["feedback"].startswith(start)
+
+
 def test_nothing_to_be_had_is_no_division(prepared: Prepared) -> None:
     nothing = Result(student="ada", score=0.0, max_score=0.0, items=[])
+    assert document("coursera", prepared, nothing)["fractionalScore"] == 0.0
     assert document("prairielearn", prepared, nothing)["score"] == 0.0
 
 

@@ -237,15 +237,17 @@ def test_a_result_for_everyone_in_order(assignment: str, tmp_path: Path, capsys:
     table = tmp_path / "t.csv"
     table.write_text("student,p.f,p.label,p.eq,p.zz\nana,1,,x^2 = 1 - y^2,\nbo,2,((,,5\nana,1,,,\ncy,1\n")
     status, told, err = lines_of(capsys, "grade", assignment, str(table), "--workers", "1")
-    assert (status, err) == (2, "2 of the submissions have a 'doubt': a person has to decide whose they are\n")
+    assert (status, err) == (2, "1 of the submissions have a 'doubt': a person has to decide whose they are\n")
     assert [line["student"] for line in told] == ["ana", "bo", "ana", "cy"]
-    assert [line["score"] for line in told] == [3.0, 0.0, 2.0, None]
+    assert [line["score"] for line in told] == [3.0, 0.0, None, None]
     assert {line["max_score"] for line in told} == {4.0}
     assert [item["status"] for item in told[0]["items"]] == ["right", "missing", "right"]
     assert [item["status"] for item in told[1]["items"]] == ["wrong", "unreadable", "missing", "unreadable"]
     assert "There is no question 'zz'" in told[1]["items"][3]["feedback"]
-    second = f"{table}, line 4: 'ana' also submitted {table}, line 2: a person has to decide which counts"
-    assert (told[2]["doubt"], told[0]["doubt"] is None) == (second, False)
+    second = f"{table}, line 4: 'ana' also submitted {table}, line 2: only that submission is graded"
+    assert (told[2]["error"], told[2]["items"], told[0]["error"]) == (second, [], None)
+    first = f"{table}, line 2: 'ana' also submitted {table}, line 4: a person has to decide which counts"
+    assert told[0]["doubt"] == first
     assert told[3]["error"] == f"{table}, line 5: the row has 2 cells, the header 5"
 
 

@@ -78,7 +78,7 @@ def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hash
 
     Of finite relations without time their number alone matters, of others also what they say, names apart.
     """
-    pieces: list[Clause] = [p for n in r.normals for p in n.pieces] + [t.row.piece for t in rows]
+    pieces = [*(p for n in r.normals for p in n.pieces), *(t.row.piece for t in rows)]
     branched = r.constants or any(len(n.branches) > 1 for n in r.normals)
     beside = any(t.reduced or (t.label is not None and t.label.modulo) for t in rows)
     if branched or beside or not all(map(_is_plain, (*pieces, *r.inequalities))):

@@ -43,8 +43,7 @@ class Handed:
 
     ``name``: the student's name where it gives none. ``claims``: the names of the file and of the folders it was found
     in, the innermost first: a roster knows whether they are somebody's. ``users``: who handed it in, where a platform's
-    export says so. ``listed``: it stands in a table that the lecturer names, which confirms whose it is; ``order``: how
-    late it was submitted, where the table has times.
+    export says so. ``listed``: it stands in a table that the lecturer names, which confirms whose it is.
     """
 
     name: str
@@ -54,7 +53,6 @@ class Handed:
     claims: tuple[str, ...] = ()
     users: tuple[Participant, ...] = ()
     listed: bool = False
-    order: int | None = None
 
     def submissions(self, known: Columns) -> list[Submission]:
         """Read it; ``known``: the assignment's columns."""
@@ -223,7 +221,7 @@ def _table(lines: Iterator[str], file: str, known: Columns) -> Iterator[Handed]:
             else:
                 named = {"student": row.student} if row.student else {}
                 value = {**named, "answers": row.answers}
-                yield Handed(row.student or _stem(file), place, value, listed=bool(named), order=row.order)
+                yield Handed(row.student or _stem(file), place, value, listed=bool(named))
     except (TableError, UnicodeError) as error:
         yield Handed(_stem(file), FilePlace(file, 1), error=str(error))
 

@@ -38,13 +38,12 @@ Columns = Mapping[str, tuple[str, str]]
 
 @dataclass(frozen=True)
 class TableRow:
-    """A row of a table: its answers, or why there are none. ``order``: its place in a table with times."""
+    """A row of a table: its answers, or why there are none."""
 
     student: str
     line: int
     answers: Mapping[str, Mapping[str, str]]
     error: str | None = None
-    order: int | None = None
 
 
 class TableError(ValueError):
@@ -55,14 +54,13 @@ class TableError(ValueError):
 class Header:
     """How a table is written: its delimiter, which column names the student, and what the others answer.
 
-    ``student``: -1 if there is no such column. ``fault``: why no row of it can be graded. ``timed``: it has times.
+    ``student``: -1 if there is no such column. ``fault``: why no row of it can be graded.
     """
 
     delimiter: str
     student: int
     asked: tuple[tuple[str, str] | None, ...]
     fault: str | None = None
-    timed: bool = False
 
 
 def rows(lines: Iterable[str], known: Columns) -> Iterator[TableRow]:
@@ -202,7 +200,7 @@ def _header_of(delimiter: str, names: list[str], student: int, known: Columns, l
     form = student >= 0 and folded[student] != STUDENT
     strange = [None if i == student or form or timed else _split(name) for i, name in enumerate(names)]
     asked = tuple(one or other for one, other in zip(questions, strange, strict=True))
-    return Header(delimiter, student, asked, fault, timed)
+    return Header(delimiter, student, asked, fault)
 
 
 def _meant(names: list[str], student: int, known: Columns) -> str:
@@ -232,7 +230,7 @@ def _row(header: Header, line: int, cells: list[str], error: str | None) -> Tabl
     for asked, cell in zip(header.asked, cells, strict=False) if error is None else ():
         if asked is not None and cell.strip():
             answers.setdefault(asked[0], {})[asked[1]] = cell
-    return TableRow(student, line, answers, error, line if header.timed else None)
+    return TableRow(student, line, answers, error)
 
 
 def _undecoded(cell: str) -> bool:

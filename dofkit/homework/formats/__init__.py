@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dofkit.homework.formats.base import NATIVE, Format, FormatError
+from dofkit.homework.formats.coursera import COURSERA
 from dofkit.homework.formats.gradebooks import CANVAS, MOODLE
 from dofkit.homework.formats.gradescope import GRADESCOPE
 from dofkit.homework.formats.html import HTML
@@ -11,4 +12,4 @@ from dofkit.homework.formats.prairielearn import PRAIRIELEARN
 __all__ = ["FORMATS", "Format", "FormatError"]
 
 #: The values of ``--format``.
-FORMATS: dict[str, Format] = {f.name: f for f in (NATIVE, GRADESCOPE, PRAIRIELEARN, CANVAS, MOODLE, HTML)}
+FORMATS: dict[str, Format] = {f.name: f for f in (NATIVE, GRADESCOPE, PRAIRIELEARN, COURSERA, CANVAS, MOODLE, HTML)}

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import pickle
 import threading
-from collections.abc import Generator, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import lru_cache
-from typing import Any, NamedTuple
+from functools import lru_cache, partial
+from typing import Any, NamedTuple, TypeAlias
 
 from dofkit.base.process_limits import allow_processor
-from dofkit.base.runs import Pool, StoppedError
-from dofkit.base.workers import Job, JobOutcome, Json
+from dofkit.base.runs import Cluster, Journal, Pool, StoppedError, in_order
+from dofkit.base.workers import MEMORY, Job, JobOutcome, Json
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.answers.submission import Submission
 from dofkit.homework.assignment import Prepared
@@ -109,6 +110,10 @@ def _grader(orders: Orders) -> Grader:
     return Grader(prepared, orders.seconds)
 
 
+#: Yields everything submitted with the lines of its results, in order; a journal keeps them.
+Grading: TypeAlias = Callable[[Iterable[Handed], Journal | None], Iterator[tuple[Handed, list[ResultLine]]]]
+
+
 class Keeper:
     """Grades submissions from any thread by the workers of a pool."""
 
@@ -145,3 +150,25 @@ class Keeper:
     def _refusal(self, handed: Handed, outcome: JobOutcome) -> ResultLine:
         error = f"{handed.place}: it could not be graded: {_ENDED[outcome.ended]}"
         return self.orders.refused(handed.name, error)
+
+
+def grade_there(orders: Orders, handed: Handed) -> list[ResultLine]:
+    """Return the same lines on a machine of a cluster, by killable workers of its own."""
+    return _keeper(orders).grade(handed)
+
+
+@lru_cache(maxsize=1)
+def _keeper(orders: Orders) -> Keeper:
+    return Keeper(orders, Pool(modules=MODULES))
+
+
+@contextmanager
+def grading(orders: Orders, workers: int | None, scheduler: str | None) -> Iterator[Grading]:
+    """Start the workers of this machine, or of the Dask cluster at an address. Raises StoppedError."""
+    if scheduler is not None:
+        with Cluster(scheduler) as cluster:
+            yield partial(in_order, cluster, partial(grade_there, orders))
+        return
+    with Pool(workers, MEMORY, MODULES) as pool:
+        pool.fork()
+        yield partial(in_order, pool, Keeper(orders, pool).grade)

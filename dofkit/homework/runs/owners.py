@@ -1,17 +1,14 @@
-"""Whose each result is, and what becomes of several submissions of one student: nobody is displaced.
+"""Whose each result is, and which of several submissions of one student counts: nobody is displaced.
 
-What a platform or a file's own name confirms goes before what a file only claims. Of confirmed submissions that differ
-the later one counts where the platform's table has times; otherwise a person has to decide between them.
+What a platform or a file's own name confirms goes before what a file only claims.
 """
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from dofkit.homework.answers.roster import Roster, attributed
 from dofkit.homework.answers.sources import Handed
@@ -21,13 +18,11 @@ from dofkit.homework.runs.batch import Orders, ResultLine
 
 @dataclass(frozen=True)
 class OwnedLine:
-    """A result's line, where it was submitted, whether its owner is confirmed, and a digest of its answers."""
+    """A result's line, where it was submitted, and whether its owner is confirmed."""
 
     line: ResultLine
     place: str
     confirmed: bool
-    digest: bytes
-    order: int | None = None
 
 
 def named_by(roster: Roster, one: Handed) -> Handed:
@@ -47,15 +42,13 @@ def _owned(roster: Roster | None, one: Handed, line: ResultLine) -> OwnedLine:
     inside = isinstance(one.data, Mapping) and "student" in one.data
     by_default = not inside and line.student == one.name
     student, confirmed, doubt = attributed(roster, one.claims, one.users, line.student, by_default)
-    said = json.loads(line.text)
-    given = [(item["problem"], item["question"], item.get("answer")) for item in said["items"]]
-    digest = hashlib.blake2b(repr(given).encode("utf-8", "surrogatepass"), digest_size=16).digest()
     if (student, doubt) != (line.student, None):
-        line = _changed(said, line, student, None if doubt is None else f"{one.place}: {doubt}")
-    return OwnedLine(line, str(one.place), confirmed or one.listed, digest, one.order)
+        line = _changed(line, student, None if doubt is None else f"{one.place}: {doubt}")
+    return OwnedLine(line, str(one.place), confirmed or one.listed)
 
 
-def _changed(said: dict[str, Any], line: ResultLine, student: str, doubt: str | None) -> ResultLine:
+def _changed(line: ResultLine, student: str, doubt: str | None) -> ResultLine:
+    said = json.loads(line.text)
     said["student"] = student
     if doubt is not None:
         said["doubt"] = doubt
@@ -64,55 +57,25 @@ def _changed(said: dict[str, Any], line: ResultLine, student: str, doubt: str | 
 
 
 def settled(orders: Orders, lines: Iterable[OwnedLine]) -> list[ResultLine]:
-    """Return the lines in their order, at most one of each student without a doubt or an error."""
-    found = list(lines)
+    """Return the lines in their order; every submission of a student but the first is an error that names both places.
+
+    A confirmed submission counts before those that only claim to be the student's. The first keeps its points with a
+    doubt if another of the same standing has other answers.
+    """
+    submitted = list(lines)
     of_student: defaultdict[str, list[int]] = defaultdict(list)
-    for n, one in enumerate(found):
+    for n, one in enumerate(submitted):
         if not (one.line.failed or one.line.doubted):
             of_student[one.line.student].append(n)
-    result = [one.line for one in found]
+    result = [one.line for one in submitted]
     for student, numbers in of_student.items():
-        for n, (why, refused) in _conflicts(student, [found[n] for n in numbers]).items():
-            place = numbers[n]
-            if refused:
-                result[place] = orders.refused(student, why)
-            else:
-                line = found[place].line
-                result[place] = _changed(json.loads(line.text), line, student, why)
+        first, *others = sorted(numbers, key=lambda n: not submitted[n].confirmed)
+        counted = submitted[first]
+        for other in (submitted[n] for n in reversed(others)):
+            if other.confirmed == counted.confirmed and other.line.text != counted.line.text:
+                why = f"{counted.place}: '{student}' also submitted {other.place}: a person has to decide which counts"
+                result[first] = _changed(counted.line, student, why)
+        for n in others:
+            why = f"{submitted[n].place}: '{student}' also submitted {counted.place}: only that submission is graded"
+            result[n] = orders.refused(student, why)
     return result
-
-
-def _conflicts(student: str, lines: Sequence[OwnedLine]) -> dict[int, tuple[str, bool]]:
-    """Return, of several submissions of a student, why those that do not count do not, and whether that is certain."""
-    if len(lines) == 1:
-        return {}
-    confirmed = [n for n, one in enumerate(lines) if one.confirmed]
-    rivals = confirmed or list(range(len(lines)))
-    chosen = _latest(lines, rivals)
-    found: dict[int, tuple[str, bool]] = {}
-    for n, one in enumerate(lines):
-        if n == chosen:
-            continue
-        other = lines[rivals[0] if chosen is None else chosen]
-        if n in rivals and chosen is None:
-            other = lines[next(m for m in rivals if m != n)]
-            why = f"{one.place}: '{student}' also submitted {other.place}: a person has to decide which counts"
-            found[n] = (why, False)
-        elif one.digest == other.digest or n in rivals:
-            found[n] = (f"{one.place}: '{student}' also submitted {other.place}, which counts", True)
-        else:
-            found[n] = (
-                f"{one.place}: it claims to be '{student}'s, whose own submission is {other.place}: a person has to "
-                "decide whose it is", False,
-            )  # fmt: skip
-    return found
-
-
-def _latest(lines: Sequence[OwnedLine], rivals: Sequence[int]) -> int | None:
-    """Return which of several submissions counts: the only one, the latest in one table, or one of equal ones."""
-    if len({lines[n].digest for n in rivals}) == 1:
-        return rivals[0]
-    tables = {lines[n].place.rpartition(", line")[0] for n in rivals}
-    if len(tables) == 1 and all(lines[n].order is not None for n in rivals):
-        return max(rivals, key=lambda n: lines[n].order or 0)
-    return None

@@ -15,8 +15,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from dofkit.base import __version__
-from dofkit.base.runs import Journal, Pool, files_of, in_order
-from dofkit.base.workers import MEMORY
+from dofkit.base.runs import Journal, files_of
 from dofkit.homework.answers.roster import Roster, load_roster
 from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment
@@ -24,7 +23,7 @@ from dofkit.homework.formats import FORMATS, Format, FormatError
 from dofkit.homework.formats.gradebooks import apart_path
 from dofkit.homework.formats.review import PAGE, TABLE, ReviewPaths, RunReview
 from dofkit.homework.result import Result
-from dofkit.homework.runs.batch import MODULES, Keeper, Orders, ResultLine
+from dofkit.homework.runs.batch import Grading, Orders, ResultLine, grading
 from dofkit.homework.runs.owners import OwnedLine, named_by, owned, settled
 from dofkit.homework.variants import with_roster
 
@@ -37,12 +36,14 @@ RESULTS = "results.jsonl"
 class GradingOptions:
     """The options of the command line. ``out``: where results go, or None for standard output.
 
-    ``reviewed``: a table that a person filled in. ``roster``: the table of who is in the course.
+    ``scheduler``: the address of a Dask cluster that grades. ``reviewed``: a table that a person filled in. ``roster``:
+    the table of who is in the course.
     """
 
     form: str = NATIVE
     out: Path | None = None
     workers: int | None = None
+    scheduler: str | None = None
     check_only: bool = False
     reviewed: Path | None = None
     roster: Path | None = None
@@ -130,12 +131,11 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
         stream = (named_by(people, one) for one in stream)
     native = options.native
     mark = fingerprint(prepared, options.check_only, roster)
-    with Pool(options.workers, MEMORY, MODULES) as pool:
-        pool.fork()
+    with grading(orders, options.workers, options.scheduler) as grade_all:
         if native is not None and not native.exists():
             unfinished(native).unlink(missing_ok=True)
         with nullcontext() if native is None else closing(Journal(unfinished(native), mark)) as journal:
-            lines = settled(orders, _graded(Keeper(orders, pool), stream, people, journal))
+            lines = settled(orders, _graded(grade_all, stream, people, journal))
             if options.out is None or native is None:
                 _to_stdout(lines, form, prepared, roster)
             else:
@@ -162,12 +162,12 @@ def _finished(
 
 
 def _graded(
-    keeper: Keeper, stream: Iterator[Handed], people: Roster | None, journal: Journal | None
+    grade_all: Grading, stream: Iterator[Handed], people: Roster | None, journal: Journal | None
 ) -> Iterator[OwnedLine]:
     """Yield every result with its owner; a bar on a terminal shows how far it is."""
     with _bar() as bar:
         task = bar.add_task("graded", total=None)
-        for one, lines in in_order(keeper.pool, keeper.grade, stream, journal):
+        for one, lines in grade_all(stream, journal):
             yield from owned(people, one, [ResultLine(*line) for line in lines])
             bar.update(task, advance=len(lines))
 

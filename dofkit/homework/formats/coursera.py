@@ -1,0 +1,52 @@
+"""Coursera's ``feedback.json``: a share of the points, and a text.
+
+Coursera takes a number and nothing else, and has no review by a person. So that an answer that could not be decided is
+neither zero nor full marks there, half of its points stand in for it, and the text begins by saying so. One that could
+not be read has none, and the text says that it can be submitted again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from dofkit.homework.answers.roster import Roster
+from dofkit.homework.assignment import Prepared
+from dofkit.homework.formats.base import Format, Target, write_documents
+from dofkit.homework.formats.wording import feedback, number
+from dofkit.homework.result import Result
+from dofkit.homework.sentences import Language, in_language
+
+#: The share of its points that stands in for an answer that could not be decided.
+OPEN_SHARE = 0.5
+
+
+def document(result: Result, language: Language = "en") -> dict[str, Any]:
+    """Return what ``feedback.json`` says of a submission."""
+    undecided = sum(item.max_score for item in result.items if item.score is None and item.status != "unreadable")
+    unreadable = sum(item.max_score for item in result.items if not item.score and item.status == "unreadable")
+    paragraphs = [feedback(result, language)]
+    if undecided:
+        sentence = (
+            "This score is provisional: it includes half of the points ({points} of {most}) for answers that a person "
+            "will review."
+        )
+        points = {"points": number(OPEN_SHARE * undecided), "most": number(undecided)}
+        paragraphs.insert(0, in_language(language, sentence, **points))
+    if unreadable:
+        sentence = "Some answers could not be read (points: {points}). Write them differently and submit again."
+        paragraphs.insert(0, in_language(language, sentence, points=number(unreadable)))
+    score = min(max((result.score or 0.0) + OPEN_SHARE * undecided, 0.0), result.max_score)
+    return {
+        "fractionalScore": score / result.max_score if result.max_score else 0.0,
+        "feedback": "\n\n".join(paragraphs),
+    }
+
+
+def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
+    """Write one ``feedback.json`` per student."""
+    del roster
+    write_documents(results, target, lambda result: document(result, prepared.assignment.language))
+
+
+COURSERA = Format("coursera", write)
