@@ -139,7 +139,9 @@ DOCUMENTS = {
     "student: 007\nanswers: {p: {f: 4.0, g: [x, y]}}": [("007", {"p": {"f": 4, "g": ("x", "y")}})],
     "answers: {p: {f: 1}}": [("s", {"p": {"f": 1}})],
     "student: ana\nanswers:\n": [("ana", {})],
-    '{"student": "ana", "answers": {"p": {"f": 1e999999999, "g": 2}}}': [("ana", {"p": {"f": "1e999999999", "g": 2}})],
+    '{"student": "ana", "answers": {"p": {"f": 1e999999999, "g": 2}}}': [
+        ("ana", ", line 1, column 43: the number 1e999999999 is too large or too small (stay within 1e±1000)")
+    ],
     "- {student: ana, answers: {}}\n- {student: bo, answers: 3}": [
         ("ana", {}),
         ("bo", ", line 2, column 26: 'answers' is a mapping of problems to mappings of questions to answers"),

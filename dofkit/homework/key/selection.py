@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 from dofkit.classification.dependence.implication import follows
-from dofkit.classification.freedom.branches import solve
+from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import all_of, prepared
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
+from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import ZERO
 from dofkit.methods.classify import classify
 from dofkit.relations.normal.pieces import Finite, Normal
@@ -28,22 +29,41 @@ def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None
     ``report``: of the scene, or without its last constraints, which define coordinates. Time stands still, so what it
     prescribes does not move. None where that was not decided. Non-holonomic constraints are left out: they do not fix
     the configuration.
+
+    Where differentials do not decide it, the coordinates are held at their values in the reference configuration: if
+    no velocity is allowed there to first order, their differentials are independent there, and so nearby.
     """
     basis = report.integrable_part.basis if report.integrable_part is not None else []
     if basis is None:
         return None
-    held = [Equation(name=f"held {name}", text=f"d{name} = 0") for name in names]
     own = [c.name for c in scene.constraints[len(report.constraints) :]]
     given = [*(e.name for e in report.constraints), *own]
     named = [c.model_copy(update={"name": name}) for c, name in zip(scene.constraints, given, strict=True)]
-    whole = _with(scene, [*named, *held])
+    freedom = _outcome(scene, [*named, *_held({name: f"d{name} = 0" for name in names})], basis, given).dof
+    reference = lower(scene).reference
+    if freedom is not None or reference is None or any(ex.coordinate(name) not in reference for name in names):
+        return None if freedom is None else freedom == 0
+    fixed = _held({name: f"{name} = {to_text(reference[ex.coordinate(name)])}" for name in names})
+    there = _outcome(scene, [*named, *fixed], basis, [*given, *(c.name for c in fixed)])
+    rigid = there.consistent and not there.crossing and not there.untouched
+    return True if rigid and all(a.instantaneous == 0 for a in there.answers) else None
+
+
+def _held(equations: Mapping[str, str]) -> list[Equation]:
+    return [Equation(name=f"held {name}", text=text) for name, text in equations.items()]
+
+
+def _outcome(
+    scene: Scene, constraints: Sequence[object], basis: Sequence[str], given: Collection[str | None]
+) -> Outcome:
+    """The answer for these constraints and of the relations of ``basis``; of those named only what is finite."""
+    whole = _with(scene, constraints)
     if basis:
         whole = with_equations(whole, read_equations(basis, vocabulary_of(scene).names, constants=True), "integral")
     system = _at_one_time(lower(whole))
     reduced, setting = prepared(system)
     finite = [r._replace(normals=_finite(r.normals)) if r.constraint.name in given else r for r in reduced]
-    found = solve(system, finite, setting)
-    return None if found.dof is None else found.dof == 0
+    return solve(system, finite, setting)
 
 
 def _at_one_time(system: System) -> System:
