@@ -226,6 +226,7 @@ class Template:
         e = written[self._root]
         if self._steps:
             e.shape = self.shape._replace(names=tuple(names))
+            e._symbols, e._functions = frozenset((*self.others, *symbols)), self.functions
         return e
 
 

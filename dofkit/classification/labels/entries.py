@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -16,11 +16,13 @@ from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.labels.companions import Companionship, by_itself
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.reasons import Others, in_words
+from dofkit.expressions.tree import TIME
 from dofkit.integrability.modulo_others import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import GAP
-from dofkit.relations.blocks import Row, fixed_constants
-from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Reduced
+from dofkit.relations.blocks import Row, coordinates_of, fixed_constants
+from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Pfaffian, Reduced
+from dofkit.relations.piece_shapes import piece_shape
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict
 
@@ -46,21 +48,71 @@ def entries_of(
     constants = fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
-    entries = list[ConstraintEntry]()
-    traits_of = partial(_traits_of, setting)
+    entries, by_kind = list[ConstraintEntry](), dict[Hashable, ConstraintEntry]()
+    traits_of, consistent = partial(_traits_of, setting), outcome.consistent
     for i, r in enumerate(reduced):
         number = known.independent.get(i, None if answer[i] else 0)
         circuit = None if i not in known.circuits else [names[j] for j in known.circuits[i]]
         try:
             check()
+            copied = i in outcome.copies
+            likeness = None if known.says_more_of(i) else _likeness(r, answer[i], setting)
+            kind = None if likeness is None else (likeness, number, copied, i in known.following)
+            if kind in by_kind:
+                named = {"name": r.constraint.name, "text": r.constraint.text}
+                entries.append(by_kind[kind].model_copy(update=named))
+                continue
             beside = partial(_with_others, i, answer[i], company, names)
             alone = by_itself(i, r, answer[i], company.parts)
-            copied = i in outcome.copies
             evidence = Evidence(answer[i], alone, number, circuit, constants, traits_of, beside, copied)
-            entries.append(_with_dependence(entry(r, evidence, setting, outcome.consistent), i, r, known))
+            entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, known))
+            if kind is not None and _is_nameless(entries[-1]):
+                by_kind[kind] = entries[-1]
         except OutOfTimeError as error:
             entries.append(unfinished(r, str(error)))
     return entries
+
+
+def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hashable:
+    """Return what is equal for constraints whose entries differ in name and text only; None where that is not clear.
+
+    Of finite relations without time their number alone matters, of others also what they say, names apart.
+    """
+    pieces = [*(p for n in r.normals for p in n.pieces), *(t.row.piece for t in rows)]
+    branched = r.constants or any(len(n.branches) > 1 for n in r.normals)
+    beside = any(t.reduced or (t.label is not None and t.label.modulo) for t in rows)
+    if branched or beside or not all(map(_is_plain, (*pieces, *r.inequalities))):
+        return None
+    shapes: list[Hashable] = [type(p).__name__ for p in (*pieces, *r.inequalities)]
+    if any(isinstance(p, Pfaffian) for p in pieces):
+        places: dict[str, int] = {}
+        for p in pieces:
+            shape, moving = piece_shape(p), coordinates_of(p) - setting.tilts
+            names = [places.setdefault(n, len(places)) if n in moving else n for n in shape.names]
+            shapes.append((shape.key, *names))
+    answers = [t.answer for t in rows]
+    return (
+        r.constraint.type,
+        tuple([(n.notes, n.once) for n in r.normals]),
+        r.equations,
+        tuple(shapes),
+        tuple([t.label for t in rows]),
+        tuple([(a.verdict, a.argument, a.bits, a.gap, a.about, a.late, a.consistent) for a in answers]),
+    )
+
+
+def _is_plain(piece: Clause) -> bool:
+    """Is a piece linear in the velocities, without time and without a term that holds no velocity?"""
+    if isinstance(piece, Pfaffian):
+        return piece.dt.is_zero and not any(TIME in c.symbols for c in piece.coefficients.values())
+    return isinstance(piece, JointEquation) or not (isinstance(piece, Nonlinear) or TIME in piece.expr.symbols)
+
+
+def _is_nameless(made: ConstraintEntry) -> bool:
+    """Is everything in an entry decided, and does no coordinate occur in it?"""
+    decided = None not in (made.holonomic, made.holonomic_alone, made.scleronomic)
+    plain = made.form in ("finite", "inequality") or (made.form == "pfaffian" and made.holonomic is False)
+    return decided and plain and made.integral is None and made.integrating_factor is None
 
 
 def _traits_of(setting: Setting, piece: Clause) -> Traits:
@@ -83,6 +135,10 @@ class _Dependence(NamedTuple):
     following: Mapping[int, set[int]]
     seen: frozenset[int]
     on_component: frozenset[int]
+
+    def says_more_of(self, i: int) -> bool:
+        """Is more stated of a constraint than how many of its equations are independent?"""
+        return i in self.circuits or i in self.gone or i in self.open or i in self.seen or bool(self.following.get(i))
 
 
 def _dependence(dependent: Sequence[Redundancies], outcome: Outcome) -> _Dependence:
