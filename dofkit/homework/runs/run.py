@@ -131,8 +131,10 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
         stream = (named_by(people, one) for one in stream)
     native = options.native
     mark = fingerprint(prepared, options.check_only, roster)
-    journaled = nullcontext() if native is None else closing(Journal(unfinished(native), mark))
-    with grading(orders, options.workers, options.scheduler) as grade_all, journaled as journal:
+    with (
+        grading(orders, options.workers, options.scheduler) as grade_all,
+        nullcontext() if native is None else closing(Journal(unfinished(native), mark)) as journal,
+    ):
         lines = settled(orders, _graded(grade_all, stream, people, journal))
         if options.out is None or native is None:
             _to_stdout(lines, form, prepared, roster)
