@@ -186,11 +186,20 @@ class SceneFile:
             placed = self._with_place(fault)
             if fault.line is not None or not self.located or (placed.line, placed.column) not in taken:
                 located.append(placed)
-        located.sort(key=lambda fault: (fault.line or 0, fault.column or 0))
+        located.sort(key=self._order_in_document)
         if len(located) > MOST_FAULTS:
             message = f"and {len(located) - MOST_FAULTS} further faults from here on"
             located[MOST_FAULTS:] = [replace(located[MOST_FAULTS], message=message, hint="correct these first")]
         return SceneError(tuple(located), self.document.name or None)
+
+    def _order_in_document(self, fault: Fault) -> tuple[int, ...]:
+        """Return line and column of a fault, or else its section, the entry there, and the column in its text."""
+        if fault.line is not None:
+            return (fault.line, fault.column or 0)
+        sections = list(self.document.value) if isinstance(self.document.value, Mapping) else []
+        section = sections.index(fault.where[0]) if fault.where and fault.where[0] in sections else -1
+        entry = next((key for key in fault.where if isinstance(key, int)), -1)
+        return (0, section, entry, fault.column or 0)
 
     def _with_place(self, fault: Fault) -> Fault:
         if fault.line is not None:

@@ -235,7 +235,7 @@ def test_what_a_person_decides_holds_for_all_and_for_later_ones(course: Course) 
     course.hand_in([*CLASS, ("later", {"rod": "x_B^2 +  y_A^2 = l^2\n", "f": "1"})])
     status, _, err = course.grade("--reviewed", str(table))
     assert status == 0
-    assert "2 different answers wait" in err
+    assert "2 different answers await review" in err
     found = course.results()
     for name, score, review in (("bo", 5.0, 0), ("cy", 3.0, 1), ("later", 5.0, 0), ("ana", 6.0, 0)):
         assert (found[name]["score"], found[name]["needs_review"]) == (score, review)

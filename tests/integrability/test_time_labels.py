@@ -60,7 +60,7 @@ TABLE: list[tuple[str, list[str], bool | None, bool | None, str]] = [
     ("x y z", ["xdot^3 + ydot^3 = t zdot^3"], False, True, "a cone that changes"),
     ("x y", ["xdot^2 + ydot^2 = t^2"], False, False, "t occurs"),
     ("x y", ["f(t) (xdot^2 + ydot^2 - v^2) = 0"], True, False, "a declared function"),
-    ("x", ["sqrt(xdot) = 1"], False, False, "xdot = 1, so x = t + C"),
+    ("x", ["sqrt(xdot) = 1"], None, False, "xdot = 1, so x = t + C: rheonomic, but the root is not undone"),
     # Inequalities.
     ("x y", ["x <= v t"], False, None, "the boundary moves"),
     ("x y", ["exp(t) x >= 0"], True, None, "exp(t) is positive"),

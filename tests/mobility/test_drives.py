@@ -54,7 +54,7 @@ def test_a_motor_written_as_a_second_hinge_is_named(ends: list[str]) -> None:
     assert report.mobility is not None
     assert (report.dof, report.redundant_equations, report.redundant) == (0, 2, ["A"])
     assert (report.mobility.kutzbach, report.mobility.undriven) == (-2, 1)
-    hints = [warning for warning in report.warnings if "write its `drive` on 'A' and remove 'motor'" in warning]
+    hints = [warning for warning in report.warnings if "write `drive: t` on 'A' and remove 'motor'" in warning]
     assert len(hints) == 1
     assert report.mobility.differs is not None
     assert "A and motor allow the same bodies the same motions" in report.mobility.differs

@@ -299,7 +299,7 @@ def test_mappings_are_scenes_too() -> None:
     assert load({"coordinates": ["x"], "configuration": {"x": 0.1}}).configuration == {"x": Fraction(1, 10)}
     with pytest.raises(SceneError) as caught:
         load({"coordinates": ["theta"], "constraints": ["thta = 1", {"type": "link", "betwen": []}]})
-    assert [fault.where for fault in caught.value.faults] == [("constraints", 1, "betwen"), ("constraints", 0, "text")]
+    assert [fault.where for fault in caught.value.faults] == [("constraints", 0, "text"), ("constraints", 1, "betwen")]
     assert all(fault.hint for fault in caught.value.faults)
     endless: dict[str, object] = {}
     endless["expect"] = endless

@@ -10,8 +10,9 @@ from typing import Literal
 from pydantic import Field
 
 from dofkit.base.workers import MEMORY
+from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.assignment import Assignment, Prepared, Problem
-from dofkit.homework.judgement import Given, Judgement, right
+from dofkit.homework.judgement import Given, Judgement, Reading, right
 from dofkit.homework.key.key import Key
 from dofkit.homework.questions import Earlier, QuestionBase
 from dofkit.homework.runs.batch import Orders
@@ -23,8 +24,13 @@ class Hostile(QuestionBase):
 
     ask: Literal["hostile"] = Field("hostile", description="trouble")
 
-    def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
+    def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
+        del names
+        return [Reading(answer, str(answer))]
+
+    def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del key, earlier
+        answer = reading.value
         while answer == "hang":
             pass
         if answer == "eat":

@@ -131,19 +131,17 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
         stream = (named_by(people, one) for one in stream)
     native = options.native
     mark = fingerprint(prepared, options.check_only, roster)
-    with grading(orders, options.workers, options.scheduler) as grade_all:
-        if native is not None and not native.exists():
-            unfinished(native).unlink(missing_ok=True)
-        with nullcontext() if native is None else closing(Journal(unfinished(native), mark)) as journal:
-            lines = settled(orders, _graded(grade_all, stream, people, journal))
-            if options.out is None or native is None:
-                _to_stdout(lines, form, prepared, roster)
-            else:
-                native.parent.mkdir(parents=True, exist_ok=True)
-                native.write_text("".join(f"{line.text}\n" for line in lines), encoding="utf-8", newline="\n")
-                _finished(native, form, prepared, options.out, roster, review)
-                if journal is not None:
-                    journal.remove()
+    journaled = nullcontext() if native is None else closing(Journal(unfinished(native), mark))
+    with grading(orders, options.workers, options.scheduler) as grade_all, journaled as journal:
+        lines = settled(orders, _graded(grade_all, stream, people, journal))
+        if options.out is None or native is None:
+            _to_stdout(lines, form, prepared, roster)
+        else:
+            native.parent.mkdir(parents=True, exist_ok=True)
+            native.write_text("".join(f"{line.text}\n" for line in lines), encoding="utf-8", newline="\n")
+            _finished(native, form, prepared, options.out, roster, review)
+            if journal is not None:
+                journal.remove()
     doubted = sum(line.doubted for line in lines)
     if doubted:
         print(f"{doubted} of the submissions have a 'doubt': a person has to decide whose they are", file=sys.stderr)
