@@ -59,7 +59,12 @@ def _below(value: arb) -> float:
 
 
 def _low_sum(a: float, b: float) -> float:
-    return -INF if -INF in (a, b) else _below(arb(a) + arb(b))
+    """Return a lower bound of a sum: the sum itself where it has no rounding error, by Knuth's two-sum."""
+    if -INF in (a, b):
+        return -INF
+    total = a + b
+    back = total - a
+    return total if (a - (total - back)) + (b - back) == 0.0 else math.nextafter(total, -INF)
 
 
 def add(a: Interval, b: Interval) -> Interval:
@@ -82,7 +87,8 @@ def _corner(x: float, y: float) -> Interval:
     """Return bounds of a product, where 0 times infinity is 0."""
     if x == 0.0 or y == 0.0:
         return 0.0, 0.0
-    return (x * y, x * y) if INF in (abs(x), abs(y)) else bounds(arb(x) * arb(y))
+    is_exact = abs(x) in (1.0, INF) or abs(y) in (1.0, INF)
+    return (x * y, x * y) if is_exact else bounds(arb(x) * arb(y))
 
 
 def meet(a: Interval, b: Interval) -> Interval:
