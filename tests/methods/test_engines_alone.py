@@ -29,11 +29,6 @@ ENTRY += ("circuit", "equations")
 
 #: Where a method is known to answer something else, and why: (scene, method) -> (fields, reason).
 KNOWN: dict[tuple[str, MethodName], tuple[tuple[str, ...], str]] = {
-    ("three-masses-on-one-rod", "field"): (
-        ("dof", "velocity_dof"),
-        "three lengths with AC = AB + BC are met by complex points on a larger set than by real ones; no drawing is "
-        "given, so only a real point, which the field alone does not look for, shows that the rod is straight",
-    ),
     ("heureka-jitterbug", "balls"): (
         ("redundant",),
         "balls keep which equations depend on which, without the weights: of constraints of several equations each "
@@ -51,7 +46,8 @@ OPEN: dict[MethodName, str] = {
         isosceles-slider-crank jansen-leg kite-folded linear-triple-in-3d measured-bennett miura-vertex-flat
         omnidirectional-robot parallel-velocities parallelogram-flattened perpendicular-velocities
         plate-on-four-threads platform-on-parallel-legs rhombus-folded sarrus-folded sarrus-stretched speed-by-height
-        spherical-four-bar-stretched three-cranks-in-line waterbomb-vertex-flat wren-platform
+        spherical-four-bar-stretched three-cranks-in-line three-masses-on-one-rod trap_circles_tangent
+        waterbomb-vertex-flat wren-platform
     """,
     "balls": """
         double-watt double-watt-alike holonomic-definition miura-vertex-flat plate-on-four-threads

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 import sympy
+from shared.command_line import called
 from shared.known_scenes import swept
 from shared.motions import PLANE, energies, names_of, scene, vanishes, zero
 from shared.work import calls_of
@@ -16,7 +17,6 @@ from shared.work import calls_of
 import dofkit
 from dofkit.expressions.sympy_bridge import Bridge
 from dofkit.expressions.text import parse_expression
-from dofkit.interface import cli
 from dofkit.motion.lagrange.report import MotionReport
 from dofkit.scene.scene import Scene
 
@@ -334,20 +334,14 @@ def test_a_chain_of_pendulums(made: Callable[[int], Scene], n: int) -> None:
 
 
 @pytest.mark.sweep
-def test_the_command_line(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    def run(*arguments: str) -> tuple[int, str]:
-        monkeypatch.setattr("sys.argv", ["dofkit", *arguments])
-        with pytest.raises(SystemExit) as ended:
-            cli.main()
-        return int(ended.value.code or 0), capsys.readouterr().out
-
-    status, out = run("lagrange", "orbit-polar", "particle-in-space", "--json")
+def test_the_command_line(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = called(capsys, "lagrange", "orbit-polar", "particle-in-space", "--json")
     told = [json.loads(line) for line in out.splitlines()]
     assert status == 2
     assert told[0]["coordinates"] == ["r", "theta"]
     assert told[1]["scene"] == "particle-in-space"
     assert "no equations of motion can be derived" in told[1]["error"]["message"]
-    status, out = run("lagrange", "trolley-pendulum", "--linearize")
+    status, out, _ = called(capsys, "lagrange", "trolley-pendulum", "--linearize")
     assert status == 0
     assert "Equations of motion" in out
     assert "A = [M + m, m l; m l, m l^2]" in out

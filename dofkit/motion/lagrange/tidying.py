@@ -24,6 +24,8 @@ from dofkit.expressions.tree import Expr
 
 #: Expressions with more SymPy operations, or that would have more terms than this, are not expanded.
 EXPANDED, TERMS, MANY = 3000, 1500, 10**9
+#: Sums of more terms are not joined to one angle: SymPy compares each two of them.
+JOINED = 60
 #: Seconds for all expressions of one report.
 SECONDS = 6.0
 #: A product that hides a sum with velocities is read as if it were longer by so many symbols.
@@ -82,14 +84,14 @@ class Tidier:
         import sympy
         from sympy.simplify.fu import TR6, TR10i
 
-        if waves:
+        if waves and terms(self.bridge.expr(e)) <= JOINED:
             yield TR10i(e)
         if expands:
             rates = [self.bridge.velocity(n, k) for k in (2, 1) for n in self.bridge.positions]
             expanded = sympy.expand(e)
             yield expanded
             yield sympy.collect(expanded, rates)
-            if waves:
+            if waves and len(expanded.args) <= JOINED:
                 yield TR10i(sympy.expand(TR6(expanded)))
 
 
