@@ -21,7 +21,6 @@ from dofkit.scene.ledger import FINITE, symbols_of
 from dofkit.scene.names import within_member
 from dofkit.scene.parts import Point, show_point
 from dofkit.scene.symbols import POINT, Symbol
-from dofkit.scene.variation import TypeVariation
 from dofkit.scene.world import World
 from dofkit.system import Relation, TypeFacts
 
@@ -49,7 +48,6 @@ class Cam(ConstraintBase):
         across_a_line, directions=1, written=True, lettered=True, contact=True, joint=True
     )
     symbol: ClassVar[Symbol] = Symbol(plane=(POINT,), run="profile")
-    variation: ClassVar[TypeVariation] = TypeVariation(places=("point",), texts=("curve",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         point = world.point(self.point, "point")

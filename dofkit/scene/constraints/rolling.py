@@ -16,7 +16,6 @@ from dofkit.scene.constraints.joints import Joint
 from dofkit.scene.fields import Value, as_written
 from dofkit.scene.frames import Frame
 from dofkit.scene.symbols import Symbol
-from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation
 from dofkit.scene.world import World
 from dofkit.system import GROUND, Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -36,7 +35,6 @@ class Roll(ConstraintBase):
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
     facts: ClassVar[TypeFacts] = TypeFacts(joint=True)
     symbol: ClassVar[Symbol] = Symbol(run="wheel", size="radius")
-    variation: ClassVar[TypeVariation] = TypeVariation(lengths=("radius",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         radius = world.fixed(self.radius, "radius")
@@ -56,15 +54,6 @@ class Roll(ConstraintBase):
             )
         yield Relation(difference(frame.position[-1], radius), part="contact")
         yield from _no_slip(frame, radius)
-
-    def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
-        """Sliding: the contact alone."""
-        owned = names.owned.get(self.body)
-        if owned is not None:
-            height = owned[names.dimension - 1]
-            fields = {"text": f"{height} = {as_written(self.radius)}"}
-            fields |= {} if self.name is None else {"name": self.name}
-            yield Replacement("rolling", fields, {}, f"{self.body} slides")
 
     @property
     def in_words(self) -> str:
@@ -102,7 +91,6 @@ class Gear(Joint):
     dimensions: ClassVar[tuple[int, ...]] = (2,)
     facts: ClassVar[TypeFacts] = TypeFacts(_gear_rows, joint=True, geared=True)
     symbol: ClassVar[Symbol] = Symbol(run="teeth")
-    variation: ClassVar[TypeVariation] = TypeVariation(numbers=("ratio",))
 
     def joined(self, world: World, first: Frame, second: Frame) -> Sequence[Relation]:
         ratio = world.mentioned.number = world.fixed(self.ratio, "ratio")
