@@ -36,6 +36,8 @@ MOST_FAULTS = 200
 _DROPPED_WHOLE = frozenset(
     {"name", "title", "source", "notes", "left_out", "expect", "energies", "configuration", "tolerance"}
 )
+#: Keys of a particle or a body that no text of a constraint depends on.
+_OF_NO_TEXT = frozenset({"at", "mass", "inertia"})
 _TAKEN = "a Scene, a path, a catalog name or a mapping"
 
 
@@ -252,12 +254,18 @@ def _faults_of_sound_part(value: Mapping[str, Any], faults: Sequence[Fault]) -> 
     sound: Any = copy.deepcopy(dict(value))
     dropped: dict[str, set[int]] = {"constraints": set(), "forces": set()}
     sections: dict[str, str] = {}
+    functions: list[str] = []
     for fault in faults:
         first, second = (*fault.where, None, None)[:2]
         meant = meant_section(fault)
         if first in dropped and isinstance(second, int):
             dropped[str(first)].add(second)
-        elif first in _DROPPED_WHOLE:
+        elif first in ("particles", "bodies") and len(fault.where) > 2 and fault.where[2] in _OF_NO_TEXT:
+            sound[first][second].pop(fault.where[2], None)
+        elif first == "functions" and isinstance(second, str) and isinstance(sound[first], dict):
+            sound[first].pop(second, None)
+            functions.append(f"`{second}`")
+        elif first in _DROPPED_WHOLE or (first == "dimension" and not (sound.get("particles") or sound.get("bodies"))):
             sound.pop(first, None)
         elif meant is not None and meant not in sound:
             sections[meant] = str(first)
@@ -277,8 +285,9 @@ def _faults_of_sound_part(value: Mapping[str, Any], faults: Sequence[Fault]) -> 
         found = check(Scene.model_validate(standard_words(sound).value if sections else sound))
     except ValidationError:
         return
+    missing_joints = {f"there is no joint '{name}'" for name in names}
     for fault in found:
-        if fault.message not in {f"there is no joint '{name}'" for name in names}:
+        if fault.message not in missing_joints and not any(function in fault.message for function in functions):
             first, *rest = fault.where or ("",)
             if first in kept and rest and isinstance(rest[0], int):
                 rest[0] = kept[str(first)][rest[0]]
