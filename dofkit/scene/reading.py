@@ -254,27 +254,20 @@ def _faults_of_sound_part(value: Mapping[str, Any], faults: Sequence[Fault]) -> 
     sound: Any = copy.deepcopy(dict(value))
     dropped: dict[str, set[int]] = {"constraints": set(), "forces": set()}
     sections: dict[str, str] = {}
-    functions: list[str] = []
     for fault in faults:
         first, second = (*fault.where, None, None)[:2]
         meant = meant_section(fault)
+        path = _path_of_no_text(fault, sound)
         if first in dropped and isinstance(second, int):
             dropped[str(first)].add(second)
-        elif first in ("particles", "bodies") and len(fault.where) > 2 and fault.where[2] in _OF_NO_TEXT:
-            sound[first][second].pop(fault.where[2], None)
-        elif first == "functions" and isinstance(second, str) and isinstance(sound[first], dict):
-            sound[first].pop(second, None)
-            functions.append(f"`{second}`")
-        elif first in _DROPPED_WHOLE or (first == "dimension" and not (sound.get("particles") or sound.get("bodies"))):
-            sound.pop(first, None)
         elif meant is not None and meant not in sound:
             sections[meant] = str(first)
             sound[meant] = sound.pop(first)
-        elif fault.message.startswith(UNKNOWN_KEY):
+        elif path is not None:
             owner = sound
-            for key in fault.where[:-1]:
+            for key in path[:-1]:
                 owner = owner[key]
-            owner.pop(fault.where[-1], None)
+            owner.pop(path[-1], None)
         else:
             return
     kept = {key: [i for i in range(len(sound[key])) if i not in gone] for key, gone in dropped.items() if gone}
@@ -285,6 +278,7 @@ def _faults_of_sound_part(value: Mapping[str, Any], faults: Sequence[Fault]) -> 
         found = check(Scene.model_validate(standard_words(sound).value if sections else sound))
     except ValidationError:
         return
+    functions = [f"`{fault.where[1]}`" for fault in faults if fault.where[:1] == ("functions",) and fault.where[1:]]
     missing_joints = {f"there is no joint '{name}'" for name in names}
     for fault in found:
         if fault.message not in missing_joints and not any(function in fault.message for function in functions):
@@ -292,6 +286,19 @@ def _faults_of_sound_part(value: Mapping[str, Any], faults: Sequence[Fault]) -> 
             if first in kept and rest and isinstance(rest[0], int):
                 rest[0] = kept[str(first)][rest[0]]
             yield replace(fault, where=(sections.get(str(first), first), *rest) if fault.where else ())
+
+
+def _path_of_no_text(fault: Fault, scene: Mapping[str, Any]) -> tuple[str | int, ...] | None:
+    """Return the path of what is faulty, where the texts of a scene mean the same without it."""
+    where = fault.where
+    first = next(iter(where), None)
+    if first in _DROPPED_WHOLE or (first == "dimension" and not (scene.get("particles") or scene.get("bodies"))):
+        return where[:1]
+    if first in ("particles", "bodies") and where[2:] and where[2] in _OF_NO_TEXT:
+        return where[:3]
+    if first == "functions" and where[1:] and isinstance(scene["functions"], dict):
+        return where[:2]
+    return where if fault.message.startswith(UNKNOWN_KEY) else None
 
 
 def _as_entry(value: Any, key: str, index: int) -> Any:
