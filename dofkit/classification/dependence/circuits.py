@@ -11,6 +11,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
+from dofkit.base.deadline import check
 from dofkit.base.libraries import components
 from dofkit.base.verdicts import About, Verdict
 from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets
@@ -18,8 +19,8 @@ from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_r
 
 #: Sets of constraints are searched exhaustively up to this many members of a group.
 SEARCHED = 12
-#: Up to this many are removed one after the other.
-REMOVED = 60
+#: Up to this many are removed one after the other; then so many are given back, one at a time.
+REMOVED, EXCHANGES = 60, 200
 
 
 @dataclass(frozen=True)
@@ -234,16 +235,32 @@ def _droppable(parts: Sequence[OwnedRows], members: list[int], bases: Sequence[_
         kept_of = set().union(*(b.pivot_owners for b in bases))
         return [o for o in members if o not in kept_of]
     within = _Dispensable(parts, members)
-    dropped: list[int] = []
-    for owner in reversed(members):
-        if within.can_go([*dropped, owner]):
-            dropped.append(owner)
     if len(members) > SEARCHED:
-        return dropped
+        return _exchanged(within, members, rows_of)
+    dropped = within.greedy(reversed(members), [])
     for size in range(len(members) - 1, len(dropped), -1):
         for choice in combinations(reversed(members), size):
             if within.can_go(choice):
                 return list(choice)
+    return dropped
+
+
+def _exchanged(within: _Dispensable, members: Sequence[int], rows_of: Mapping[int, int]) -> list[int]:
+    """Return what can go of many constraints: the last or the smallest first, then one is given back where two can go.
+
+    Constraints of several equations are no matroid: no constraint can be added to the answer, but another answer may
+    be larger.
+    """
+    small_first = sorted(members, key=lambda o: (rows_of[o], -members.index(o)))
+    dropped = max((within.greedy(order, []) for order in (list(reversed(members)), small_first)), key=len)
+    back = iter(dropped)
+    for _ in range(EXCHANGES):
+        check()
+        if (owner := next(back, None)) is None:
+            break
+        larger = within.greedy([o for o in small_first if o != owner], [o for o in dropped if o != owner])
+        if len(larger) > len(dropped):
+            dropped, back = larger, iter(larger)
     return dropped
 
 
@@ -274,6 +291,14 @@ class _Dispensable:
             if len(rows) > most or rank_of_rows(rows, p) < len(rows):
                 return False
         return True
+
+    def greedy(self, order: Iterable[int], gone: Sequence[int]) -> list[int]:
+        """Return what can go besides ``gone``, one after the other."""
+        dropped = list(gone)
+        for owner in order:
+            if owner not in dropped and self.can_go([*dropped, owner]):
+                dropped.append(owner)
+        return dropped
 
 
 def _circuit(
