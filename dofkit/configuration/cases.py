@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from dofkit.base.deadline import check
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.errors import NoValueError
-from dofkit.exact.ideals import dimension_of
+from dofkit.exact.ideals import dimension_of, echelon_by_degree
 from dofkit.exact.ring.canonical import Canon, is_identically_zero
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import doubt
@@ -59,26 +59,38 @@ class BoundedCase:
 def cases_of(
     relations: Sequence[Expr], unknowns: Sequence[Expr], positive: frozenset[Expr]
 ) -> list[BoundedCase] | None:
-    """Return the cases of some relations between ``unknowns``; None where there are too many of them.
+    """The cases of some relations between ``unknowns``; None where there are too many of them.
 
     Other symbols are generic constants, in which the relations have to be analytic: else what is not 0 everywhere may
-    be 0 through an interval. No case: there is no real point.
+    be 0 through an interval. No case: there is no real point. Where combinations lead to too many cases, those of the
+    relations as they are.
     """
     if not all(is_analytic(g, g.symbols.difference(unknowns), positive) for g in relations):
         return None
+    found = _cases_of(relations, unknowns, positive, True)
+    return _cases_of(relations, unknowns, positive, False) if found is None else found
+
+
+def _cases_of(
+    relations: Sequence[Expr], unknowns: Sequence[Expr], positive: frozenset[Expr], combining: bool
+) -> list[BoundedCase] | None:
     moving = frozenset(unknowns)
-    undecided, bounded = [ZeroCase((), (), tuple(relations))], list[BoundedCase]()
-    for _ in range(MAX_CASES):
-        if not undecided:
-            return bounded
+    open_, found, seen = [ZeroCase((), (), tuple(relations))], list[BoundedCase](), 0
+    while open_:
         check()
-        case = undecided.pop()
+        seen += 1
+        if seen > MAX_CASES:
+            return None
+        case = open_.pop()
         parts = _split(case, moving, positive)
+        if parts is None and combining:
+            together = _combined(case.left, moving, positive)
+            parts = None if together is None else [replace(case, left=(), fresh=together)]
         if parts is None:
-            bounded += [b for b in [_bounded(case, unknowns, positive)] if b.most >= 0]
+            found += [b for b in [_bounded(case, unknowns, positive)] if b.most >= 0]
         else:
-            undecided += parts
-    return None if undecided else bounded
+            open_ += parts
+    return found
 
 
 def _split(case: ZeroCase, moving: frozenset[Expr], positive: frozenset[Expr]) -> list[ZeroCase] | None:
@@ -105,6 +117,24 @@ def _split(case: ZeroCase, moving: frozenset[Expr], positive: frozenset[Expr]) -
         replace(solved, nonzero=(*case.nonzero, *factors)),
         replace(case, left=others, fresh=(slope, at_zero)),
     ]
+
+
+def _combined(relations: Sequence[Expr], moving: frozenset[Expr], positive: frozenset[Expr]) -> tuple[Expr, ...] | None:
+    """Combinations with numbers that say the same, where one of them falls into factors; None where none does.
+
+    x^2 + z^2 = a^2 and x^2 + (z - w)^2 = a^2 give w (w - 2 z) = 0.
+    """
+    if len(relations) < 2:
+        return None
+    ring = Ring(relations, positive)
+    nodes = [ring.node(g) for g in relations]
+    canon = Canon(ring)
+    rows = echelon_by_degree(canon, nodes)
+    if rows is None:
+        return None
+    found = tuple(canon.to_expr(canon.ctx.from_dict(row)) for row in rows)
+    new = (g for g in found if not any(_same_zeros(g, e, positive) for e in relations))
+    return found if any(zero_set(g, positive, moving)[0] != ((g,),) for g in new) else None
 
 
 def _linear(relations: Sequence[Expr], moving: frozenset[Expr]) -> Iterator[tuple[tuple[int, int], Expr, Expr, Expr]]:

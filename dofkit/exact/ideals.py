@@ -12,9 +12,10 @@ from itertools import combinations
 from math import lcm
 from typing import Any
 
-from flint import Ordering, fmpz_mpoly_ctx, fmpz_mpoly_vec
+from flint import Ordering, fmpq_mat, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
 from dofkit.base.deadline import check
+from dofkit.exact.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 
@@ -24,6 +25,9 @@ MAX_UNKNOWNS, MAX_DEGREE, MAX_LENGTH = 12, 6, 40
 LIMITS = (60, 200, 400)
 #: Parameters stand for numbers up to this size.
 LARGEST = 10**4
+
+#: Relations are combined while their coefficients fit a matrix of this many entries.
+COMBINED_ENTRIES = 20_000
 
 Poly = Any
 Table = dict[tuple[int, ...], Fraction]
@@ -140,3 +144,22 @@ def _basis(polynomials: Sequence[Poly]) -> list[Poly] | None:
     vector: Any = fmpz_mpoly_vec(given, given[0].context())
     basis, complete = vector.buchberger_naive(limits=LIMITS)
     return list(basis) if complete else None
+
+
+# -- linear combinations of lower degree -----------------------------------------------------------
+
+
+def echelon_by_degree(canon: Canon, relations: Sequence[int]) -> list[dict[tuple[int, ...], Any]] | None:
+    """Return an echelon form of the numerators, or None where it is too large.
+
+    Terms of the highest degree are eliminated first: two circles meet on a line.
+    """
+    try:
+        tables = [canon.quotient(node)[0].to_dict() for node in relations]
+    except NoValueError:
+        return None
+    monomials = sorted({m for table in tables for m in table}, key=lambda m: (-sum(m), m))
+    if not monomials or len(monomials) * len(tables) > COMBINED_ENTRIES:
+        return None
+    reduced, rank = fmpq_mat([[table.get(m, 0) for m in monomials] for table in tables]).rref()
+    return [{m: reduced[r, c] for c, m in enumerate(monomials) if reduced[r, c] != 0} for r in range(rank)]

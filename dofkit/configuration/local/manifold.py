@@ -204,7 +204,14 @@ def is_zero(value: Scalar) -> bool:
 
 @dataclass(frozen=True)
 class Split:
-    """``equations`` (function, column) whose linear parts are independent; M's coordinates ``solved`` and ``free``."""
+    """The manifold N on which gradients of dependent relations vanish, as far as their second order makes them.
+
+    On M let f_1, ..., f_k be the dependent relations. Rows of their Hessians that are independent give equations
+    df_i/dx_j = 0, which can be solved for as many of M's coordinates: N, tangent to the common kernel. Where all f_i
+    vanish on N, it is a branch of the set on which every pose is singular. For one relation N is the critical set of
+    the splitting lemma [GromollMeyer1969]. ``equations`` are (function, column); ``solved`` and ``free`` are M's
+    coordinates.
+    """
 
     equations: tuple[tuple[int, int], ...]
     solved: tuple[int, ...]

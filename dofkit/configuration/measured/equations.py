@@ -316,7 +316,14 @@ SUBSPACES = 3
 
 
 class StressForms:
-    """``forms`` (k x w x w) of the stresses on a pose's w flexes; ``noise`` bounds their change by the tolerance."""
+    """The second order: ``forms`` (k x w x w) of the stresses on a pose's w flexes, with the ``noise`` of each entry.
+
+    Let J be the Jacobian, of rank r within the tolerance, and J_0 that of an exact geometry of rank r within it. A
+    stress l, with l J_0 = 0, and a motion v, with J_0 v = 0, give Q_l(v) = sum l_i (d^2 f_i)(v, v), the second order of
+    the dependent equation l f on the manifold of the others. The null spaces of J and J_0 differ by |J - J_0| / s, s
+    the least singular value that counts [Wedin1972], and the forms by that times the second derivatives, for the stress
+    and for both motions, and by what these change themselves: what balls of this radius prove holds for all such J_0.
+    """
 
     def __init__(self, pose: MeasuredPose) -> None:
         equations, flexes = pose.equations, pose.flexes

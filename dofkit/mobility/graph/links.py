@@ -102,7 +102,7 @@ _PROOF = Proof("proved", "spanning forest: in one dimension a link is redundant 
 
 
 class LineGraph:
-    """A graph of links in one dimension; see `dofkit.mobility.graph.links.GraphAnswer`."""
+    """Links along a line: one is redundant if and only if it closes a cycle [Kirchhoff1847]; see `GraphAnswer`."""
 
     def __init__(self, joints: int, ends: Any) -> None:
         self._ends = list(zip(ends[::2].tolist(), ends[1::2].tolist(), strict=True))
