@@ -87,12 +87,3 @@ def _first_order_by_balls(forms: Codistribution, reference: Mapping[Expr, Expr])
         return None
     part = ball_part([row[: forms.n] for row in matrix])
     return forms.n - part.rank if part.gap > CLEAR else None
-
-
-def is_on_variety(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool | None:
-    """Return whether the reference configuration (t = 0) satisfies all finite relations over GF(p).
-
-    None where it has no point over GF(p): numbers there may be related in a way that is not known.
-    """
-    point = pose_point(forms.chart, {**reference, ex.TIME: ex.ZERO}, 11)
-    return None if point is None else on_variety(forms.chart, point)

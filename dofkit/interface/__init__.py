@@ -12,5 +12,5 @@ From a command to its output
     4. `show` renders reports, motions, faults and scenes: a `Sheet` of facts and sections, which is written as lines
        for a terminal or as a page.
     5. `output` knows the standard streams and how a command fails; `classification` prints reports as they come, with
-       a summary; `conversion` has `new` and `convert`; `explanations` has every word that `dofkit explain` knows.
+       a summary; `named_files` has `new` and `convert`; `explanations` has every word that `dofkit explain` knows.
 """

@@ -21,11 +21,10 @@ from dofkit.interface.jobs import STDIN, CertificateRequest, Cut, Request
 from dofkit.interface.output import FAILED, UNREADABLE
 from dofkit.interface.show.decimals import as_the_scene
 from dofkit.interface.show.faults import complaint
-from dofkit.interface.show.line import brief_line, outcome_of, selected_line, selection_of
 from dofkit.interface.show.motion import sheet_of_motion
 from dofkit.interface.show.report import changed, sheet_of_report, unexpected
 from dofkit.interface.show.sheet import SheetSection
-from dofkit.interface.show.terminal import Screen, as_text
+from dofkit.interface.show.terminal import Screen, as_text, brief_line, outcome_of, selected_line, selection_of
 from dofkit.methods.stages import classified, lowered, stages
 from dofkit.report import Report
 from dofkit.scene.catalog import FoundFile, find

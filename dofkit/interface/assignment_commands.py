@@ -23,7 +23,7 @@ export_app = typer.Typer(
 @assignment_app.command("new")
 def new(
     scenes: Annotated[list[str], typer.Argument(metavar="SCENE...", help="Scenes: paths or catalog names.")],
-    every: Annotated[bool, typer.Option("--all", help="Include every question that fits the scenes.")] = False,
+    every: Annotated[bool, options.flag("--all", "Include every question that fits the scenes.")] = False,
 ) -> None:
     """Print a first assignment with five questions per scene."""
     with failures_of(None):
@@ -95,7 +95,7 @@ def vary(
     form: Annotated[
         str, typer.Option("--format", metavar="NAME", help="The format of the handouts: html or md.")
     ] = "html",
-    anew: Annotated[bool, typer.Option("--anew", help="Replace the variants that the folder holds already.")] = False,
+    anew: Annotated[bool, options.flag("--anew", "Replace the variants that the folder holds already.")] = False,
 ) -> None:
     """Write a variant for every student.
 

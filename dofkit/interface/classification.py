@@ -59,7 +59,7 @@ def classify_files(files: Sequence[str], request: Request, run: Run) -> int:
     output = request.output
     plain = not (output.as_json or output.only)
     if plain and output.brief and run.out is None:
-        from dofkit.interface.show.line import headline  # which imports the report
+        from dofkit.interface.show.terminal import headline  # which imports the report
 
         typer.echo(headline(output.name_width))
     for seconds, printed in _timed(files, request, run):

@@ -155,7 +155,7 @@ def grade(
 @app.command(rich_help_panel=MORE)
 def new(file: options.NewPath = None) -> None:
     """Write a first scene to edit, with the schema for editors."""
-    from dofkit.interface.conversion import write_new
+    from dofkit.interface.named_files import write_new
 
     with failures_of("new"):
         typer.echo(write_new(file), nl=False)
@@ -164,7 +164,7 @@ def new(file: options.NewPath = None) -> None:
 @app.command(rich_help_panel=MORE)
 def convert(file: options.ModelPath, out: options.ScenePath = None, limits: options.Limits = False) -> None:
     """Convert a MJCF, URDF or SolveSpace model to a scene."""
-    from dofkit.interface.conversion import write_converted
+    from dofkit.interface.named_files import write_converted
 
     with failures_of(file):
         typer.echo(write_converted(file, out, limits), nl=False)

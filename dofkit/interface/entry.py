@@ -19,6 +19,9 @@ def main() -> None:
     """Run the command line and end this process; an interrupt or a closed pipe ends it without a traceback."""
     gc.set_threshold(OBJECTS)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    if os.environ.get("FORCE_COLOR") == "0":
+        # Rich takes any value of FORCE_COLOR for a wish for colours.
+        os.environ["NO_COLOR"] = os.environ.pop("FORCE_COLOR")
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")

@@ -116,6 +116,11 @@ def _format(kinds: Collection[str]) -> Any:
     return Option("--format", metavar="KIND", callback=_one_of(kinds), help=about)
 
 
+def flag(name: str, help_text: str) -> Any:
+    """Return the option of a flag, whose line of help names no type."""
+    return Option(name, metavar="", help=help_text)
+
+
 def _workers(help_text: str) -> Any:
     return Option("--workers", metavar="N", min=1, help=help_text, rich_help_panel=ADVANCED)
 
@@ -124,10 +129,10 @@ def _workers(help_text: str) -> Any:
 
 _FILES = "Scenes or models: paths, folders, patterns, catalog names, or - for standard input."
 Files = Annotated[list[str], Argument(metavar="FILE", help=_FILES, autocompletion=_catalogued, callback=_files)]
-AsJson = Annotated[bool, Option("--json", help="Print one JSON object per line, in the order given.")]
+AsJson = Annotated[bool, flag("--json", "Print one JSON object per line, in the order given.")]
 _LIMIT = "Time limit per scene; what is unfinished then is undecided."
 Budget = Annotated[float, Option("--budget", metavar="SECONDS", min=0, help=_LIMIT, rich_help_panel=ADVANCED)]
-Limits = Annotated[bool, Option("--limits", help="Include the joint limits of models as inequalities.")]
+Limits = Annotated[bool, flag("--limits", "Include the joint limits of models as inequalities.")]
 Workers = Annotated[int | None, _workers("Number of processes; the default is one per core.")]
 _CLUSTER = "Run on the Dask cluster at this address."
 Scheduler = Annotated[str | None, Option("--scheduler", metavar="ADDRESS", help=_CLUSTER, rich_help_panel=ADVANCED)]
@@ -139,9 +144,9 @@ ReviewTable = Annotated[Path | None, Option("--reviewed", metavar="CSV", help=_R
 
 # Of `classify`
 
-Brief = Annotated[bool, Option("--brief", help="Print one line per scene (the default for more than three).")]
-Full = Annotated[bool, Option("--full", help="Print full reports, however many scenes there are.")]
-How = Annotated[bool, Option("--how", help="Show the argument behind each answer and how certain it is.")]
+Brief = Annotated[bool, flag("--brief", "Print one line per scene (the default for more than three).")]
+Full = Annotated[bool, flag("--full", "Print full reports, however many scenes there are.")]
+How = Annotated[bool, flag("--how", "Show the argument behind each answer and how certain it is.")]
 _ONLY = "Print these fields of the report only, such as dof."
 Only = Annotated[list[str] | None, Option("--only", metavar="FIELD,...", help=_ONLY)]
 _WITHOUT = "Drop these constraints, and show what changes."
@@ -151,7 +156,7 @@ FailOn = Annotated[list[str] | None, Option("--fail-on", metavar="WHAT,...", hel
 SceneWorkers = Annotated[int | None, _workers("Number of processes; with --out the default is one per core.")]
 _REPORTS = "Write the reports to DIR/reports.jsonl; a later run answers only what is new or changed."
 ReportFolder = Annotated[Path | None, Option("--out", metavar="DIR", callback=folder, help=_REPORTS)]
-Watch = Annotated[bool, Option("--watch", help="Run again whenever a file changes, until Ctrl-C.")]
+Watch = Annotated[bool, flag("--watch", "Run again whenever a file changes, until Ctrl-C.")]
 _METHOD = f"Answer by one method only: {', '.join(METHODS)}."
 Method = Annotated[
     str, Option("--method", metavar="NAME", callback=_one_of(METHODS), help=_METHOD, rich_help_panel=ADVANCED)
@@ -165,7 +170,7 @@ CertificatePath = Annotated[
 ]
 _SCENE_AND_CERTIFICATE = "A scene and its certificate, or a certificate that holds its scene."
 CertificateFiles = Annotated[list[str], Argument(metavar="[SCENE] CERT", help=_SCENE_AND_CERTIFICATE)]
-Strict = Annotated[bool, Option("--strict", help="Fail if a claim is not covered by evidence, too.")]
+Strict = Annotated[bool, flag("--strict", "Fail if a claim is not covered by evidence, too.")]
 
 # Of pictures and equations of motion
 
@@ -176,7 +181,7 @@ MovingKind = Annotated[str | None, _format(MOVING_KINDS)]
 _DRAWN_AS = "mechanism; graph: constraints and what they constrain; directions: those of a growth vector."
 DrawnAs = Annotated[str, Option("--as", metavar="KIND", callback=_one_of(DRAWN_AS), help=_DRAWN_AS)]
 _LINEARIZE = "Add the matrices M, C and K of small motions about an equilibrium."
-Linearize = Annotated[bool, Option("--linearize", help=_LINEARIZE)]
+Linearize = Annotated[bool, flag("--linearize", _LINEARIZE)]
 
 # Of `grade`
 
@@ -186,7 +191,7 @@ _FORMAT = "native, html, or a platform: gradescope, prairielearn, coursera, canv
 ResultFormat = Annotated[str, Option("--format", metavar="NAME", help=_FORMAT)]
 _RESULT = "The file or folder to write; an interrupted run resumes there."
 ResultPath = Annotated[Path | None, Option("--out", metavar="PATH", help=_RESULT)]
-CheckOnly = Annotated[bool, Option("--check-only", help="Show how every answer is read, without grading.")]
+CheckOnly = Annotated[bool, flag("--check-only", "Show how every answer is read, without grading.")]
 
 # Of `new`, `convert`, `explain`, `catalog` and `schema`
 
@@ -214,7 +219,7 @@ Methods = Annotated[list[str] | None, Option("--methods", metavar="NAME,...", he
 ChartFolder = Annotated[Path, Option("--out", metavar="DIR", callback=folder, help="The folder for data and figures.")]
 _SOURCE = "Redraw the figures from the data of an earlier run."
 ChartSource = Annotated[Path | None, Option("--from", metavar="DIR", help=_SOURCE)]
-Quick = Annotated[bool, Option("--quick", help="Run a few small trials of each family, in under a minute.")]
+Quick = Annotated[bool, flag("--quick", "Run a few small trials of each family, in under a minute.")]
 _MOST = "The number of trials per family and question; 0 for all."
 Most = Annotated[int | None, Option("--most", metavar="N", min=0, help=_MOST)]
 _TIMEOUT = "Processor time per trial and method."

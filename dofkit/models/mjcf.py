@@ -16,17 +16,21 @@ from typing import Any, NamedTuple
 from dofkit.base.errors import Fault, SceneError
 from dofkit.base.runs import shared
 from dofkit.base.workers import Job
-from dofkit.models.joint_relations import OVER, JointSum, bounds, relation, whole_turns
 from dofkit.models.markup import Element, read_markup
 from dofkit.models.model_document import (
+    OVER,
+    JointSum,
     ModelDocument,
     ModelFile,
     SceneDraft,
+    bounds,
     inertia_of,
     listed,
     number,
+    relation,
     tolerance_of,
     vector,
+    whole_turns,
 )
 from dofkit.system import GROUND
 

@@ -14,17 +14,21 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from dofkit.base.errors import Fault, SceneError
-from dofkit.models.joint_relations import OVER, JointSum, bounds, relation, whole_turns
 from dofkit.models.model_document import (
     FINEST,
+    OVER,
+    JointSum,
     ModelDocument,
     ModelFile,
     SceneDraft,
+    bounds,
     inertia_of,
     listed,
     number,
+    relation,
     tolerance_of,
     vector,
+    whole_turns,
 )
 from dofkit.models.urdf_elements import (
     FIXED,

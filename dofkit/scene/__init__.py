@@ -10,11 +10,11 @@ Mechanisms, in the order of reading
        line and column. `synonyms` rewrites other words into the standard ones, `hints` say what to write instead, and
        `fields` reads exact numbers and texts and states the faults of Pydantic in English.
     2. `parts` are points, particles, bodies, forces and energies; `constraints` has one class for each constraint
-       type, with its equations, symbol, variants and example in one file.
+       type, with its equations, symbol and example in one file.
     3. `lowering` goes from what is written to a `System`: first `names`, then the `drawing` with its `frames`, then
        each constraint in the `world` of points and directions. `ledger` reads texts and records their faults.
 
-Further uses: `expectation` compares a report with the `expect` of a scene, `variation` makes variants of equal
-difficulty, `added_equations` reads a student's equations with the scene's names, `schema` is the JSON Schema for
+Further uses: `expectation` compares a report with the `expect` of a scene,
+`added_equations` reads a student's equations with the scene's names, `schema` is the JSON Schema for
 editors, and `symbols` describes how each type is drawn.
 """

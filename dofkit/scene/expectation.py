@@ -55,7 +55,7 @@ def _agrees(scene: Scene, key: str, wanted: Any, value: Any) -> bool:
     if key == "count" and isinstance(wanted, Mapping):
         return all(value.get(part) == number for part, number in wanted.items())
     if key == "redundancies" and isinstance(wanted, Sequence):
-        return _groups(wanted) == _groups(value)
+        return _groups(wanted) == _groups(value) and _members(wanted) <= _members(value)
     if key == "forces" and isinstance(wanted, Sequence):
         return _force_names(wanted) == _force_names(value)
     if key == "integral":
@@ -65,6 +65,11 @@ def _agrees(scene: Scene, key: str, wanted: Any, value: Any) -> bool:
 
 def _groups(groups: Sequence[Any]) -> list[Any]:
     return sorted(group.get("nullity", 0) for group in groups if isinstance(group, Mapping))
+
+
+def _members(groups: Sequence[Any]) -> set[frozenset[str]]:
+    """Return the members of the groups that name them."""
+    return {frozenset(map(str, g["members"])) for g in groups if isinstance(g, Mapping) and g.get("members")}
 
 
 def _force_names(forces: Sequence[Any]) -> list[str]:

@@ -36,6 +36,8 @@ MOST_FAULTS = 200
 _DROPPED_WHOLE = frozenset(
     {"name", "title", "source", "notes", "left_out", "expect", "energies", "configuration", "tolerance"}
 )
+#: Keys of a particle or a body that no text of a constraint depends on.
+_OF_NO_TEXT = frozenset({"at", "mass", "inertia"})
 _TAKEN = "a Scene, a path, a catalog name or a mapping"
 
 
@@ -255,18 +257,17 @@ def _faults_of_sound_part(value: Mapping[str, Any], faults: Sequence[Fault]) -> 
     for fault in faults:
         first, second = (*fault.where, None, None)[:2]
         meant = meant_section(fault)
+        path = _path_of_no_text(fault, sound)
         if first in dropped and isinstance(second, int):
             dropped[str(first)].add(second)
-        elif first in _DROPPED_WHOLE:
-            sound.pop(first, None)
         elif meant is not None and meant not in sound:
             sections[meant] = str(first)
             sound[meant] = sound.pop(first)
-        elif fault.message.startswith(UNKNOWN_KEY):
+        elif path is not None:
             owner = sound
-            for key in fault.where[:-1]:
+            for key in path[:-1]:
                 owner = owner[key]
-            owner.pop(fault.where[-1], None)
+            owner.pop(path[-1], None)
         else:
             return
     kept = {key: [i for i in range(len(sound[key])) if i not in gone] for key, gone in dropped.items() if gone}
@@ -277,12 +278,27 @@ def _faults_of_sound_part(value: Mapping[str, Any], faults: Sequence[Fault]) -> 
         found = check(Scene.model_validate(standard_words(sound).value if sections else sound))
     except ValidationError:
         return
+    functions = [f"`{fault.where[1]}`" for fault in faults if fault.where[:1] == ("functions",) and fault.where[1:]]
+    missing_joints = {f"there is no joint '{name}'" for name in names}
     for fault in found:
-        if fault.message not in {f"there is no joint '{name}'" for name in names}:
+        if fault.message not in missing_joints and not any(function in fault.message for function in functions):
             first, *rest = fault.where or ("",)
             if first in kept and rest and isinstance(rest[0], int):
                 rest[0] = kept[str(first)][rest[0]]
             yield replace(fault, where=(sections.get(str(first), first), *rest) if fault.where else ())
+
+
+def _path_of_no_text(fault: Fault, scene: Mapping[str, Any]) -> tuple[str | int, ...] | None:
+    """Return the path of what is faulty, where the texts of a scene mean the same without it."""
+    where = fault.where
+    first = next(iter(where), None)
+    if first in _DROPPED_WHOLE or (first == "dimension" and not (scene.get("particles") or scene.get("bodies"))):
+        return where[:1]
+    if first in ("particles", "bodies") and where[2:] and where[2] in _OF_NO_TEXT:
+        return where[:3]
+    if first == "functions" and where[1:] and isinstance(scene["functions"], dict):
+        return where[:2]
+    return where if fault.message.startswith(UNKNOWN_KEY) else None
 
 
 def _as_entry(value: Any, key: str, index: int) -> Any:

@@ -1,8 +1,8 @@
 """The documentation as a site: in a checkout `pip install '.[docs]' && python -m dofkit.site` writes `build/site`.
 
-What a person wrote stands in `pages/`. The rest is generated from the package itself: `constraint_pages` from the
-classes of the constraint types, `reference_pages` (glossary, theorems, commands) from the tables of fields, verdicts
-and arguments and from the help of the commands, `gallery` from the catalog's pictures and reports, which it keeps
+What a person wrote stands in `pages/`. The rest is generated from the package itself: `reference_pages` from the
+classes of the constraint types (glossary, theorems, commands: from the tables of fields, verdicts and arguments and
+from the help of the commands), `gallery` from the catalog's pictures and reports, which it keeps
 between builds. `markdown` escapes prose, and `building` runs MkDocs over all of it. The folder is not part of the
 wheel.
 """

@@ -17,12 +17,11 @@ import yaml
 from dofkit.base.errors import DofkitError
 from dofkit.scene.catalog import catalog_folder
 from dofkit.scene.constraints import TYPES
-from dofkit.site.constraint_pages import FOLDER as TYPE_FOLDER
-from dofkit.site.constraint_pages import constraint_pages
 from dofkit.site.gallery import FOLDER as GALLERY
 from dofkit.site.gallery import ShownScene, catalog_scenes, gallery_pages
 from dofkit.site.markdown import SitePage
-from dofkit.site.reference_pages import GLOSSARY, command_pages, readme_page, report_pages, rooms_page
+from dofkit.site.reference_pages import FOLDER as TYPE_FOLDER
+from dofkit.site.reference_pages import GLOSSARY, command_pages, constraint_pages, readme_page, report_pages, rooms_page
 
 ROOT = Path(__file__).parents[2]
 WRITTEN = Path(__file__).parent / "pages"

@@ -340,6 +340,9 @@ def test_forced_colours_are_in_reports_lines_and_faults(monkeypatch: pytest.Monk
         assert "\x1b[1;31m^\x1b[0m" in told.stderr
     told = subprocess.run([*command[:4], "--json", FOUR[1]], capture_output=True, text=True, check=False)
     assert "\x1b" not in told.stdout
+    monkeypatch.setenv("FORCE_COLOR", "0")
+    told = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert "\x1b" not in told.stdout + told.stderr
 
 
 # Watching

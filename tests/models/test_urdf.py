@@ -206,7 +206,7 @@ def test_a_range_counts_from_where_a_closing_joint_is_drawn() -> None:
     )  # fmt: skip
     scene = load(robot(*closed), limits=True)
     ranged = next(c for c in scene.constraints if c.kind() == "coupling")
-    assert ranged.written()["text"] == "-1.5 <= p <= 0.5"
+    assert ranged.model_dump()["text"] == "-1.5 <= p <= 0.5"
 
 
 @pytest.mark.parametrize(("limits", "text"), [("3.5 5", "-2.78318530718 <= p <= -1.28318530718"), ("3 4", "")])
@@ -218,7 +218,7 @@ def test_ranges_beyond_half_a_turn_are_counted_less_whole_turns(limits: str, tex
         ),
         limits=True,
     )
-    ranged = [c.written()["text"] for c in scene.constraints if c.kind() == "coupling"]
+    ranged = [c.model_dump()["text"] for c in scene.constraints if c.kind() == "coupling"]
     assert ranged == ([text] if text else [])
     assert any("beyond half a turn" in told for told in scene.left_out) is not bool(text)
 

@@ -44,6 +44,7 @@ def test_what_is_right_is_met() -> None:
         ({"dof": None}, "dof: None expected, but the report has 1"),
         ({"redundant": []}, "redundant: [] expected, but the report has ['c3']"),
         ({"redundancies": [{"nullity": 2}]}, "redundancies: [{'nullity': 2}] expected, "),
+        ({"redundancies": [{"nullity": 1, "members": ["c2", "form"]}]}, "redundancies: [{'nullity': 1, "),
         ({"count": {"naive_dof": 2}}, "count: {'naive_dof': 2} expected, "),
         ({"count": 7}, "count: 7 expected, "),
         ({"forces": ["f1"]}, "forces: ['f1'] expected, but the report has []"),

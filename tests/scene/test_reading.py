@@ -332,3 +332,16 @@ def test_a_length_that_cannot_be_read_is_a_fault_of_every_link() -> None:
     with pytest.raises(SceneError) as caught:
         loads(text + "".join(f"- {{type: link, between: [{a}, C], length: nosuch}}\n" for a in "AB"))
     assert len(caught.value.faults) == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        ("dimension: 2\nparticles: [{name: A, mass: [1]}]\nconstraints: [x_A = q]\n", [2, 3]),
+        ("dimension: 2\nbodies: [{name: A, inertia: {a: 1}}]\nconstraints: [x_A = q]\n", [2, 3]),
+        ("coordinates: [x]\nfunctions: {f: 3}\nconstraints: [x = f(t), x = y]\n", [2, 3]),
+        ("coordinates: [x]\ndimension: 4\nconstraints: [x = y]\n", [2, 3]),
+    ],
+)
+def test_a_faulty_declaration_hides_no_fault_of_a_text(text: str, lines: list[int]) -> None:
+    assert [fault.line for fault in faults(text)] == lines

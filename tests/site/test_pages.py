@@ -17,10 +17,19 @@ from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES
 from dofkit.site import gallery as room
 from dofkit.site.building import SETTINGS, folders, settings
-from dofkit.site.constraint_pages import FOLDER, constraint_pages, scene_of
 from dofkit.site.gallery import ShownScene, catalog_scenes, gallery_pages, in_a_line, shown
 from dofkit.site.markdown import prose
-from dofkit.site.reference_pages import GLOSSARY, THEOREMS, command_pages, commands, readme_page, report_pages
+from dofkit.site.reference_pages import (
+    FOLDER,
+    GLOSSARY,
+    THEOREMS,
+    command_pages,
+    commands,
+    constraint_pages,
+    readme_page,
+    report_pages,
+    scene_of,
+)
 
 DISC = """
 coordinates: [x, y, theta, phi]

@@ -27,9 +27,9 @@ from dofkit.integrability.pfaffian_system import (
     Codistribution,
     codistribution,
     first_order_freedom,
-    is_on_variety,
 )
 from dofkit.integrability.prolongation import confinements, prolong
+from dofkit.integrability.regular_reference import reference_points, regular_reference
 from dofkit.integrability.row_labels import ball_labels, field_labels
 from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
@@ -203,12 +203,15 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
         return result if alike else replace(result, about="component")
     if "field" not in forms.chart.engines:
         return Variety(None, None, "undecided", reasons=[IRREGULAR])
-    there = is_on_variety(forms, setting.reference)
-    if there is False:
+    undecided = Variety(None, None, "undecided", reasons=[IRREGULAR])
+    points = reference_points(forms, setting.reference)
+    if points is None:
+        return undecided
+    if not points:
         return replace(find(forms.chart, setting.pose), about="component")
-    if there and is_irreducible(forms.chart) and _as_large(forms, setting.reference):
+    if is_irreducible(forms.chart) and _as_large(forms, setting.reference):
         return find(forms.chart, setting.pose)
-    return Variety(None, None, "undecided", reasons=[IRREGULAR])
+    return regular_reference(forms, points, setting.reference) or undecided
 
 
 def _as_large(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool:

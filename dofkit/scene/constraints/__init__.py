@@ -11,12 +11,11 @@ from typing import Annotated, get_args
 from pydantic import Field
 
 from dofkit.scene.constraints.base import ConstraintBase, Equation, On
-from dofkit.scene.constraints.cam import Cam
+from dofkit.scene.constraints.contacts import Cam, Gear, Roll
 from dofkit.scene.constraints.coupling import Coupling
 from dofkit.scene.constraints.distances import Link, Rigid, String
 from dofkit.scene.constraints.places import Coincident, Fixed, Slot
 from dofkit.scene.constraints.plane_and_space import Prismatic, Revolute, Weld
-from dofkit.scene.constraints.rolling import Gear, Roll
 from dofkit.scene.constraints.spatial import Cylindrical, Planar, Screw, Spherical, Universal
 
 __all__ = ["TYPES", "AnyConstraint", "ConstraintBase"]

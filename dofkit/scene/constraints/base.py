@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from typing import Annotated, Any, ClassVar, Literal, get_args
 
@@ -19,7 +19,6 @@ from dofkit.scene.ledger import FINITE
 from dofkit.scene.names import within_member
 from dofkit.scene.parts import Point, show_point
 from dofkit.scene.symbols import Symbol
-from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation, angle_for_turning
 from dofkit.scene.world import World
 from dofkit.system import Relation, TypeFacts
 
@@ -45,8 +44,6 @@ class ConstraintBase(WrittenModel):
     other_keys: ClassVar[Mapping[str, str]] = {}
     #: What everyone else may know of the type.
     facts: ClassVar[TypeFacts] = TypeFacts()
-    #: What of it may differ between the sheets of students.
-    variation: ClassVar[TypeVariation] = TypeVariation()
     #: How the type is drawn.
     symbol: ClassVar[Symbol]
 
@@ -77,25 +74,10 @@ class ConstraintBase(WrittenModel):
         """Yield its texts that may mention coordinates."""
         yield from ()
 
-    def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
-        """Yield what may stand in its place on another student's sheet."""
-        del names
-        yield from ()
-
-    @classmethod
-    def offers(cls, names: NamesAtHand, known: Sequence[Mapping[str, Any]]) -> Iterator[Mapping[str, Any]]:
-        """Constraints of the type that may be added to the ``known`` ones on another student's sheet."""
-        del names, known
-        yield from ()
-
     @classmethod
     def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
         """Return a faulty entry with what several wrong keys state together under the right one."""
         return dict(entry)
-
-    def written(self) -> dict[str, Any]:
-        """Return its fields as they are written."""
-        return self.model_dump(mode="json", exclude_none=True)
 
     @property
     def in_words(self) -> str:
@@ -152,20 +134,12 @@ class Equation(ConstraintBase):
     text: Text = Field(description="the equation, such as `x^2 + y^2 = l^2` or `dy = R cos(theta) dphi`")
     facts: ClassVar[TypeFacts] = TypeFacts(written=True, surface=True)
     symbol: ClassVar[Symbol] = Symbol(run="locus")
-    variation: ClassVar[TypeVariation] = TypeVariation(texts=("text",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         yield from world.equations(self.text, "text")
 
     def texts(self) -> Iterator[str]:
         yield self.text
-
-    def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
-        """Yield the same at rest, where it turns at a steady rate."""
-        resting = angle_for_turning(self.text, names)
-        if resting is not None:
-            text, rate, angle = resting
-            yield Replacement("supports", {**self.written(), "text": text}, {angle: "real"}, f"{angle} for {rate} t")
 
     @property
     def in_words(self) -> str:
@@ -201,7 +175,6 @@ class On(ConstraintBase):
     ] = Field(None, description="equations in x, y, z: a curve in space is where two surfaces meet")
     facts: ClassVar[TypeFacts] = TypeFacts(written=True, lettered=True, surface=True, shared=True)
     symbol: ClassVar[Symbol] = Symbol(run="locus")
-    variation: ClassVar[TypeVariation] = TypeVariation(places=("members",), texts=("surface", "curve"))
 
     def texts(self) -> Iterator[str]:
         yield from () if self.surface is None else (self.surface,)

@@ -25,7 +25,6 @@ from dofkit.scene.frames import Frame, relative
 from dofkit.scene.ledger import FINITE
 from dofkit.scene.names import within_member
 from dofkit.scene.symbols import Symbol
-from dofkit.scene.variation import TypeVariation
 from dofkit.scene.world import Direction, World
 from dofkit.system import JointRate, Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -84,7 +83,6 @@ class Coupling(ConstraintBase):
     dimensions: ClassVar[tuple[int, ...]] = (2, 3)
     facts: ClassVar[TypeFacts] = TypeFacts(_coupling_rows)
     symbol: ClassVar[Symbol] = Symbol(run="locus")
-    variation: ClassVar[TypeVariation] = TypeVariation(texts=("text",))
 
     @property
     def lettered(self) -> dict[str, str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, pairwise
 from typing import Annotated, Any, ClassVar, Literal
@@ -21,7 +20,6 @@ from dofkit.scene.fields import Value, as_written
 from dofkit.scene.frames import Placed, between
 from dofkit.scene.parts import Ends, Point, show_point
 from dofkit.scene.symbols import Symbol
-from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation, length_in_motion
 from dofkit.scene.world import World
 from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -48,7 +46,6 @@ class Link(ConstraintBase):
     length: Value | None = Field(None, description="their distance; may contain t; default: the reference distance")
     facts: ClassVar[TypeFacts] = TypeFacts(distance_rows, joint=True, bars=True, surface=True)
     symbol: ClassVar[Symbol] = Symbol(run="bar")
-    variation: ClassVar[TypeVariation] = TypeVariation(places=("between",), lengths=("length",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         first, second = (world.point(end, "between", i) for i, end in enumerate(self.between))
@@ -67,61 +64,10 @@ class Link(ConstraintBase):
         if isinstance(self.length, str):
             yield self.length
 
-    @classmethod
-    def offers(cls, names: NamesAtHand, known: Sequence[Mapping[str, Any]]) -> Iterator[Mapping[str, Any]]:
-        """Yield a link between two particles that have none, where others have."""
-        pairs = [
-            frozenset(entry["between"]) for entry in known if entry.get("type") == cls.kind() and _between_names(entry)
-        ]
-        points = [owner for owner in names.owned if any(owner in pair for pair in pairs)]
-        for pair in combinations(points, 2):
-            if frozenset(pair) not in pairs:
-                yield {"type": cls.kind(), "between": list(pair)}
-
-    def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
-        """Yield its length in motion, or the place in the world that it hangs on."""
-        replacement = length_in_motion(self.written(), names)
-        if replacement is not None:
-            yield replacement
-        moved = _hung_on_what_moves(self, names)
-        if moved is not None:
-            yield moved
-
     @property
     def in_words(self) -> str:
         ends = "-".join(show_point(end) for end in self.between)
         return f"link {ends}" + ("" if self.length is None else f", length {as_written(self.length)}")
-
-
-def _hung_on_what_moves(link: Link, names: NamesAtHand) -> Replacement | None:
-    """Return a particle on a link of constant length whose other end moves to and fro in the world, as an equation."""
-    places = [end for end in link.between if isinstance(end, tuple)]
-    points = [names.owned.get(end, ()) for end in link.between if isinstance(end, str)]
-    length = "" if link.length is None else as_written(link.length)
-    if (
-        len(places) != 1
-        or len(points) != 1
-        or len(points[0]) != len(places[0])
-        or not length
-        or re.search(r"\bt\b", length)
-    ):
-        return None
-    reach, rate = names.fresh("a"), names.fresh("omega")
-    sway = f"{reach}*cos({rate}*t)"
-    shifts = [as_written(part) for part in places[0]]
-    ends = [sway if shifts[0] == "0" else f"{shifts[0]} + {sway}", *shifts[1:]]
-    squares = [
-        q if p == "0" else f"({q} - {p if p.isalnum() else f'({p})'})" for q, p in zip(points[0], ends, strict=True)
-    ]
-    whole = length if length.isalnum() else f"({length})"
-    fields = {"type": "equation", "text": f"{' + '.join(f'{s}^2' for s in squares)} = {whole}^2"}
-    fields |= {} if link.name is None else {"name": link.name}
-    note = f"its support moves by {reach} cos({rate} t)"
-    return Replacement("supports", fields, {reach: "positive", rate: "positive"}, note)
-
-
-def _between_names(written: Mapping[str, Any]) -> bool:
-    return all(isinstance(end, str) for end in written["between"])
 
 
 def _same_place(first: Placed, second: Placed) -> bool:
@@ -254,7 +200,6 @@ class String(ConstraintBase):
     length: Value | None = Field(None, description="its length; may contain t; default: the reference length")
     facts: ClassVar[TypeFacts] = TypeFacts(string=True)
     symbol: ClassVar[Symbol] = Symbol(run="rope")
-    variation: ClassVar[TypeVariation] = TypeVariation(places=("along",), lengths=("length",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         points = [world.point(point, "along", i) for i, point in enumerate(self.along)]
@@ -282,11 +227,6 @@ class String(ConstraintBase):
     def texts(self) -> Iterator[str]:
         if isinstance(self.length, str):
             yield self.length
-
-    def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
-        replacement = length_in_motion(self.written(), names)
-        if replacement is not None:
-            yield replacement
 
     @classmethod
     def restated(cls, entry: Mapping[str, Any]) -> dict[str, Any]:

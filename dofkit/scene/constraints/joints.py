@@ -26,7 +26,6 @@ from dofkit.scene.fields import Text, Vector
 from dofkit.scene.frames import Frame, between, relative
 from dofkit.scene.ledger import LAW
 from dofkit.scene.parts import show_vector
-from dofkit.scene.variation import NamesAtHand, Replacement, TypeVariation
 from dofkit.scene.world import Direction, World
 from dofkit.system import DRIVE, Kinematics, Relation, VelocityRow
 
@@ -109,7 +108,6 @@ class Joint(ConstraintBase):
 
     between: tuple[str, str] = Field(description="the two bodies; one may be ground")
 
-    variation: ClassVar[TypeVariation] = TypeVariation(places=("at",), directions=("axis", "axes"))
     #: What a coupling may mention of it.
     measures: ClassVar[Mapping[str, Measure]] = {}
     #: What no part of its equations leaves out: of a common place the positions of the bodies (``place``), and how one
@@ -199,17 +197,6 @@ class Driven(Axial):
     """A joint whose angle or displacement may be prescribed."""
 
     drive: Text | None = Field(None, description="the prescribed angle or displacement from the reference, in t")
-
-    def replacements(self, names: NamesAtHand) -> Iterator[Replacement]:
-        """Driven at a steady rate, or free where it is driven."""
-        written = self.written()
-        if self.drive is not None:
-            free = {key: value for key, value in written.items() if key != "drive"}
-            yield Replacement("supports", free, {}, "it is not driven")
-            return
-        rate = names.fresh("omega")
-        words = f"it is driven by {rate} t"
-        yield Replacement("supports", {**written, "drive": f"{rate}*t"}, {rate: "positive"}, words)
 
     def laws(self, world: World, first: Frame, second: Frame, drawn: JointGeometry) -> Iterator[Relation]:
         if self.drive is not None:

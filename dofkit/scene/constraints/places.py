@@ -16,7 +16,6 @@ from dofkit.scene.fields import Vector
 from dofkit.scene.frames import Frame, Placed, between
 from dofkit.scene.parts import BodyPoint, Ends, Point, show_point, show_vector
 from dofkit.scene.symbols import POINT, RING, Symbol, axle, prism, rail
-from dofkit.scene.variation import TypeVariation
 from dofkit.scene.world import Direction, World
 from dofkit.system import GROUND, Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -39,7 +38,6 @@ class Fixed(ConstraintBase):
     body: str | None = Field(None, description="a body")
     facts: ClassVar[TypeFacts] = TypeFacts(_fixed_rows, joint=True, held=True)
     symbol: ClassVar[Symbol] = Symbol(plane=(POINT,), space=(POINT,))
-    variation: ClassVar[TypeVariation] = TypeVariation(places=("point",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         if (self.point is None) == (self.body is None):
@@ -91,7 +89,6 @@ class Coincident(ConstraintBase):
     between: Ends = Field(description="the two points")
     facts: ClassVar[TypeFacts] = TypeFacts(_coincident_rows, joint=True, merged=True)
     symbol: ClassVar[Symbol] = Symbol(plane=(RING, POINT), space=(RING, POINT))
-    variation: ClassVar[TypeVariation] = TypeVariation(places=("between",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         first, second = (world.point(end, "between", i) for i, end in enumerate(self.between))
@@ -138,7 +135,6 @@ class Slot(ConstraintBase):
         space=(axle(4.0, 1), *prism(0.6, 4.0, 1)[2:], RING),
         rails=4.0,
     )
-    variation: ClassVar[TypeVariation] = TypeVariation(places=("point", "at"), directions=("axis",))
 
     def relations(self, world: World) -> Iterator[Relation]:
         point = world.point(self.point, "point")

@@ -34,7 +34,6 @@ from dofkit.scene.fields import Value, Vector, as_written
 from dofkit.scene.frames import Frame, relative
 from dofkit.scene.parts import show_vector
 from dofkit.scene.symbols import RING, Stroke, Symbol, arc, axle, cylinder, helix, plate, prism
-from dofkit.scene.variation import TypeVariation
 from dofkit.scene.world import Direction, World, within
 from dofkit.system import Kinematics, Relation, TypeFacts, VelocityRow
 
@@ -102,7 +101,6 @@ class Screw(Driven):
     facts: ClassVar[TypeFacts] = TypeFacts(
         _screw_rows, turn_rate, by_turn=True, axial=True, half_turns=True, joint=True, freedoms=("angle",)
     )
-    variation: ClassVar[TypeVariation] = TypeVariation(places=("at",), directions=("axis",), lengths=("pitch",))
     measures: ClassVar[Mapping[str, Measure]] = {"angle": ANGLE, "displacement": SLIDE}
     symbol: ClassVar[Symbol] = Symbol(space=(helix(0.4, 2.4, 6, 1), axle(2.4, 1), *prism(0.65, 0.6)))
 
