@@ -17,8 +17,8 @@ Mechanisms, in the order in which they are tried
        continuation, the geometry exactly as written; otherwise undecided.
     4. Without one, `search` finds points over GF(p) by solving one relation after another (`generic_points`) and holds
        them against certified real points; `generic_dimension` is the rank there. Where every real point is singular,
-       `singular_points` brings one to high precision. `components` asks whether a larger component exists [Krull1928];
-       `cases` divides a set where a factor, or a coefficient, vanishes.
+       one is brought to high precision there. `components` asks whether a larger component exists [Krull1928]; `cases`
+       divides a set where a factor, or a coefficient, vanishes.
 
 `finite_blocks` puts these together for blocks of finite relations. `rigid_motions` are the motions of the system as one
 rigid body. `implied_relations` asks whether a dependent relation is implied by others near the reference configuration.

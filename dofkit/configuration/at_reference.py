@@ -122,7 +122,7 @@ def _with_fewer(
 
     ``fields``: the motions of the whole as one body over the chart's columns; what they are on fewer is what is left.
     """
-    small, free = smaller(chart, known)
+    small, free = smaller(chart)
     spared = chart.coordinates - small.coordinates
     here = point if small is chart else pose_point(small, known, 3)
     if here is None or not on_variety(small, here):

@@ -14,7 +14,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from functools import partial
 from itertools import product as cartesian
 from math import prod
 from typing import NamedTuple
@@ -23,7 +22,6 @@ from dofkit.base.deadline import check
 from dofkit.base.libraries import components
 from dofkit.base.verdicts import ArgumentKey, weakest
 from dofkit.configuration import cases as all_cases
-from dofkit.configuration.generic_dimension import most_near
 from dofkit.configuration.generic_points import field_jacobian, on_variety
 from dofkit.configuration.variety import Variety
 from dofkit.exact.analyticity import is_analytic
@@ -73,7 +71,7 @@ def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variet
     """
     if found.dimension is None or not found.consistent:
         return found
-    near = partial(_near_its_point, chart) if of_case else _near
+    near = _near_its_point if of_case else _near
     if _in_regions(chart) or len(chart.relations) > MAX_RELATIONS:
         return near(found)
     if len(chart.relations) < 2:
@@ -92,7 +90,7 @@ def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variet
         if loose + _most(choice) <= (best.dimension or 0):
             break
         if number == MAX_TOGETHER:
-            return near(best) if best is found else _near_its_point(chart, best)
+            return near(best) if best is found else _near_its_point(best)
         larger = _found(chart, [*given, *(g for case in choice for g in case.relations)], look)
         if larger.consistent is False and larger.verdict == "proved":
             continue
@@ -102,7 +100,7 @@ def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variet
     if any(open_) and regular:
         return replace(best, dimension=None, verdict="undecided", reasons=[*best.reasons, LARGER])
     if open_:
-        return near(best) if best is found else _near_its_point(chart, best)
+        return near(best) if best is found else _near_its_point(best)
     best = _by(best, "graph" if not parts else "generic fibre" if all(fibres) else "cases")
     best = replace(best, separating=separating_expressions(together, (best.dimension or 0) - loose))
     exact = all(case.exact for c in cases for case in c or ())
@@ -172,11 +170,8 @@ def _near(found: Variety) -> Variety:
     return replace(found, about="component", reasons=[*found.reasons, NEAR])
 
 
-def _near_its_point(chart: Chart, case: Variety) -> Variety:
-    """The same of a case, a part of the set: near its point the rest of the set may be larger, unless the rank of all
-    relations there says that it is not."""
-    if case.dimension is not None and most_near(chart, case.real) == case.dimension:
-        return _near(case)
+def _near_its_point(case: Variety) -> Variety:
+    """Return the same of a case, a part of the set: near its point the rest of the set may be larger."""
     return replace(case, dimension=None, verdict="undecided", reasons=[*case.reasons, OTHERS])
 
 

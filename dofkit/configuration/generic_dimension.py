@@ -5,22 +5,27 @@ A rank over GF(p) is held against a certified real point, without which a set ov
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
-from flint import arb
+from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
+from dofkit.base.libraries import np
 from dofkit.base.verdicts import ArgumentKey, Verdict, weakest
 from dofkit.base.wording import gap_in_words
-from dofkit.configuration import singular_points
 from dofkit.configuration.generic_points import field_jacobian, generators_of, has_same_signs, time_is_free
 from dofkit.configuration.local import criteria
+from dofkit.configuration.local.criteria import numeric_dimension
+from dofkit.configuration.local.manifold import LocalDimension, Manifold
+from dofkit.configuration.rigid_motions import rigid_motions_real
 from dofkit.configuration.variety import Variety
-from dofkit.exact.errors import NoValueError
-from dofkit.exact.matrices.certified import ball_part
+from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.exact.matrices.certified import independent_part
 from dofkit.exact.matrices.sparse import rank_of, rank_of_rows
-from dofkit.exact.points.balls import jacobian
+from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.frames import Pivots
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
 from dofkit.exact.ring.program import gradient, values
 from dofkit.exact.triangular import TriangularSolver
@@ -55,10 +60,7 @@ def variety_at(
     if rank < len(chart.nodes) and not _smooth(chart, samples[0], solver):
         local = criteria.local_at(chart, samples[0], None, 0, chart.time, drawn=False)
         if local.dimension is None or local.confined or local.dimension < columns - rank:
-            bound = _free_dimension(chart, solver)
             exact = None if local.confined else local.dimension
-            if exact is None and bound is not None and bound == columns - rank - 1:
-                exact = bound
             dimension = None if exact is None else exact - timed
             verdict, argument = "undecided" if exact is None else "probable", local.argument or "generic points"
             reasons.append(local.reason)
@@ -88,17 +90,6 @@ def _smooth(chart: Chart, point: FieldPoint, solver: TriangularSolver | None) ->
             row[place[c]] = int(v)
         rows.append(row)
     return rank_of(rows, point.p) == len(solver.plan.steps)
-
-
-def _free_dimension(chart: Chart, solver: TriangularSolver | None) -> int | None:
-    """How many columns were drawn at random when every parameter stayed free: a lower bound of the dimension."""
-    if solver is None:
-        return None
-    of = {c: i for i, c in enumerate(chart.columns) if c >= 0}
-    moved = {unit[1] for _, unit in solver.plan.steps if unit[0] == "var"}
-    if any(index not in of for index in moved):
-        return None
-    return sum(c < 0 or c not in moved for c in chart.columns)
 
 
 def near_real_point(chart: Chart, real: RealPoint | None, core: Sequence[int]) -> Variety:
@@ -164,19 +155,6 @@ def with_reality(chart: Chart, found: Variety, rank: int) -> Variety:
     return found
 
 
-def most_near(chart: Chart, real: RealPoint | None) -> int | None:
-    """A bound of the set's dimension near a real point, by the rank of all relations there [ImplicitFunctions]."""
-    if real is None or not real.certified:
-        return None
-    columns = [i for s in chart.symbols if (i := chart.ring.var_index(s)) is not None]
-    try:
-        at = values(chart.ring, real.point)
-        part = ball_part(jacobian(chart.ring, at, real.point, chart.nodes, columns, arb(0)))
-    except (NoValueError, KeyError):
-        return None
-    return chart.coordinates - part.rank
-
-
 def _hangs_on_a_function(e: Expr) -> bool:
     """Do coordinates stand within unknown functions only? h(x) = 0 holds somewhere for some h, not for all."""
     within = any(node.op == "call" for node in ex.nodes(e))
@@ -216,7 +194,7 @@ def _without_reality(chart: Chart, found: Variety) -> Variety:
 def near_singular_point(chart: Chart, found: Variety) -> Variety:
     """All real points that were found are singular: the dimension is that of the set near one of them."""
     real = found.real
-    local = None if real is None else singular_points.numeric_local(chart, real)
+    local = None if real is None else numeric_local(chart, real)
     if local is None or local.dimension is None or local.confined:
         found.consistent = None
         found.verdict, found.dimension = "undecided", None
@@ -226,3 +204,117 @@ def near_singular_point(chart: Chart, found: Variety) -> Variety:
     found.verdict, found.argument = weakest(found.verdict, "numeric"), local.argument
     found.reasons.append(f"every real configuration that was found is singular: {local.reason}")
     return found
+
+
+# Singular real points without exact coordinates, brought to high precision and looked at to second order
+
+#: Working precision, and the radius given to the result.
+BITS, RADIUS_BITS = 1400, 200
+#: Steps at the most; relations are smaller than this at a singular point that was reached, and not near a small gap.
+STEPS, RESIDUAL_BITS = 800, 600
+#: The relations have to become smaller by this factor within so many steps: convergence to a singular point is linear.
+PERIOD, GAIN = 50, arb(2) ** -16
+#: A combination of dependent rows is smaller than this there: surfaces that meet by 10^-64 are no longer tangent.
+DEPENDENT_BITS = 280
+#: Added to the diagonal of a Gram matrix, so that it has an inverse.
+SHIFT = arb(2) ** (-BITS // 2)
+#: Relations that are brought to high precision at the most; an entry of a Jacobian that is taken for 0.
+MAX_ROWS, TINY = 20, 1e-12
+
+
+def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
+    """The local dimension near a singular point that a real search ran into; None where it cannot be told."""
+    if len(chart.nodes) > MAX_ROWS:
+        return None
+    with ctx.workprec(BITS):
+        try:
+            return _dimension_near(chart, real)
+        except NoValueError:
+            return None
+
+
+@raising_no_value
+def _dimension_near(chart: Chart, real: RealPoint) -> LocalDimension | None:
+    point = _converge(chart, real)
+    if point is None:
+        return None
+    at = values(chart.ring, point)
+    columns = [c for c in chart.columns if c >= 0]
+    place = [i for i, c in enumerate(chart.columns) if c >= 0]
+    exact = jacobian(chart.ring, at, point, chart.nodes, columns, arb(0))
+    j = np.array([[float(v.mid()) for v in row] for row in exact])
+    j[np.linalg.norm(j, axis=1) < TINY] = 0.0
+    _, gap, rows, pivots = independent_part(j)
+    if gap < 1e6:
+        return None
+    dependent = tuple(place[c] for c in pivots)
+    free = tuple(i for i in range(len(chart.columns)) if i not in set(dependent))
+    frame = Pivots(tuple(rows), dependent, free)
+    manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point, chart.scales)
+    rigid = rigid_motions_real(chart, lambda i: float(at[chart.ring.var_node[i]].mid()))
+    return numeric_dimension(manifold, rigid, chart.time)
+
+
+def _converge(chart: Chart, real: RealPoint) -> BallPoint | None:
+    """Return the point to which minimal steps of Newton's method lead, with balls; None if it is regular, or not found.
+
+    Each step about halves the distance to a point where the dependent relations are Morse-Bott, so that it reaches high
+    precision in as many steps as that has bits.
+    """
+    symbols: dict[Any, arb] = {s: arb(v.mid()) if isinstance(v, arb) else arb(v) for s, v in real.point.symbols.items()}
+    moved = [s for s in chart.unknowns if chart.ring.var_index(s) is not None]
+    last: arb | None = None
+    for step in range(STEPS):
+        f, j = _system(chart, symbols, moved)
+        size = max((abs(v) for v in f), default=arb(0))
+        if size < arb(2) ** -RESIDUAL_BITS:
+            break
+        if step % PERIOD == 0:
+            if last is not None and not size < last * GAIN:
+                return None
+            last = size
+        for s, d in zip(moved, _minimal_step(j, f), strict=True):
+            symbols[s] = (symbols[s] - d).mid()
+    else:
+        return None
+    if not _is_singular(_system(chart, symbols, moved)[1]):
+        return None
+    radius = arb(0, arb(2) ** -RADIUS_BITS)
+    return BallPoint({s: v + radius if s in set(moved) else v for s, v in symbols.items()}, 0)
+
+
+def _system(chart: Chart, symbols: Mapping[Any, arb], moved: Sequence[Expr]) -> tuple[list[arb], list[list[arb]]]:
+    """Return the relations and their Jacobian, as numbers."""
+    check()
+    point = BallPoint(symbols, 0)
+    at = values(chart.ring, point)
+    indices = [chart.ring.var_index(s) or 0 for s in moved]
+    j = jacobian(chart.ring, at, point, chart.nodes, indices, arb(0))
+    return [arb(at[n].mid()) for n in chart.nodes], [[v.mid() for v in row] for row in j]
+
+
+def _is_singular(j: Sequence[Sequence[arb]]) -> bool:
+    """Return whether rows are dependent: in floating point, and then to high precision."""
+    matrix = np.array([[float(v) for v in row] for row in j])
+    if not np.isfinite(matrix).all():
+        return False
+    rank, _, rows, pivots = independent_part(np.where(abs(matrix) < TINY, 0.0, matrix))
+    others = [list(row) for r, row in enumerate(j) if r not in rows]
+    if rank == 0 or not others:
+        sums = others
+    else:
+        basis = arb_mat([[j[r][c] for c in pivots] for r in rows])
+        weights = arb_mat([[row[c] for c in pivots] for row in others]) * basis.inv()
+        sums = (arb_mat(others) - weights * arb_mat([list(j[r]) for r in rows])).tolist()
+    return bool(others) and all(abs(v.mid()) < arb(2) ** -DEPENDENT_BITS for row in sums for v in row)
+
+
+def _minimal_step(j: Sequence[Sequence[arb]], f: Sequence[arb]) -> list[arb]:
+    """Return J^T (J J^T)^-1 f."""
+    matrix = arb_mat(j)
+    gram = matrix * matrix.transpose()
+    n = gram.nrows()
+    for i in range(n):
+        gram[i, i] = gram[i, i].mid() + SHIFT
+    step = matrix.transpose() * gram.solve(arb_mat([[v] for v in f]))
+    return [step[i, 0].mid() for i in range(step.nrows())]

@@ -139,7 +139,7 @@ def _on_manifold(chart: Chart, known: Mapping[Expr, Expr], rank: int, afar: bool
     """Do the relations cut out a manifold of codimension ``rank``, which is that of all but one of them?"""
     if "field" not in chart.engines:
         return None
-    small, free = smaller(chart, known)
+    small, free = smaller(chart)
     gone = len(chart.columns) - len(small.columns) - free
     if not small.nodes:
         return gone == rank

@@ -129,10 +129,6 @@ class States:
             point = None if base is None else self._moving.completed(base)
             if point is not None and self._holds(point):
                 return point
-        for k in range(TRIES):
-            point = self._joint_solver.draw(TRIES * seed + k)
-            if point is not None and self._holds(point):
-                return point
         return None
 
     def _base(self, seed: int) -> FieldPoint | None:
@@ -154,10 +150,6 @@ class States:
     def _moving(self) -> TriangularSolver:
         still = [v for v in self.ring.vars if not moves(self.ring, v.index)]
         return self._solver(self.moving, frozenset(unit_of(self.ring, v.index) for v in still))
-
-    @cached_property
-    def _joint_solver(self) -> TriangularSolver:
-        return self._solver(self.relations)
 
     def _holds(self, point: FieldPoint) -> bool:
         try:

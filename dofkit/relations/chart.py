@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -167,20 +167,12 @@ def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more:
 def _kinds(block: Block, setting: Setting, more: int) -> tuple[ReductionName, ...]:
     """Which reduction may use each finite relation of the block, and so many more."""
     angles = {ex.coordinate(c.name) for c in setting.roles if c.role in ("angle", "phi", "theta", "psi")}
-    owners = {ex.coordinate(c.name): c.owner for c in setting.roles if c.role in ("x", "y", "z")}
     other: ReductionName = "eliminations"
-    return (*(_kind(row, setting, angles, owners) for row in block.finite), *(other,) * more)
+    return (*(_kind(row, setting, angles) for row in block.finite), *(other,) * more)
 
 
-def _kind(row: Row, setting: Setting, angles: set[Expr], owners: Mapping[Expr, str | None]) -> ReductionName:
+def _kind(row: Row, setting: Setting, angles: set[Expr]) -> ReductionName:
     if row.constraint in setting.welds:
         return "welds"
     symbols = row.piece.expr.symbols if isinstance(row.piece, Finite) else frozenset[Expr]()
-    if symbols <= angles:
-        return "still"
-    links = setting.links.get(row.constraint)
-    if links and symbols <= owners.keys():
-        ends = {owners[s] for s in symbols}
-        if any(ends == {*pair} for pair in links) and len(symbols) == 2 * setting.dimension:
-            return "clusters"
-    return "eliminations"
+    return "still" if symbols <= angles else "eliminations"

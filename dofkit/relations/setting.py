@@ -18,7 +18,6 @@ ReductionName = Literal[
     "copies",
     "still",
     "welds",
-    "clusters",
     "eliminations",
     "bridges",
     "classes",
@@ -68,14 +67,6 @@ REDUCTIONS: Mapping[ReductionName, Reduction] = {
         "where equations are evaluated at the reference configuration, the coordinates of the second body of a linear "
         "weld, whose frames coincide there",
         "the set is a graph over the coordinates of the first body",
-    ),
-    "clusters": Reduction(
-        "rigid clusters of links are one body",
-        "where equations are evaluated at the reference configuration in the plane, all but two particles of a cluster "
-        "whose links are infinitesimally rigid there, at rational positions",
-        # [AsimowRoth1978]
-        "infinitesimal rigidity implies rigidity (Asimow and Roth): near the reference configuration the cluster moves "
-        "as one body",
     ),
     "eliminations": Reduction(
         "explicit coordinates",

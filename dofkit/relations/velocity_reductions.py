@@ -131,7 +131,10 @@ def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewritin
     except NoValueError:
         return _Rewriting([(row,)])
     if changed != there:
-        result = _branches(row, *_without_divisors(row.piece.expr, changed, divisors, positive), positive)
+        try:
+            result = _branches(row, *_without_divisors(row.piece.expr, changed, divisors, positive), positive)
+        except NoValueError:  # what was put in leaves 0 to a power, which has no value
+            return _Rewriting([(row,)])
         sound = [
             b for b in result if not any(isinstance(r.piece, Finite) and _divides(r.piece.expr, divisors) for r in b)
         ]

@@ -29,7 +29,6 @@ LESS: Mapping[str, tuple[str, Callable[[int], int], Callable[[int], int]]] = {
     "still": ("followed", lambda n: 2, lambda n: n + 2),  # where the last is, and how all are turned
     # Three cranks and a row, without the place of the crank that turns about the origin.
     "welds": ("followed", lambda n: 9 + 3 - 2, lambda n: 9 + 3 * n - 2),
-    "clusters": ("followed", lambda n: 4, lambda n: 2 * n),  # two of the joints
     "eliminations": ("followed", lambda n: 2 * n, lambda n: 3 * n),
     "bridges": ("relations", lambda n: 0, lambda n: 5 * n),
     "closed": ("forms", lambda n: 0, lambda n: n - 1),
@@ -42,7 +41,6 @@ FREEDOM: Mapping[str, Callable[[int], int]] = {
     "copies": lambda n: n,  # a chain of n rods in the plane
     "still": lambda n: n - 1,  # each slides on the one before it, and the last along a circle
     "welds": lambda n: 1,  # a parallelogram
-    "clusters": lambda n: 1,
     "eliminations": lambda n: 1,
     "bridges": lambda n: n,  # a chain of hinges
     "classes": lambda n: n + 1,  # a parallelogram and n rods

@@ -155,7 +155,7 @@ def _welds(n: int) -> Mapped:
     return {"dimension": 2, "bodies": [*row, *(f"crank{i}" for i in range(3))], "constraints": joints}
 
 
-def _clusters(n: int) -> Mapped:
+def _cranked_strip(n: int) -> Mapped:
     """Return three equal parallel cranks under a strip of triangles between n joints."""
     places = [[3 * i + 1, 2 + i % 2] for i in range(n)]
     cranks = [_link([places[i][0] - 1, places[i][1] - 2], f"p{i}") for i in (0, n // 2, n - 1)]
@@ -164,7 +164,7 @@ def _clusters(n: int) -> Mapped:
 
 def _eliminations(n: int) -> Mapped:
     """Return the same in space, every joint held to the plane z = 0."""
-    flat = _clusters(n)
+    flat = _cranked_strip(n)
     links = [
         {**c, "between": [e if isinstance(e, str) else [*e, 0] for e in c["between"]]} for c in flat["constraints"]
     ]
@@ -206,7 +206,6 @@ SCENES: Mapping[ReductionName, SceneFamily] = {
     "copies": SceneFamily(_copies, 6),
     "still": SceneFamily(_still, 6),
     "welds": SceneFamily(_welds, 8),
-    "clusters": SceneFamily(_clusters, 12),
     "eliminations": SceneFamily(_eliminations, 8),
     "bridges": SceneFamily(_bridges, 6),
     "classes": SceneFamily(_classes, 8),

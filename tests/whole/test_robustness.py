@@ -35,6 +35,8 @@ def scene(*texts: str) -> dict[str, Any]:
 @example(scene("sec(pi) = sec(x)"))
 @example(scene("sqrt(asin(pi)) = atan2(0, t)"))
 @example(scene("y*ydot = 2 (0^y)^3"))
+@example(scene("h(sdot, y + 0.6) = y + 0.6", "0.9 ds = 0"))
+@example(scene("s = g(s)", "sdot^(s - 1) = s"))
 @example({**scene("t = a"), "configuration": {"s": "pi/2", "x": "1", "y": "pi/2"}})
 @given(scenes())
 def test_no_text_makes_classify_fail(document: dict[str, Any]) -> None:

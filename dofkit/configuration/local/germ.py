@@ -14,9 +14,8 @@ from typing import NamedTuple
 from flint import arb
 
 from dofkit.base.verdicts import Verdict
-from dofkit.configuration.local import critical_set, quadratic_cone
-from dofkit.configuration.local.critical_set import Split
-from dofkit.configuration.local.manifold import Form, Manifold, is_zero
+from dofkit.configuration.local import quadratic_cone
+from dofkit.configuration.local.manifold import Form, Manifold, Split, is_zero, series_on_critical, split
 from dofkit.configuration.local.neighbourhood import holds_away
 from dofkit.exact.points.series import Series
 from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, Scalar, reachable
@@ -132,14 +131,14 @@ class Germ:
     @cached_property
     def parts(self) -> Split:
         """Which equations of the critical set N can be solved for which of M's coordinates."""
-        return critical_set.split(self.forms)
+        return split(self.forms)
 
     @cached_property
     def remainders(self) -> list[Series]:
         """The dependent relations along a random curve of N."""
         assert self.field is not None
         direction = [self.field.base.random() for _ in self.parts.free]
-        return critical_set.series_on_critical(self.field, self.forms, self.parts, direction, CRITICAL_ORDER)
+        return series_on_critical(self.field, self.forms, self.parts, direction, CRITICAL_ORDER)
 
     @cached_property
     def remainder_order(self) -> int | None:
@@ -154,9 +153,7 @@ class Germ:
         rng, found = self.ball.base.rng, set[int]()
         for _ in range(DIRECTIONS):
             direction = [arb(rng.choice((-1, 1)) * rng.randrange(64, 512)) / 256 for _ in self.parts.free]
-            series = critical_set.series_on_critical(
-                self.ball, self.signs, self.parts, direction, self.remainder_order + 1
-            )[0]
+            series = series_on_critical(self.ball, self.signs, self.parts, direction, self.remainder_order + 1)[0]
             value = series.coefficient(self.remainder_order)
             found |= set() if value.contains(0) else {1 if value > 0 else -1}
         return found

@@ -8,8 +8,7 @@ from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
-from dofkit.configuration.local.critical_set import Split
-from dofkit.configuration.local.manifold import Manifold
+from dofkit.configuration.local.manifold import Manifold, Split
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.ring.program import values
 from dofkit.expressions.tree import Expr

@@ -24,11 +24,11 @@ from dofkit.configuration.measured.equations import (
     SLACK,
     MeasuredPose,
     ScaledEquations,
+    StressForms,
     clear_rank,
     float_point,
     independent_rows,
 )
-from dofkit.configuration.measured.second_order import StressForms
 from dofkit.exact.matrices.certified import dependency_pattern, greedy_pivots
 from dofkit.expressions.tree import Expr
 from dofkit.relations.chart import Chart

@@ -10,10 +10,8 @@ from typing import Any
 from flint import arb, arb_poly, nmod, nmod_poly
 
 from dofkit.exact.errors import PoleError
-from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.ring.program import Point, Scalar, Var, values
 from dofkit.exact.ring.ring import Ring
-from dofkit.expressions import tree as ex
 
 #: An unknown function's composition uses this many of its derivatives by several arguments at most.
 MAX_JET = 400
@@ -237,48 +235,3 @@ def zero_poly(base: Point, sample: Scalar) -> Any:
 def monomial(like: Any) -> Any:
     """Return the polynomial s, of the kind of ``like``."""
     return nmod_poly([0, 1], like.modulus()) if isinstance(like, nmod_poly) else arb_poly([0, 1])
-
-
-#: Generators that stand for a number, or are tied to their argument by an equation.
-_TIED = ("pi", "sign", "root")
-
-
-class RandomCurve(SeriesPoint):
-    """Symbols and functions as random series, independent of each other as at a random point; sine and cosine lie on
-    the unit circle, and a root is one of its radicand.
-
-    ``base`` supplies what is tied at s = 0. Raises NoPointError where that has no value.
-    """
-
-    def __init__(self, base: FieldPoint, order: int) -> None:
-        super().__init__(base, {}, order, nmod_poly([0], base.p))
-        self._drawn: dict[tuple[str, object], Series] = {}
-
-    def generator(self, var: Var, args: Sequence[Series]) -> Series:
-        """Return the series of a generator; the first time it is drawn."""
-        name = (var.kind, var.key)
-        series = self._drawn.get(name)
-        if series is None:
-            series = self._drawn[name] = self._draw(var, args)
-        return series
-
-    def _draw(self, var: Var, args: Sequence[Series]) -> Series:
-        if var.kind in ("cos", "sin"):
-            if var.key[0] == ex.PI:
-                return self.constant(self.base.generator(var, [a.coefficient(0) for a in args]))
-            self._turn(var)
-            return self._drawn[var.kind, var.key]
-        return super().generator(var, args) if var.kind in _TIED else self._random()
-
-    def _random(self) -> Series:
-        p, number = self.base.p, self.base.rng.getrandbits
-        bits = p.bit_length() - 1
-        return Series(nmod_poly([number(bits) for _ in range(self.order)], p), self.order)
-
-    def _turn(self, var: Var) -> None:
-        """Cosine and sine of a random angle: (1 - w^2) / (1 + w^2) and 2 w / (1 + w^2)."""
-        w = self._random()
-        square = w * w
-        below = (square + 1).inverse()
-        self._drawn["cos", var.key] = (1 - square) * below
-        self._drawn["sin", var.key] = (w + w) * below

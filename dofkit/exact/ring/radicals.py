@@ -46,7 +46,7 @@ def known_signs(ring: Instructions, product: Expr) -> tuple[list[Expr], Expr]:
     apart: list[Expr] = []
     rest: list[Expr] = []
     for part in product.args:
-        (apart if never_negative(ring, part) else rest).append(part)
+        (apart if never_negative(part, ring.positive) else rest).append(part)
     number = next((p for p in rest if p.op == "num"), None)
     if number is not None and number.args[0] != -1:
         apart.append(ex.num(abs(number.args[0])))
@@ -54,20 +54,20 @@ def known_signs(ring: Instructions, product: Expr) -> tuple[list[Expr], Expr]:
     return apart, Expr("mul", tuple(rest)) if len(rest) > 1 else rest[0] if rest else ex.ONE
 
 
-def never_negative(ring: Instructions, part: Expr) -> bool:
+def never_negative(part: Expr, positive: frozenset[Expr]) -> bool:
     """Return whether it is >= 0 by its form, wherever it is defined."""
     if part.op == "num":
         return bool(part.args[0] > 0)
-    if part in ring.positive or part.op == "const" or (part.op == "fn" and part.args[0] in ("exp", "abs", "cosh")):
+    if part in positive or part.op == "const" or (part.op == "fn" and part.args[0] in ("exp", "abs", "cosh")):
         return True
     if part.op in ("add", "mul"):
-        return all(never_negative(ring, p) for p in part.args)
+        return all(never_negative(p, positive) for p in part.args)
     if part.op != "pow":
         return False
     if part.args[1].op != "num":
-        return never_negative(ring, part.args[0])
+        return never_negative(part.args[0], positive)
     exponent: Fraction = part.args[1].args[0]
-    return exponent.denominator % 2 == 0 or exponent.numerator % 2 == 0 or never_negative(ring, part.args[0])
+    return exponent.denominator % 2 == 0 or exponent.numerator % 2 == 0 or never_negative(part.args[0], positive)
 
 
 def _new_root(ring: Instructions, key: Key, radicand: Expr, node: int) -> int:
@@ -83,7 +83,7 @@ def _root_of_power(ring: Instructions, radicand: Expr, degree: int) -> int:
         power = ring.power_node(ring.node(base), int(whole))
         return ring.product(power, ring.power_node(sign(ring, base), abs(int(whole)))) if even_inside else power
     reduced = Fraction(exponent, degree)
-    if even_inside and not never_negative(ring, base):
+    if even_inside and not never_negative(base, ring.positive):
         if reduced.denominator % 2 == 0:
             return ring.power_node(root(ring, ex.fn("abs", base), reduced.denominator), reduced.numerator)
         outer = ring.product(sign(ring, base), root(ring, base, reduced.denominator))
@@ -128,7 +128,7 @@ def sign(ring: Instructions, e: Expr) -> int:
     """Return the sign of ``e``, with square 1 and derivative 0; an odd function of it."""
     if e.op == "num" and not e.is_zero:
         return ring.number(1 if e.args[0] > 0 else -1)
-    if never_negative(ring, e):
+    if never_negative(e, ring.positive):
         return ring.number(1)
     if e.op == "mul":
         return ring.product(*(sign(ring, part) for part in e.args))
@@ -189,7 +189,7 @@ def log(ring: Instructions, u: Expr) -> int:
         apart, rest = known_signs(ring, u)
         if apart:
             return ring.total(*(log(ring, part) for part in [*apart, *([rest] if rest != ex.ONE else [])]))
-    if u.op == "pow" and (never_negative(ring, u.args[0]) or u.args[1].op != "num" or u.args[1].args[0] % 2):
+    if u.op == "pow" and (never_negative(u.args[0], ring.positive) or u.args[1].op != "num" or u.args[1].args[0] % 2):
         return ring.product(ring.node(u.args[1]), log(ring, u.args[0]))
     if u.op == "fn" and u.args[0] == "exp":
         return ring.node(u.args[1])

@@ -4,7 +4,7 @@
 
 | dimension | module | what decides | verdict |
 |---|---|---|---|
-| 1 | `line` | a spanning forest [Kirchhoff1847] | proved |
+| 1 | `links` | a spanning forest [Kirchhoff1847] | proved |
 | 2 | `plane` | the (2,3) pebble game [PollaczekGeiringer1927] [Laman1970] [JacobsHendrickson1997] | proved |
 | 3 | `space` | the rank at random positions modulo a prime [SchwartzZippel] | proved where a count agrees |
 

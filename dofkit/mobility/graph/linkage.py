@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from dofkit.base.display import Displayed
 from dofkit.base.wording import many
-from dofkit.mobility.graph.line import LineGraph
-from dofkit.mobility.graph.links import GraphAnswer, Joint, Link, LinkageError, Proof, Question, read
+from dofkit.mobility.graph.links import GraphAnswer, Joint, LineGraph, Link, LinkageError, Proof, Question, read
 from dofkit.mobility.graph.plane import PlaneGraph
 from dofkit.mobility.graph.space import SpaceGraph
 
