@@ -73,7 +73,7 @@ def _finite_answer(chart: Chart, setting: Setting) -> Answer:
     found = find(chart, setting.pose)
     result = _answer_of(found)
     result.bits = error_bits(chart.ring, chart.nodes, len(chart.columns))
-    result.witness = of_real_point(chart, found.real)
+    result.witness = found.witness or of_real_point(chart, found.real)
     result.separating = found.separating
     if found.argument in ("cases", "regular point"):
         result.real = _real_rows(chart, found.real)
