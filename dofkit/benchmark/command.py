@@ -29,7 +29,7 @@ from dofkit.benchmark.trials import FAMILIES
 #: Seconds of processor time for a trial, and in a quick run.
 LIMIT, LIMIT_QUICK = 2.0, 0.5
 #: What draws the figures, and so needs matplotlib.
-FIGURES = "dofkit.benchmark.figures.table:write"
+FIGURES = "dofkit.benchmark.figures:write"
 NO_MATPLOTLIB = "nothing is drawn without matplotlib: pip install 'dofkit[chart]'"
 
 
