@@ -19,6 +19,7 @@ from rich.table import Table
 
 from dofkit.base import __version__
 from dofkit.base.runs import cores
+from dofkit.base.workers import function_named
 from dofkit.benchmark import record, runner, tasks
 from dofkit.benchmark.record import ALL, AUTO, ChartError, ChartRun, Data, Ran, Score
 from dofkit.benchmark.sentences import TWICE, summary
@@ -27,6 +28,8 @@ from dofkit.benchmark.trials import FAMILIES
 
 #: Seconds of processor time for a trial, and in a quick run.
 LIMIT, LIMIT_QUICK = 2.0, 0.5
+#: What draws the figures, and so needs matplotlib.
+FIGURES = "dofkit.benchmark.figures.table:write"
 NO_MATPLOTLIB = "nothing is drawn without matplotlib: pip install 'dofkit[chart]'"
 
 
@@ -108,11 +111,7 @@ def finish(data: Data, out: Path) -> None:
     chart = summary(data)
     record.write(data, chart, out)
     able = find_spec("matplotlib") is not None
-    drawn: list[Path] = []
-    if able and data.ran.complete:
-        from dofkit.benchmark import figures  # which need matplotlib, an optional dependency
-
-        drawn += figures.write(chart, out)
+    drawn = list(function_named(FIGURES)(chart, out)) if able and data.ran.complete else []
     show(chart, data, out, drawn)
     if not able:
         Console(stderr=True).print(NO_MATPLOTLIB, highlight=False, markup=False)

@@ -15,7 +15,8 @@ from shared import chart_methods
 from typer.testing import CliRunner
 
 from dofkit.base.runs import Pool
-from dofkit.benchmark import command, figures, record, runner, statistics, tasks
+from dofkit.benchmark import command, record, runner, statistics, tasks
+from dofkit.benchmark.figures import table as figures_table
 from dofkit.benchmark.record import AUTO, Data, Outcome, Ran, Score, TrialLine
 from dofkit.benchmark.runner import outcome_of
 from dofkit.benchmark.sentences import summary
@@ -301,11 +302,11 @@ def test_every_figure_is_drawn(tmp_path: Path) -> None:
     bits = replace(SWEEPS[0], knob="bits", method="balls", value=16.0, group="1/9")
     more = [bits, replace(bits, value=64.0), replace(bits, knob="prime bits", method="field"), *SWEEPS]
     chart = summary(replace(DATA, sweeps=more))
-    drawn = [path.stem for path in figures.write(chart, tmp_path)]
-    assert drawn == list(figures.FIGURES)
+    drawn = [path.stem for path in figures_table.write(chart, tmp_path)]
+    assert drawn == list(figures_table.FIGURES)
     assert all((tmp_path / f"{name}.{end}").stat().st_size > 5000 for name in drawn for end in ("png", "svg"))
-    assert set(chart.captions) == set(figures.FIGURES)
-    assert figures.FIGURES["cost"](summary(Data(RAN, LINES[:1]))) is None
+    assert set(chart.captions) == set(figures_table.FIGURES)
+    assert figures_table.FIGURES["cost"](summary(Data(RAN, LINES[:1]))) is None
 
 
 # -- the command -----------------------------------------------------------------------------------
