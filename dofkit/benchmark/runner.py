@@ -19,8 +19,8 @@ from dofkit.base.process_limits import LateError, interrupting
 from dofkit.base.runs import Cluster, Crew, Pool, StoppedError
 from dofkit.base.workers import MEMORY, Job, Json, function_named
 from dofkit.base.workers import JobOutcome as Ended
-from dofkit.benchmark.failures import explained
 from dofkit.benchmark.record import Outcome, TrialLine
+from dofkit.benchmark.sentences import explained
 from dofkit.benchmark.statistics import grouped
 from dofkit.benchmark.tasks import TrialTask
 from dofkit.methods.table import Knobs, MethodReply

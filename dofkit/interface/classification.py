@@ -7,7 +7,7 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Generator, Iterator, Mapping, Sequence
-from contextlib import closing
+from contextlib import closing, nullcontext
 from dataclasses import replace
 from heapq import nlargest
 from pathlib import Path
@@ -19,7 +19,7 @@ from dofkit.base.errors import ArgumentError
 from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import many
 from dofkit.interface.jobs import Printed, Request, name_of_file, replies
-from dofkit.interface.output import FAILED, FAILURES, UNREADABLE, Output, Progress
+from dofkit.interface.output import FAILED, FAILURES, UNREADABLE, Output, progress
 from dofkit.interface.show.faults import safe
 
 #: Seconds between two looks at the files that are watched.
@@ -78,15 +78,11 @@ def classify_files(files: Sequence[str], request: Request, run: Run) -> int:
 
 def _timed(files: Sequence[str], request: Request, run: Run) -> Iterator[tuple[float, Printed]]:
     """Yield what is printed about each file, with the seconds that it took."""
-    progress = Progress(len(files), sys.stderr)
     with closing(_stream(files, request, run)) as stream:
-        for file in files:
-            progress.begin(file)
+        for number, file in enumerate(files, 1):
             start = time.perf_counter()
-            try:
+            with progress(f"[{number}/{len(files)}] {file}", sys.stderr) if len(files) > 1 else nullcontext():
                 printed = next(stream)
-            finally:
-                progress.end()
             yield time.perf_counter() - start, printed
         next(stream, None)
 

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 import dofkit
-from dofkit.benchmark.failures import TRAITS
+from dofkit.benchmark.sentences import TRAITS
 from dofkit.benchmark.trials import FAMILIES
 from dofkit.benchmark.trials.construction import Trial, kind
 from dofkit.benchmark.trials.frameworks import Framework, dependent
