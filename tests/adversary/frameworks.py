@@ -154,16 +154,6 @@ def _freedoms(moving: int, formed: bool) -> dict[str, Any]:
     return {"dof": moving + 1, "velocity_dof": moving + 1, "holonomic": True}
 
 
-def generic(rng: random.Random, size: int) -> KnownScene:
-    """A framework of triangles in general position, rounded: rigid but for the 3 motions of the plane, and a form that
-    has nothing to do with it: 3 more freedoms and 2 velocities."""
-    many = 3 + size
-    joints = {f"P{k}": (Fraction(k), Fraction(k * k, 7) + Fraction(rng.randint(1, 9), 10)) for k in range(many)}
-    bars = tuple((f"P{k}", f"P{k + j}") for k in range(many) for j in (1, 2) if k + j < many)
-    scene = _with(_measured(Framework(joints, (), bars), rng.randint(4, 8)), ["u", "v", "w"], "du = v*dw")
-    return KnownScene(scene, truths(6, 5, holonomic=False, redundant_equations=0))
-
-
 def _exact(draw: Callable[[random.Random, int], Special]) -> Callable[[random.Random, int], KnownScene]:
     @wraps(draw)
     def exact(rng: random.Random, size: int) -> KnownScene:
@@ -179,5 +169,4 @@ FAMILY = {
     "bricard": _exact(bricard),
     "measured": measured,
     "attached": attached,
-    "generic": generic,
 }
