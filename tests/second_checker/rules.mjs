@@ -344,7 +344,8 @@ export class Rules {
     }
     let rank = placed.length;
     if (minor) {
-      if (minor.rows.length !== placed.length) {
+      if (minor.rows.length > placed.length) uncovered("more rows than relations");
+      if (minor.rows.length < placed.length) {
         refuse(list(claim.covers ?? []).length !== 1, "the minor has another number of rows");
         refuse(this.e.cover(claim.covers[0]).rows.length !== placed.length, "a cover of all is needed");
         refuse(!placed.every((r) => this.e.cover(claim.covers[0]).rows.includes(r.id)), "a cover of all is needed");
@@ -427,53 +428,80 @@ export class Rules {
     const owners = this.s.owners.filter((o) => this.e.relations.some((r) => r.owner === o));
     if (surplus === 0) refuse(!same(claim.value, []), "nothing is redundant");
     else if (owners.length === 1) refuse(!same(claim.value, [{ nullity: surplus, members: owners }]), "it is one constraint");
-    else uncovered("redundancies between constraints");
+    else {
+      const members = this.redundantTogether(surplus, owners);
+      refuse(!same(claim.value, [{ nullity: surplus, members }]), "the groups are others");
+    }
     return {};
+  }
+
+  /** The one group of constraints whose equations are redundant together. */
+  redundantTogether(surplus, owners) {
+    const redundant = this.before("/redundant");
+    if (redundant.apart) return owners;
+    const circuits = owners.filter((o) => this.verified.get(`/constraints/${escaped(o)}/circuit`));
+    if (surplus !== 1 || circuits.length !== 1) uncovered("redundancies between constraints");
+    const circuit = this.before(`/constraints/${escaped(circuits[0])}/circuit`);
+    refuse(circuit.place !== redundant.place, "the circuit is at another point");
+    return owners.filter((o) => o === circuits[0] || circuit.value.includes(o));
   }
 
   redundant(claim) {
     refuse(claim.rule !== "cofactors", "another rule");
-    if (claim.without !== undefined) return uncovered("redundant, by leaving one out");
-    const minor = this.e.minor(claim.minor);
-    refuse(minor.rows.some((r) => !this.s.byId.has(r.id)), "rows are of the scene");
-    this.e.account(minor, this.e.relations, claim.covers);
-    this.place(minor.point);
     const value = list(claim.value);
-    value.forEach((name) => this.owned(name));
-    refuse(new Set(value).size < value.length, "a name stands twice");
-    const others = this.e.relations.filter((r) => !minor.rows.includes(r));
-    if (!others.length) refuse(value.length, "all rows are independent");
-    else this.droppable(value, minor, others, claim);
-    return { point: minor.point.id };
+    const owners = this.s.owners.filter((o) => this.e.relations.some((r) => r.owner === o));
+    if (claim.without !== undefined) {
+      refuse(value.length || this.e.relations.some((r) => r.kind === "velocity") || !owners.length, "it names none");
+      const dof = this.before("/dof");
+      for (const name of owners) {
+        const other = this.e.minor(claim.without[name]);
+        this.sameplace(dof, other.point);
+        const others = ids(this.e.relations.filter((r) => r.owner !== name));
+        refuse(!same(ids(other.rows).sort(), others.sort()), "the rows are all but those of one constraint");
+        refuse(this.e.n - dof.value <= other.rows.length, "without one, the others are as large");
+      }
+      return { apart: true };
+    }
+    const minor = this.e.minor(claim.minor);
+    this.e.account(minor, this.e.relations, claim.covers);
+    refuse(minor.rows.some((r) => !this.s.byId.has(r.id)), "rows are of the scene");
+    refuse(new Set(value).size < value.length || value.some((name) => !owners.includes(name)), "these are no constraints");
+    const [dropped, kept] = [true, false].map((named) => this.e.relations.filter((r) => value.includes(r.owner) === named));
+    this.e.account({ rows: kept, point: minor.point }, dropped, claim.covers);
+    this.dependPlainly(minor, claim);
+    const place = this.place(minor.point);
+    // of E equations with r independent rows E - r can be spared: so many constraints at most
+    const spared = this.e.relations.length - minor.rows.length;
+    const sizes = owners.map((o) => this.e.relations.filter((r) => r.owner === o).length).sort((a, b) => a - b);
+    let [most, sum] = [0, 0];
+    for (const size of sizes) {
+      sum += size;
+      if (sum <= spared) most += 1;
+    }
+    refuse(value.length !== most, `${most} constraints might be dropped`);
+    return { place };
   }
 
-  /** Whether the relations of some constraints, and no more, can be dropped together. */
-  droppable(value, minor, others, claim) {
-    const owners = new Set(this.e.relations.map((r) => r.owner));
-    if (claim.covers?.length) {
-      if (owners.size > 1) uncovered("redundancies by covers");
-      refuse(value.length, "it is one constraint");
-      return;
+  /** What is no row depends on rows by numbers, or is one with cofactors that are not 0, or all ranks are constant. */
+  dependPlainly(minor, claim) {
+    const others = this.e.relations.filter((r) => !minor.rows.includes(r));
+    const linear = (r) => this.s.coordinates.every((q) => this.numeric(derivative(r.tree, q)));
+    const general = (r) => linear(r) || this.s.generic.some((g) => r.tree.has(g) && this.e.relations.every((o) => o === r || !o.tree.has(g)));
+    if (this.e.relations.every((r) => r.kind === "finite" && general(r))) return;
+    const rows = new Set(ids(minor.rows));
+    for (const other of others) {
+      const steps = this.e.order.filter((s) => s.by === "implied" && s.of === other.id && Object.keys(s.c ?? {}).every((id) => rows.has(id)));
+      const plain = steps.filter((s) => !s.put && !s.sos && (s.power ?? 1) === 1 && this.e.usable(s, rows, minor.point));
+      const texts = plain.map((s) => [s.h ?? "1", ...Object.values(s.c)].map((text) => this.e.text(text)));
+      const numbers = texts.some((all) => all.every((text) => text.symbols.size === 0));
+      const single = others.length === 1 && texts.some((all) => all.every((text) => this.e.at(text, minor.point).nonzero));
+      if (!numbers && !single && steps.length > plain.length) uncovered("a redundant equation by other steps");
+      refuse(!numbers && !single, `${other.id} does not depend on the rows by numbers`);
     }
-    const vectors = new Map(minor.rows.map((r, i) => [r.id, minor.rows.map((_, j) => (i === j ? 1 : 0))]));
-    if (others.length > 1) uncovered("several redundant equations");
-    const [other] = others;
-    const step = (this.e.certificate.relations ?? []).find(
-      (s) => s.by === "implied" && s.of === other.id && !s.put && !s.sos && (s.power ?? 1) === 1 && Object.keys(s.c ?? {}).every((id) => vectors.has(id)),
-    );
-    if (!step) uncovered("a redundant equation by several steps");
-    this.e.identity(step);
-    const support = Object.entries(step.c).filter(([, text]) => !isZero(this.e.text(text)));
-    refuse(support.some(([, text]) => !this.e.at(this.e.text(text), minor.point).nonzero), "a cofactor may be 0");
-    const members = new Set(support.map(([id]) => id));
-    const can = (name) => {
-      const mine = minor.rows.filter((r) => r.owner === name).map((r) => r.id);
-      if (other.owner === name) return mine.length === 0;
-      return mine.length === 0 || (mine.length === 1 && members.has(mine[0]));
-    };
-    if (value.length > 1) uncovered("several redundant constraints");
-    if (value.length) refuse(!can(value[0]), `${value[0]} is needed`);
-    else refuse([...owners].some(can), "a constraint can be dropped");
+  }
+
+  numeric(tree) {
+    return tree.symbols.size === 0 ? true : [...tree.symbols].every((one) => isZero(derivative(tree, one)));
   }
 
   coordinates(claim) {
@@ -501,12 +529,14 @@ export class Rules {
 
   integrablePart(claim) {
     refuse(claim.rule !== "integrals", "another rule");
+    refuse(!this.e.relations.some((r) => r.kind === "velocity"), "an integrable part is of forms");
+    const dof = this.before("/dof");
+    refuse(claim.value?.rank !== this.e.n - dof.value || Object.keys(claim.value).length !== 2, "the rank is another one");
+    if (claim.value.basis === null) return {};
     const minor = this.e.minor(claim.minor);
     refuse(minor.rows.some((r) => r.kind !== "finite"), "rows are finite or integrals");
-    const dof = this.before("/dof");
     this.sameplace(dof, minor.point);
-    refuse(minor.rows.length !== this.e.n - dof.value || claim.value?.rank !== minor.rows.length, "the rank is another one");
-    if (claim.value.basis === null) return {};
+    refuse(minor.rows.length !== claim.value.rank, "the rank is another one");
     const basis = list(claim.value.basis);
     const leaves = minor.rows.filter((r) => r.leaf);
     refuse(basis.length !== leaves.length || !same(ids(leaves).sort(), [...list(claim.steps)].sort()), "the basis is another one");
@@ -518,8 +548,9 @@ export class Rules {
 
   /** Whether `function = C` writes the function of a step. */
   isConstant(text, relation) {
-    const match = /^(.*)=\s*C\d*\s*$/.exec(text);
-    return Boolean(match) && isZero(sub(this.e.text(match[1].trim()), relation.tree));
+    const match = /^([^]*)=\s*([A-Za-z_][A-Za-z0-9_]*)\s*$/.exec(text);
+    const taken = match && (this.s.evidenceNames.values.has(match[2]) || this.s.coordinates.includes(match[2]) || this.s.rates.has(match[2]) || this.s.functions.has(match[2]) || match[2] === "t");
+    return Boolean(match) && !taken && isZero(sub(this.e.text(match[1].trim()), relation.tree));
   }
 
   growth(claim) {
@@ -714,22 +745,31 @@ export class Rules {
       return {};
     }
     refuse(claim.rule !== "independent", "another rule");
-    if (claim.last !== undefined) return uncovered("independent, of the last one");
+    refuse(!equations.length, "it has no equations");
     const minor = this.e.minor(claim.minor);
     this.place(minor.point);
-    refuse(claim.value > equations.length, "it has fewer equations");
-    const sequence = [...this.e.relations].sort((a, b) => (a.kind === "velocity") - (b.kind === "velocity") || a.place - b.place);
-    const last = Math.max(...equations.map((r) => sequence.indexOf(r)));
-    const upTo = sequence.slice(0, last + 1);
-    if (minor.rows.some((r) => !this.s.byId.has(r.id))) uncovered("independent, with rows by steps");
-    refuse(minor.rows.some((r) => !upTo.includes(r)), "a row comes after the constraint");
-    const mine = minor.rows.filter((r) => r.owner === name);
-    for (const r of upTo) {
-      const rows = r.owner === name ? minor.rows : minor.rows.filter((o) => o.owner !== name);
-      this.e.account({ rows, point: minor.point }, [r], claim.covers);
+    const order = [...this.e.relations].sort((x, y) => (x.kind === "velocity") - (y.kind === "velocity") || x.place - y.place);
+    let added = 0;
+    for (const kind of ["finite", "velocity"]) {
+      const mine = order.filter((r) => r.owner === name && r.kind === kind);
+      if (!mine.length) continue;
+      const start = order.indexOf(mine[0]);
+      const [before, upTo] = [order.slice(0, start), order.slice(0, start + mine.length)];
+      const dof = claim.last !== undefined && upTo.length === order.length && kind === "finite" ? this.before("/dof") : null;
+      if (dof) this.sameplace(dof, minor.point);
+      const after = dof ? this.e.n - dof.value : this.rank(minor, upTo, claim.covers);
+      added += Math.min(mine.length, after - this.rank(minor, before, claim.covers));
     }
-    refuse(mine.length !== claim.value, "the number is another one");
+    refuse(added !== claim.value, "the number is another one");
     return {};
+  }
+
+  /** How many rows of a minor follow from relations, which follow from them in turn. */
+  rank(minor, relations, covers) {
+    const known = this.e.closure(ids(relations), minor.point, covers ?? []);
+    const rows = minor.rows.filter((r) => known.has(r.id) && !r.leaf);
+    this.e.account({ rows, point: minor.point }, relations, covers);
+    return rows.length;
   }
 
   integral(claim, equations) {
@@ -754,8 +794,10 @@ export class Rules {
   circuit(claim, name, equations) {
     refuse(claim.rule !== "cofactors", "another rule");
     const point = this.e.point(claim.at);
-    this.place(point);
+    const place = this.place(point);
     const members = list(claim.value);
+    const written = (o) => this.s.owners.indexOf(o);
+    refuse(members.some((m) => written(m) < 0 || written(m) >= written(name)), "a circuit holds constraints written before");
     refuse(members.includes(name) || new Set(members).size < members.length || !members.length, "members are other constraints");
     const all = members.flatMap((m) => this.owned(m).filter((r) => r.kind !== "inequality"));
     this.e.relations.forEach((r) => this.e.needHolds(r, point));
@@ -764,13 +806,12 @@ export class Rules {
     for (const m of members) {
       const minor = this.e.minor(claim.minimal[m].minor);
       refuse(minor.point !== point, "a minor is at another point");
-      const mine = minor.rows.filter((r) => equations.includes(r));
-      const rest = minor.rows.filter((r) => !equations.includes(r));
       const others = all.filter((r) => r.owner !== m);
-      refuse(mine.length !== 1 || rest.some((r) => !others.includes(r)), "rows are of the other members, and one of its own");
-      this.e.account({ rows: rest, point }, others, claim.covers);
+      const known = this.e.closure(ids([...others, ...equations]), point);
+      refuse(minor.rows.some((r) => !known.has(r.id)), "rows are of the other members, and its own");
+      refuse(this.rank(minor, others, claim.covers) >= minor.rows.length, "no row is independent of the other members");
     }
-    return {};
+    return { place };
   }
 }
 
