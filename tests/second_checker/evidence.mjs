@@ -137,6 +137,8 @@ export class Evidence {
   identity(step) {
     return this.once(`identity ${step.id}`, () => {
       const c = entries(step.c).map(([id, text]) => [this.relation(id, step), this.text(text)]);
+      const sized = [...(step.put ?? []), ...(step.sos ?? [])].every((pair) => Array.isArray(pair) && pair.length === 2);
+      refuse(!sized, "put and sos are lists of pairs");
       const puts = (step.put ?? []).map(([id, q]) => [this.relation(id, step), q]);
       const h = this.text(step.h ?? "1");
       const power = step.power ?? 1;

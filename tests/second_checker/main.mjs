@@ -29,7 +29,15 @@ export function verdicts(document, certificate) {
   ring.restart();
   refuse(certificate?.certificate !== 1, "it is no certificate of version 1");
   refuse(certificate.scene?.sha256 !== sha256Of(document), "it is the certificate of another scene");
+  const lists = ["relations", "points", "minors", "fields", "covers", "claims", "cayley", "uncovered"];
+  for (const [key, part] of Object.entries(certificate)) {
+    if (key === "certificate" || key === "scene") continue;
+    refuse(!lists.includes(key) || !Array.isArray(part), `${key} cannot be read`);
+    const kind = key === "cayley" || key === "uncovered" ? "string" : "object";
+    refuse(part.some((one) => typeof one !== kind || one === null || Array.isArray(one)), `${key} cannot be read`);
+  }
   const verified = new Map();
+  const seen = new Set(certificate.uncovered ?? []);
   const readings = new Map();
   const reading = (cayley) => {
     if (!readings.has(cayley)) {
@@ -38,12 +46,14 @@ export function verdicts(document, certificate) {
     }
     return readings.get(cayley);
   };
-  reading(false);
+  refuse("tolerance" in reading(false).s.document, "what is measured up to a tolerance is not proved");
   return (certificate.claims ?? []).map((claim) => {
     ring.restart();
     try {
+      const again = seen.has(String(claim.path));
+      seen.add(String(claim.path));
+      refuse(again, "it is claimed twice, or claimed and uncovered");
       const found = check(reading(claim.cayley === true), claim);
-      refuse(verified.has(claim.path), "it is claimed twice");
       verified.set(claim.path, { value: claim.value, ...found });
       return [claim.path, "accepted", ""];
     } catch (error) {

@@ -12,6 +12,10 @@ const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 const uncovered = (why) => {
   throw new NotCovered(why);
 };
+const pairs = (value) => list(value).map((pair) => {
+  refuse(!Array.isArray(pair) || pair.length !== 2, "a pair is needed");
+  return pair;
+});
 const whole = (value) => Number.isInteger(value);
 const list = (value) => {
   refuse(!Array.isArray(value), "a list is needed");
@@ -29,13 +33,15 @@ export class Rules {
 
   // -- what is asked of points -------------------------------------------------------------------------
 
-  /** The reference configuration, where it meets the relations at t = 0; else null. */
+  /** The reference configuration at t = 0; null where none is given. It meets the relations for all parameters. */
   get reference() {
     return this.e.once("reference", () => {
       if (!this.s.reference) return null;
       const values = new Map([...this.s.reference, ["t", number(0)]]);
-      const finite = this.e.relations.filter((r) => r.kind === "finite");
-      return finite.every((r) => isZero(substitute(r.tree, values))) ? values : null;
+      const open = (r) => r.kind === "finite" && (r.tree.functions.size || r.tree.hasAny(new Set(this.s.signs.keys())));
+      const missed = this.e.relations.filter(open).some((r) => !isZero(substitute(r.tree, values)));
+      refuse(missed, "the reference configuration does not meet the relations");
+      return values;
     });
   }
 
@@ -154,7 +160,7 @@ export class Rules {
     this.e.independentAt(vectors, columns, point);
     const moving = relations.some((r) => r.tree.has("t") || r.tree.has("tdot"));
     const moves = fields.some((x) => x.has("t") && !isZero(x.get("t")));
-    if (moving) refuse(!fields.some((x) => x.has("t") && this.e.at(x.get("t"), point).nonzero), "no field moves t");
+    if (moving && words.length) refuse(!fields.some((x) => x.has("t") && this.e.at(x.get("t"), point).nonzero), "no field moves t");
     return { point, vectors: vectors.length, timed: moves, moving };
   }
 
@@ -171,8 +177,6 @@ export class Rules {
       const at = claim.inequalities?.[r.id] ?? claim.inequalities?.[r.owner];
       this.strictAt(r, this.e.point(at));
     }
-    const known = new Set(inequalities.flatMap((r) => [r.id, r.owner]));
-    refuse(Object.keys(claim.inequalities ?? {}).some((name) => !known.has(name)), "there is no such inequality");
     if (claim.rule === "regular") {
       const minor = this.e.minor(claim.minor);
       this.e.account(minor, relations, claim.covers);
@@ -212,7 +216,7 @@ export class Rules {
     refuse(claim.rule !== "nullstellensatz", "another rule");
     const rest = new Map([["tdot", number(1)]]);
     const total = (tree) => (isTotal(tree) ? tree : uncovered("a cofactor may have no value somewhere"));
-    const squares = (all) => add(...list(all ?? []).map(([w, a]) => {
+    const squares = (all) => add(...pairs(all ?? []).map(([w, a]) => {
       const weight = this.e.text(w);
       refuse(!nowhereZero(weight, this.s.signs, true), "a weight is positive");
       return mul(weight, tr.pow(total(this.e.text(a)), 2));
@@ -248,6 +252,7 @@ export class Rules {
   feasible(claim) {
     refuse(claim.value !== true, "a truth value is needed");
     const inequalities = this.s.relations.filter((r) => r.kind === "inequality");
+    refuse(!inequalities.length, "there are no inequalities");
     const found = this.holdsTogether({ ...claim, inequalities: undefined }, this.e.relations, []);
     for (const r of inequalities) {
       if (r.tree.hasAny(this.s.rates)) uncovered("inequalities of velocities");
@@ -292,9 +297,9 @@ export class Rules {
     const forms = this.e.relations.filter((r) => r.kind === "velocity");
     const wanted = kind === "dof" ? this.e.relations.filter((r) => r.kind === "finite") : this.e.relations;
     const inScene = (id) => this.s.byId.get(id) ?? refuse(true, `there is no relation ${id}`);
-    const order = list(claim.order ?? []).map(([id, q]) => [inScene(id), q]);
+    const order = pairs(claim.order ?? []).map(([id, q]) => [inScene(id), q]);
     const blocks = list(claim.blocks ?? []).map(inScene);
-    const generic = list(claim.generic ?? []).map(([id, g]) => [inScene(id), g]);
+    const generic = pairs(claim.generic ?? []).map(([id, g]) => [inScene(id), g]);
     const placed = [...order.map(([r]) => r), ...blocks, ...generic.map(([r]) => r)];
     refuse(new Set(placed).size < placed.length, "a relation is in two places");
     const all = this.e.closure(ids(placed), null);
@@ -375,10 +380,9 @@ export class Rules {
     if (claim.minor !== undefined) {
       const minor = this.e.minor(claim.minor);
       refuse(minor.point !== point, "the minor is at another point");
-      if (this.e.relations.every((r) => minor.rows.includes(r))) {
-        refuse(this.e.n - minor.rows.length !== claim.value, "the number is another one");
-        return {};
-      }
+      refuse(!same(ids(minor.rows).sort(), ids(this.e.relations).sort()), "the rows are not all relations");
+      refuse(this.e.n - minor.rows.length !== claim.value, "the number is another one");
+      return {};
     }
     const rows = this.e.relations.map((r) => {
       this.e.needHolds(r, point);
@@ -522,6 +526,7 @@ export class Rules {
     const alone = finite.map((r) => this.s.coordinates.filter((q) => r.tree.has(q)));
     const still = new Set(alone.filter((names) => names.length === 1).flat());
     const turned = this.s.turns.filter((angles) => !other.columns.includes(angles[1]) || angles.every((q) => still.has(q)));
+    finite.forEach((r) => this.e.needHolds(r, minor.point));
     if (turned.length) this.e.account(minor, finite, claim.covers);
     this.sameplace(dof, minor.point, turned);
     return {};
@@ -615,6 +620,7 @@ export class Rules {
       this.place(minor.point);
       const all = this.e.closure(ids(relations), minor.point);
       refuse(minor.rows.some((r) => !all.has(r.id)), "a row does not follow from its relations");
+      relations.filter((r) => r.kind === "finite").forEach((r) => this.e.needHolds(r, minor.point));
       this.frobenius(claim, minor);
       this.e.account(minor, equations, claim.covers);
     } else if (rule === "integral") {
@@ -709,7 +715,7 @@ export class Rules {
       return {};
     }
     if (claim.pair !== undefined) {
-      const [x, y] = list(claim.pair);
+      const [[x, y]] = pairs([claim.pair]);
       refuse(!form.has(x) || !form.has(y), "two names are needed");
       const [a, b] = [form.get(x), form.get(y)];
       refuse(!this.e.at(sub(mul(a, derivative(b, "t")), mul(b, derivative(a, "t"))), point).nonzero, "the pair may be 0");
@@ -732,7 +738,7 @@ export class Rules {
     refuse(claim.rule !== "not exact" || claim.value !== false, "another rule");
     const index = claim.relation === undefined ? 0 : forms.findIndex((r) => r.id === claim.relation);
     refuse(index < 0 || (claim.relation === undefined && forms.length > 1), "a form of the constraint is needed");
-    const [x, y] = list(claim.pair);
+    const [[x, y]] = pairs([claim.pair]);
     refuse(!all[index].has(x) || !all[index].has(y), "two names are needed");
     refuse(!this.e.at(curl(all[index], x, y), this.e.point(claim.at)).nonzero, "the form may be closed");
     return {};
@@ -786,6 +792,7 @@ export class Rules {
       if (forms.length !== 1) uncovered("an integral of several forms");
     }
     const finite = this.e.relations.filter((r) => r.kind === "finite");
+    finite.forEach((r) => this.e.needHolds(r, point));
     const found = this.e.closure([step.id, ...ids(finite)], point);
     refuse(equations.some((r) => !found.has(r.id)), "the relation does not follow from the integral's rate");
     return {};
@@ -838,6 +845,11 @@ function rankOf(rows) {
 
 /** Checks one claim by its path. */
 export function check(rules, claim) {
+  const local = /^\/(singular|holonomic|scleronomic)$|^\/constraints\//.test(claim.path);
+  const wide = claim.about === "everywhere" || claim.path === "/conflicting" || claim.value === false;
+  refuse(claim.cayley === true && wide && !local, "Cayley parameters are a chart of a part");
+  refuse("about" in claim && !["/dof", "/velocity_dof"].includes(claim.path), "a spare about");
+  for (const id of claim.covers ?? []) rules.e.cover(id);
   const parts = String(claim.path).split("/");
   if (rules.s.unread.length) uncovered("a constraint of a type that is not known");
   if (parts.length === 4 && parts[1] === "constraints") return rules.constraint(claim, unescaped(parts[2]), parts[3]);
