@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import random
+import re
 import shutil
 import subprocess
 from collections.abc import Iterator, Mapping, Sequence
@@ -26,7 +27,10 @@ from dofkit.methods.certificates.lowering import document_of_scene
 
 NODE = shutil.which("node")
 SECOND = Path(__file__).parents[1] / "second_checker/main.mjs"
-SCHEMA = json.loads(files("dofkit.checker").joinpath("certificate.schema.json").read_text(encoding="utf-8"))
+FORMAT = files("dofkit.checker")
+SCHEMA = json.loads(FORMAT.joinpath("certificate.schema.json").read_text(encoding="utf-8"))
+#: The examples of the page: a certificate, then lines of steps, points and claims.
+EXAMPLES = re.findall("```json\n(.*?)```", FORMAT.joinpath("FORMAT.md").read_text(encoding="utf-8"), re.DOTALL)
 needs_node = pytest.mark.skipif(NODE is None, reason="node, in which the second checker runs, is not installed")
 #: How many changed certificates, and how many changed scenes, a scene has.
 MUTATIONS, EDITS = 12, 3
@@ -122,3 +126,19 @@ def test_the_schema_says_which_it_is_and_refuses_what_is_none() -> None:
     bad = [{**good, "certificate": 2}, {**good, "evidence": []}, {**good, "claims": [{**claim, "rule": "of thumb"}]}]
     bad += [{**good, "claims": [{**claim, "spare": 1}]}, {**good, "relations": [{"id": "k", "by": "magic"}]}]
     assert not any(map(validator.is_valid, bad))
+
+
+@needs_node
+def test_both_checkers_accept_the_certificate_of_the_page() -> None:
+    certificate = json.loads(EXAMPLES[0])
+    case = certificate["scene"]["document"], certificate
+    assert first(case) == second([case])[0] == ["accepted"]
+
+
+def test_the_examples_of_the_page_are_of_the_schema_one_for_each_rule() -> None:
+    claims = [json.loads(line) for line in EXAMPLES[-1].splitlines()]
+    steps, point = [json.loads(line) for line in EXAMPLES[1].splitlines()], json.loads(EXAMPLES[2])
+    whole = {**json.loads(EXAMPLES[0]), "relations": steps, "points": [point], "claims": claims}
+    assert not [error.message for error in Draft202012Validator(SCHEMA).iter_errors(whole)]
+    rules = set(SCHEMA["$defs"]["claim"]["properties"]["rule"]["enum"])
+    assert {claim["rule"] for claim in claims} == rules - {"lagrange"}

@@ -86,8 +86,8 @@ export class Evidence {
   listed(part, id) {
     refuse(typeof id !== "string", "an id is a text");
     const found = (this.certificate[part] ?? []).filter((one) => one.id === id);
-    refuse(found.length !== 1, `${id} is not one of the ${part}`);
-    return found[0];
+    refuse(!found.length, `${id} is not one of the ${part}`);
+    return found.at(-1);
   }
 
   // -- relations ------------------------------------------------------------------------------------
