@@ -28,11 +28,11 @@ def consistent(room: Room) -> Iterator[Told]:
 
 
 def _inequalities(room: Room) -> dict[str, str] | None:
-    """For every inequality a point where it holds."""
+    """Return for every inequality a point where it holds, as an equality where no other was reached; else None."""
     found: dict[str, str] = {}
     for one in room.problem.relations:
         if one.kind == "inequality":
-            point = room.search.meeting(one.name)
+            point = room.search.meeting(one.name) or room.search.touching(one.name, 70)
             if point is None:
                 return None
             found[one.name] = room.add_point(point)

@@ -5,18 +5,26 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 from dofkit.base.verdicts import weakest
 from dofkit.expressions.text.characters import DEGREE, GREEK_LETTERS
 from dofkit.methods.certificates.certificate import Certifying
-from dofkit.methods.certificates.contradictions import Contradiction
 from dofkit.report import ConstraintEntry, FieldVerdict, Report
 from dofkit.scene.lowering import survey_of
 from dofkit.scene.scene import Scene
 from dofkit.scene.synonyms import SAID, with_plain_subscripts
 
 _UNDECIDED = FieldVerdict(verdict="undecided")
+
+
+class Contradiction(NamedTuple):
+    """Why a claim cannot be, and the value that was shown instead (None: only that it is not what is told)."""
+
+    why: str
+    shown: Any = None
+
+
 #: What fields are where they are undecided; the others stay as they are.
 _OPEN: Mapping[str, Any] = {
     **dict.fromkeys(("consistent", "dof", "velocity_dof", "instantaneous_dof", "singular", "holonomic", "scleronomic")),

@@ -13,8 +13,7 @@ import pytest
 
 import dofkit
 from dofkit.methods.certificates.certificate import made
-from dofkit.methods.certificates.contradictions import Contradiction
-from dofkit.methods.certificates.lowering import document_of_scene, lowered, with_certificate
+from dofkit.methods.certificates.lowering import Contradiction, document_of_scene, lowered, with_certificate
 
 ROOT = Path(__file__).parents[3]
 SKATE = {"coordinates": ["x", "y", "theta"], "constraints": ["sin(theta) dx - cos(theta) dy = 0"]}
