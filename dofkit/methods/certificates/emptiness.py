@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.checker.trees import ONE, CheckError, Tree, substituted
+from dofkit.checker.trees import ONE, Tree, substituted
 from dofkit.methods.certificates.room import Room, Told
-from dofkit.methods.certificates.scenery import number_text
-from dofkit.methods.certificates.steps import rate_of
+from dofkit.methods.certificates.scenery import number_text, text_of
+from dofkit.methods.certificates.steps import positive_sum, rate_of
 
 Monomial = tuple[int, ...]
 Polynomial = dict[Monomial, Fraction]
@@ -119,63 +118,15 @@ def _rational(value: Fraction) -> fmpq:
 
 
 def _by_squares(room: Room, name: str) -> Iterator[Told]:
-    """One relation that is a positive number and squares, or their negative."""
+    """Yield evidence that one relation is never satisfied: it is a positive number and squares, or their negative."""
     one = room.scenery.evidence.relation(name)
-    try:
-        read = polynomials(room, [one.left])
-    except CheckError:
-        return
-    for sign in (1, -1) if read is not None else ():
-        signed = {key: sign * value for key, value in read[0][0].items()} if read is not None else {}
-        squares = completed(room, signed)
-        if squares is None:
+    for sign in (1, -1):
+        positive = positive_sum(one.left, sign)
+        if positive is None:
             continue
-        number, terms = squares
-        told: dict[str, Any] = {"rule": "nullstellensatz", "number": number_text(number), "sos": terms}
+        squares = [[c, text_of(base)] for c, base in positive[1]]
+        claim: Told = {"rule": "nullstellensatz", "number": positive[0], "sos": squares}
         if one.kind != "inequality":
-            yield {**told, "c": {name: number_text(-sign)}}
+            yield {**claim, "c": {name: number_text(-sign)}}
         elif sign == -1:
-            yield {**told, "inequality": {name: [["1", "1"]]}}
-
-
-def completed(room: Room, polynomial: Polynomial) -> tuple[Fraction, list[list[str]]] | None:
-    """A quadratic polynomial as a positive number and squares; None where it is none."""
-    ring = room.scenery.evidence.ring
-    texts = {place: str(key[1]) for key, place in ring.places.items() if key[0] == "symbol"}
-    places = sorted({i for key in polynomial for i, exponent in enumerate(key) if exponent})
-    if any(sum(key) > 2 for key in polynomial) or any(place not in texts for place in places):
-        return None
-    rest = dict(polynomial)
-    terms: list[list[str]] = []
-    for place in places:
-        lead = rest.get(_monomial(rest, place, place), Fraction(0))
-        if lead <= 0:
-            if any(key[place] for key in rest):
-                return None
-            continue
-        linear = {key: value for key, value in rest.items() if key[place] == 1}
-        shift = {_without(key, place): value / (2 * lead) for key, value in linear.items()}
-        text = " + ".join([texts[place], *(_term(value, key, texts) for key, value in shift.items())])
-        terms.append([number_text(lead), text])
-        rest = {key: value for key, value in rest.items() if not key[place]}
-        for a, x in shift.items():
-            for b, y in shift.items():
-                key = tuple(i + j for i, j in zip(a, b, strict=True))
-                rest[key] = rest.get(key, Fraction(0)) - lead * x * y
-        rest = {key: value for key, value in rest.items() if value}
-    number = sum((value for key, value in rest.items() if not any(key)), Fraction(0))
-    return (number, terms) if number > 0 and all(not any(key) for key in rest) else None
-
-
-def _monomial(rest: Polynomial, first: int, second: int) -> Monomial:
-    size = len(next(iter(rest), ()))
-    return tuple((i == first) + (i == second) for i in range(size))
-
-
-def _without(key: Monomial, place: int) -> Monomial:
-    return (*key[:place], key[place] - 1, *key[place + 1 :])
-
-
-def _term(value: Fraction, key: Monomial, texts: dict[int, str]) -> str:
-    factors = [texts[i] for i, exponent in enumerate(key) for _ in range(exponent)]
-    return "*".join([f"({number_text(value)})", *factors])
+            yield {**claim, "inequality": {name: [["1", "1"]]}}

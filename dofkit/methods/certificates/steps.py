@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from itertools import combinations
 from typing import Any
 
 from dofkit.checker.trees import (
@@ -12,9 +11,6 @@ from dofkit.checker.trees import (
     CheckError,
     Tree,
     add,
-    difference,
-    linear_in,
-    negative,
     number,
     power,
     put_in,
@@ -58,7 +54,7 @@ def _stand(scenery: Scenery, *steps: Step) -> bool:
 
 def _steps(label: str, name: str, left: Tree) -> list[Step]:
     """Steps to the bases of a power or a sum of squares, and back; none where it is no such thing."""
-    squares = [_square(term) for term in (left.below if left.head == "sum" else (left,))]
+    squares = [_square(term) for term in _operands(left, "sum")]
     pairs = [pair for pair in squares if pair is not None]
     signs = {coefficient > 0 for coefficient, *_ in pairs}
     if len(pairs) < len(squares) or len(signs) > 1 or (len(pairs) > 1 and any(k != 2 for *_, k in pairs)):
@@ -77,7 +73,7 @@ def _steps(label: str, name: str, left: Tree) -> list[Step]:
 
 def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
     """A term as a number times an even power of what is no number."""
-    factors = term.below if term.head == "product" else (term,)
+    factors = _operands(term, "product")
     coefficient, base, exponent = Fraction(1), None, 0
     for factor in factors:
         if isinstance(factor.value, Fraction):
@@ -96,9 +92,9 @@ def without_factor(scenery: Scenery, name: str) -> str:
     step, left = f"{scenery.label}{name} without its factor", scenery.evidence.relation(name).left
     if scenery.has_step(step):
         return step
-    terms = [_factors(term) for term in (left.below if left.head == "sum" else (left,))]
+    terms = [_operands(term, "product") for term in _operands(left, "sum")]
     for factor in terms[0]:
-        positive = _positive(factor)
+        positive = positive_sum(factor)
         if positive is None or not all(factor in term for term in terms):
             continue
         places = [term.index(factor) for term in terms]
@@ -111,28 +107,30 @@ def without_factor(scenery: Scenery, name: str) -> str:
     return name
 
 
-def _factors(term: Tree) -> list[Tree]:
-    return [one for part in term.below for one in _factors(part)] if term.head == "product" else [term]
+def _operands(tree: Tree, head: str) -> list[Tree]:
+    """Return the terms of a sum or the factors of a product, those of sums in sums and products in products too."""
+    return [one for part in tree.below for one in _operands(part, head)] if tree.head == head else [tree]
 
 
-def _positive(tree: Tree) -> tuple[str, list[tuple[str, Tree]]] | None:
-    """A sum as a positive number and squares of bases with positive coefficients."""
-    numbers = [part.value for part in tree.below if isinstance(part.value, Fraction)]
-    squares = [_square(part) for part in tree.below if not isinstance(part.value, Fraction)]
-    terms = [
-        (number_text(one[0]), power(one[1], number(one[2] // 2))) for one in squares if one is not None and one[0] > 0
+def positive_sum(tree: Tree, sign: int = 1) -> tuple[str, list[tuple[str, Tree]]] | None:
+    """Return a sum (times a sign) as a positive number and squares of bases with positive coefficients."""
+    terms = _operands(tree, "sum")
+    constant = sum((sign * term.value for term in terms if isinstance(term.value, Fraction)), Fraction(0))
+    squares = [_square(term) for term in terms if not isinstance(term.value, Fraction)]
+    positive = [
+        (number_text(sign * one[0]), power(one[1], number(one[2] // 2)))
+        for one in squares
+        if one is not None and sign * one[0] > 0
     ]
-    if tree.head != "sum" or len(terms) < len(squares) or not numbers or numbers[0] <= 0:
+    if tree.head != "sum" or len(positive) < len(squares) or constant <= 0:
         return None
-    return number_text(numbers[0]), terms
+    return number_text(constant), positive
 
 
 # Coordinates that finite relations give by others: put into a relation, they may leave nothing of it.
 
 #: A relation and the coordinate that it gives.
 Order = list[list[str]]
-#: Relations that are longer are not solved in pairs.
-LARGEST_OF_PAIR = 30
 
 
 def puts(scenery: Scenery, names: Sequence[str]) -> Order:
@@ -180,33 +178,6 @@ def needed_puts(scenery: Scenery, trees: Iterable[Tree], order: Order) -> Order:
     return found
 
 
-def solved_pairs(scenery: Scenery, names: Sequence[str], point: FoundPoint) -> list[str]:
-    """Steps by which coordinates are 0: of two relations that are linear in them, and hold nothing beside."""
-    found = []
-    short = [name for name in names if scenery.evidence.relation(name).left.size <= LARGEST_OF_PAIR]
-    for pair in combinations(short, 2):
-        for step in _pair_steps(scenery, pair, point):
-            if _stand(scenery, step):
-                found.append(str(step["id"]))
-    return found
-
-
-def _pair_steps(scenery: Scenery, pair: tuple[str, str], point: FoundPoint) -> Iterator[dict[str, object]]:
-    lefts = [scenery.evidence.relation(name).left for name in pair]
-    shared = lefts[0].symbols & lefts[1].symbols
-    for one, other in combinations([q for q in scenery.problem.coordinates if q in shared], 2):
-        parts = [linear_in(left, (one, other)) for left in lefts]
-        if any(part is None or not scenery.evidence.ring.vanishes(part[1]) for part in parts):
-            continue
-        (a, b), (c, d) = ([part[0].get(q, ZERO) for q in (one, other)] for part in parts if part is not None)
-        h = difference(times(a, d), times(b, c))
-        if not scenery.differs(h, point.floats):
-            continue
-        for q, factors in ((one, (d, negative(b))), (other, (negative(c), a))):
-            told = {"h": text_of(h), "c": {name: text_of(part) for name, part in zip(pair, factors, strict=True)}}
-            yield {"id": f"{scenery.label}{q} by {' and '.join(pair)}", "by": "implied", "function": q, **told}
-
-
 # Rows that follow from others: cofactors by linear algebra over the rationals.
 
 
@@ -234,7 +205,7 @@ def combined(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint
     if found is not None:
         yield found
     finite = [row for row in rows if scenery.evidence.relation(row).kind == "finite"]
-    order = puts(scenery, [*solved_pairs(scenery, finite, point), *finite])
+    order = puts(scenery, finite)
     found = _combination(scenery, name, rows, point, order) if order else None
     if found is not None:
         yield found
