@@ -32,7 +32,7 @@ def _inequalities(room: Room) -> dict[str, str] | None:
     found: dict[str, str] = {}
     for one in room.problem.relations:
         if one.kind == "inequality":
-            point = room.search.meeting(one.name) or room.search.touching(one.name, 70)
+            point = room.search.meeting([one.name]) or room.search.touching(one.name, 70)
             if point is None:
                 return None
             found[one.name] = room.add_point(point)
@@ -177,9 +177,10 @@ def feasible(room: Room) -> Iterator[Told]:
     standing = room.standing
     if not room.report.feasible or standing is None:
         return
-    for point in (room.point, *room.search.open_points()):
-        if point is not None:
-            yield {"rule": "point", "at": room.add_point(point)}
+    yield {"rule": "point", "at": room.add_point(standing.point)}
+    inequalities = [one.name for one in room.problem.relations if one.kind == "inequality"]
+    if (point := room.search.meeting(inequalities, 200)) is not None:
+        yield {"rule": "point", "at": room.add_point(point)}
 
 
 def integrable_part(room: Room) -> Iterator[Told]:

@@ -80,8 +80,8 @@ class Standing:
 
 
 @dataclass
-class RoomParts:
-    """The report, the reading of the scene, and the parts found so far."""
+class Room:
+    """A report and a reading of its scene, the main point, and rows that are independent there."""
 
     report: Report
     document: Mapping[str, Any]
@@ -100,10 +100,9 @@ class RoomParts:
             entries.append(point.entry())
         return point.name
 
-    def minor(self, standing: Standing, size: int | None = None) -> str:
-        """The id of a minor: of all rows, or of the first ``size``."""
-        rows, columns = standing.rows[:size], standing.columns[:size]
-        given = {"at": standing.point.name, "rows": rows, "columns": columns}
+    def minor(self, standing: Standing) -> str:
+        """Return the id of the minor of the rows and columns."""
+        given = {"at": standing.point.name, "rows": standing.rows, "columns": standing.columns}
         minors = self.scenery.parts["minors"]
         for one in minors:
             if all(one[key] == value for key, value in given.items()):
@@ -126,10 +125,6 @@ class RoomParts:
     def differs(self, tree: Tree, point: FoundPoint) -> bool:
         """Whether a tree is not 0 at a point, by far."""
         return self.scenery.differs(tree, point.floats)
-
-
-class Room(RoomParts):
-    """One reading of a scene with its main point, and rows that are independent there."""
 
     @property
     def small(self) -> bool:
@@ -257,16 +252,12 @@ class Room(RoomParts):
         return self.finite_first[: last + 1]
 
     def solving(self, columns: Sequence[str]) -> Standing | None:
-        """The finite rows with just these columns; None where these do not do."""
-        found = self.finite_standing
-        if found is None or len(columns) != len(found.rows):
+        """Return the finite rows with just these columns, or None where these do not do."""
+        finite = self.finite_standing
+        if finite is None or len(columns) != len(finite.rows):
             return None
-        wanted = set(columns)
-        matrix = [{q: v for q, v in self.row(name, found.point).items() if q in wanted} for name in found.rows]
-        pivots = echelon(matrix).pivots
-        if len(pivots) < len(columns):
-            return None
-        return Standing(found.point, found.rows, [p.column for p in pivots], found.dependent, found.accounted)
+        standing = self.standing_of(finite.rows, columns)
+        return None if standing is None or standing.dependent else standing
 
     @cached_property
     def finite_standing(self) -> Standing | None:
