@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, negative, number, power, symbol, times
+from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, negative, number, symbol, times
 from dofkit.methods.certificates.fields import (
     LARGEST_CRAMER,
     determinant,
@@ -31,17 +31,20 @@ def integral_of_text(room: Room, text: str) -> str | None:
     return combined_integral(room, left.strip()) if right.strip() != "0" else None
 
 
-def combined_integral(room: Room, function: str) -> str | None:
-    """A step by which a function keeps its value, whatever relations that takes: its id."""
-    name = f"{room.scenery.label}{function} is constant"
+def combined_integral(room: Room, function: str, alone: str = "") -> str | None:
+    """Return the id of a step by which a function keeps its value: by one form ``alone``, or whatever that takes."""
+    name = f"{room.scenery.label}{function} is constant{f' by {alone}' if alone else ''}"
     if name in room.scenery.evidence.known:
         return name
-    if room.standing is None or not room.small:
+    if room.point is None:
         return None
-    tree = room.scenery.evidence.text(function)
+    try:
+        tree = room.scenery.evidence.text(function)
+    except CheckError:
+        return None
     target = {v: derivative(tree, v) for v in room.scenery.evidence.variables}
     step = {"id": name, "by": "integral", "function": function}
-    return name if _combined(room, step, target, moving_rows(room)) else None
+    return name if _combined(room, step, target, [alone] if alone else moving_rows(room)) else None
 
 
 def moving_rows(room: Room) -> list[str]:
@@ -54,13 +57,21 @@ def moving_rows(room: Room) -> list[str]:
     return found
 
 
-def follows_from_integrals(room: Room, name: str, steps: Sequence[str]) -> bool:
-    """Whether a step was found by which a form follows from integrals and finite relations."""
-    step = f"{room.scenery.label}{name} from integrals"
+def follows_from_integrals(room: Room, name: str, steps: Sequence[str], alone: bool = False) -> bool:
+    """Whether a step was found by which a form follows from integrals, and finite relations if not ``alone``."""
+    step = f"{room.scenery.label}{name} from {' and '.join(steps) if alone else 'integrals'}"
     if room.scenery.has_step(step):
         return True
-    sources = [rate for one in (*steps, *room.scenery.evidence.finite) if (rate := rate_of(room.scenery, one))]
-    return _combined(room, {"id": step, "by": "implied", "of": name}, components(room, name), sources)
+    sources = [*steps, *(() if alone else room.scenery.evidence.finite)]
+    rates = [rate for one in sources if (rate := rate_of(room.scenery, one))]
+    return _combined(room, {"id": step, "by": "implied", "of": name}, components(room, name), rates)
+
+
+def integral_alone(room: Room, entry: ConstraintEntry, name: str) -> str | None:
+    """Return the step of the integral that is claimed of a form, where each follows from the other alone."""
+    function = integral_text(entry)
+    step = combined_integral(room, function, name) if function and room.form(name) is not None else None
+    return step if step and follows_from_integrals(room, name, [step], alone=True) else None
 
 
 def _combined(room: Room, step: Told, target: Components, sources: Sequence[str]) -> bool:
@@ -210,54 +221,16 @@ def _reached(room: Room, owner: str, alone: bool) -> Told | None:
 
 
 def _integrated(room: Room, entry: ConstraintEntry) -> Told | None:
-    """The rule `integral`: a step for the integral that is told, and one by which the form follows from it."""
+    """Return the rule `integral`, by a step for the integral that is claimed and one by which the form follows."""
     names = room.scenery.evidence.owned(entry.name)
-    if len(names) != 1 or room.point is None or (step := integral_step(room, entry, names[0])) is None:
+    if len(names) != 1 or room.point is None or (step := integral_alone(room, entry, names[0])) is None:
         return None
     return {"rule": "integral", "at": room.point.name, "integrals": [step]}
-
-
-def integral_step(room: Room, entry: ConstraintEntry, name: str) -> str | None:
-    """Steps for an integral of one form alone: its id, where they stand up."""
-    function = integral_text(entry)
-    factor = factor_text(room, entry, name)
-    ids = f"{name} integrated", f"rate of {name} integrated", f"{name} from its integral"
-    if function is None or factor is None:
-        return None
-    if ids[0] in room.scenery.evidence.known:
-        return ids[0]
-    try:
-        room.scenery.add_step({"id": ids[0], "by": "integral", "function": function, "c": {name: factor}})
-        room.scenery.add_step({"id": ids[1], "by": "rate", "of": ids[0]})
-        room.scenery.add_step({"id": ids[2], "by": "implied", "of": name, "h": factor, "c": {ids[1]: "1"}})
-    except CheckError:
-        return None
-    return ids[0]
 
 
 def integral_text(entry: ConstraintEntry) -> str | None:
     """The function that is said to be constant."""
     return entry.integral.rpartition("=")[0].strip() if entry.integral else None
-
-
-def factor_text(room: Room, entry: ConstraintEntry, name: str) -> str | None:
-    """The factor with d(function) = factor * form, from a quotient of components."""
-    text, form = integral_text(entry), room.form(name)
-    if text is None or form is None:
-        return None
-    try:
-        function = room.scenery.evidence.text(text)
-        for v, part in form.items():
-            quotient = times(derivative(function, v), power(part, number(-1)))
-            for given in ("1", "-1", entry.integrating_factor):
-                if given and room.scenery.evidence.ring.vanishes(
-                    add(quotient, negative(room.scenery.evidence.text(given)))
-                ):
-                    return given
-        v = next(iter(form))
-        return text_of(times(derivative(function, v), power(form[v], number(-1))))
-    except (CheckError, StopIteration):
-        return None
 
 
 def integral(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
@@ -267,7 +240,7 @@ def integral(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     if len(names) != 1 or room.point is None or function is None:
         return
     found = {"rule": "integral", "at": room.point.name}
-    if alone := integral_step(room, entry, names[0]):
+    if alone := integral_alone(room, entry, names[0]):
         yield {**found, "step": alone}
         if other := room.search.somewhere(room.scenery.evidence.finite, room.problem.coordinates, seed=1):
             yield {**found, "step": alone, "at": room.add_point(other)}
