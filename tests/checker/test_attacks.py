@@ -99,11 +99,7 @@ A_LINE: dict[str, Attack] = {
     "a row twice": (
         plane("x + y = 0"),
         [regular(0)],
-        {
-            "relations": branch("k", "c1", ["2*x + 2*y", "1/2"], 0),
-            "points": [POINT],
-            "minors": [BOTH],
-        },
+        {"relations": branch("k", "c1", ["2*x + 2*y", "1/2"], 0), "points": [POINT], "minors": [BOTH]},
     ),
     "a row that follows from nothing": (
         plane("x^2 = 2", "y = 0"),
@@ -122,9 +118,7 @@ A_LINE: dict[str, Attack] = {
     "a factor x that is said to be a square and 1": (
         plane("x*y = 0", "y = 1"),
         [consistent(False, "nullstellensatz", number="1", c={"k": "-1", "c2": "1"})],
-        {
-            "relations": [{**FACTOR_X, "h": "1", "power": 2, "sos": [["1", "sqrt(x - 1)*y"]], "c": {"c1": "y"}}],
-        },
+        {"relations": [{**FACTOR_X, "h": "1", "power": 2, "sos": [["1", "sqrt(x - 1)*y"]], "c": {"c1": "y"}}]},
     ),
 }
 #: No real point, or only (0, 0).
@@ -160,11 +154,7 @@ NO_MOTION: dict[str, Attack] = {
     "a field for one value": (
         plane("x = 0", "x = a", parameters=["a"]),
         [along_y("m")],
-        {
-            "points": [{"id": "P", "values": {"x": "0", "y": "0", "a": "0"}}],
-            "minors": [MINOR],
-            "fields": [ALONG_Y],
-        },
+        {"points": [{"id": "P", "values": {"x": "0", "y": "0", "a": "0"}}], "minors": [MINOR], "fields": [ALONG_Y]},
     ),
     "a cover for one value": (
         plane("x = 0", "x = a", parameters=["a"]),
@@ -197,13 +187,7 @@ NOT_AT_THE_POINT: dict[str, Attack] = {
         [regular(0)],
         {
             "points": [
-                {
-                    "id": "P",
-                    "values": {"x": "-1", "y": "1/1000000"},
-                    "rows": ["c2"],
-                    "columns": ["y"],
-                    "radius": "1/10",
-                }
+                {"id": "P", "values": {"x": "-1", "y": "1/1000000"}, "rows": ["c2"], "columns": ["y"], "radius": "1/10"}
             ],
             "minors": [{"id": "m", "at": "P", "rows": ["c1", "c2"], "columns": ["x", "y"]}],
         },
@@ -289,9 +273,7 @@ TIME: dict[str, Attack] = {
     "a factor x - t that is said to be nowhere 0": (
         plane("x = t"),
         [scleronomic("s")],
-        {
-            "relations": branch("s", "c1", ["1", "x - t"], 0),
-        },
+        {"relations": branch("s", "c1", ["1", "x - t"], 0)},
     ),
     "another step of the name": (
         plane("x = t"),
@@ -334,7 +316,7 @@ ABOUT: dict[str, Attack] = {
         plane("x*(x^2 + y^2 + 1) = 0"),
         [regular(1), {"path": "/velocity_dof", "value": 1, "about": "everywhere", "rule": "count"}],
         {"points": [POINT], "minors": [MINOR]},
-    ),
+    )
 }
 ATTACKS = {**A_LINE, **NOTHING, **NO_MOTION, **NOT_AT_THE_POINT, **TIME, **CHARTS, **ABOUT}
 

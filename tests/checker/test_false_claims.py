@@ -37,15 +37,7 @@ DEPENDENCE: dict[str, False_] = {
     # c1 keeps x as it is, wherever that is
     "a relation follows at one velocity": (
         plane("x*xdot = 0", "x = 0"),
-        [
-            claim(
-                "/constraints/c2/circuit",
-                ["c1"],
-                "cofactors",
-                at="P",
-                minimal={"c1": {"minor": minor("c2", "x")}},
-            )
-        ],
+        [claim("/constraints/c2/circuit", ["c1"], "cofactors", at="P", minimal={"c1": {"minor": minor("c2", "x")}})],
         {"relations": [implied("k", "c2", c1="1/xdot")], "points": [{"id": "P", "values": {"x": "0", "xdot": "1"}}]},
         "not shown to follow from the circuit",
     ),
@@ -66,13 +58,7 @@ DEPENDENCE: dict[str, False_] = {
             claim("/dof", 0, "regular", about="component", minor=minor("c2 c3", "x y")),
             claim("/velocity_dof", 0, "count"),
             claim("/redundant_equations", 1, "count"),
-            claim(
-                "/constraints/c3/circuit",
-                ["c1"],
-                "cofactors",
-                at="P",
-                minimal={"c1": {"minor": minor("c3", "y")}},
-            ),
+            claim("/constraints/c3/circuit", ["c1"], "cofactors", at="P", minimal={"c1": {"minor": minor("c3", "y")}}),
             claim("/redundancies", [{"nullity": 1, "members": ["c1", "c3"]}], "count"),
         ],
         {
@@ -96,26 +82,17 @@ PLACES: dict[str, False_] = {
             claim("/generalized_coordinates", ["y", "z"], "minor", minor=minor("s.1", "x")),
         ],
         {
-            "relations": [
-                *branch("b", "c1", ["z", BALL], 1),
-                *squares("s", "b", [["1", f"{q} - 5"] for q in "xyz"]),
-            ],
+            "relations": [*branch("b", "c1", ["z", BALL], 1), *squares("s", "b", [["1", f"{q} - 5"] for q in "xyz"])],
             "points": [
                 {"id": "O", "values": {"x": "0", "y": "0", "z": "0"}},
                 {"id": "P", "values": {"x": "5", "y": "5", "z": "5"}},
             ],
         },
         "dof was verified at another point",
-    ),
+    )
 }
 #: The set is xdotdot = -1, and all of x.
-RESTING = {
-    "rule": "isolated",
-    "minor": minor("c2", "xdotdot"),
-    "zero": "c1",
-    "speeds": {"x": "1"},
-    "order": 2,
-}
+RESTING = {"rule": "isolated", "minor": minor("c2", "xdotdot"), "zero": "c1", "speeds": {"x": "1"}, "order": 2}
 NAMES: dict[str, False_] = {
     "a coordinate with the name of a second derivative": (
         {"coordinates": ["x", "xdotdot"], "constraints": ["x^2*(1 + xdotdot) = 0", "xdotdot = -1"]},
@@ -131,7 +108,7 @@ NAMES: dict[str, False_] = {
         ],
         {"points": [{"id": "P", "values": {"x": "0", "xdotdot": "-1"}}]},
         "not shown to be isolated",
-    ),
+    )
 }
 INTEGRALS: dict[str, False_] = {
     "an integral of another constraint": (
@@ -235,7 +212,7 @@ TURNED: dict[str, False_] = {
             ]
         },
         "leaves its box",
-    ),
+    )
 }
 FALSE = {**DEPENDENCE, **PLACES, **NAMES, **INTEGRALS, **ANGLES, **TURNED}
 

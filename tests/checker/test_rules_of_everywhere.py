@@ -14,10 +14,7 @@ SCENE: dict[str, Any] = {
     "constraints": ["x = y^2 + 1", "u^2 + v^2 = 25", "z^2 + y = s"],
 }
 POINT = {"id": "P", "values": {"x": "2", "y": "1", "z": "1", "u": "3", "v": "4", "s": "2"}}
-PARTS = {
-    "points": [POINT],
-    "minors": [{"id": "m", "at": "P", "rows": ["c1", "c2", "c3"], "columns": ["x", "u", "z"]}],
-}
+PARTS = {"points": [POINT], "minors": [{"id": "m", "at": "P", "rows": ["c1", "c2", "c3"], "columns": ["x", "u", "z"]}]}
 EVERYWHERE = {
     **{"path": "/dof", "value": 2, "rule": "everywhere", "about": "everywhere", "minor": "m"},
     **{"order": [["c1", "x"]], "blocks": ["c2"], "generic": [["c3", "s"]]},

@@ -97,10 +97,7 @@ def test_what_integrates_near_a_point_does_so_everywhere_if_it_is_analytic(slope
     scene = {"coordinates": ["x", "y", "z"], "functions": {"h": ["s"]}, "constraints": [f"zdot = {slope}*xdot"]}
     parts = _at(["c1"], ["z"], x="1", y="0", z="0")
     parts["points"][0]["functions"] = {"h": {"arguments": ["s"], "text": "s"}}
-    parts["fields"] = [
-        {"id": "X", "components": {"x": "1", "z": slope}},
-        {"id": "Y", "components": {"y": "1"}},
-    ]
+    parts["fields"] = [{"id": "X", "components": {"x": "1", "z": slope}}, {"id": "Y", "components": {"y": "1"}}]
     most = {"rule": "frobenius", "minor": "m", "fields": ["X", "Y"], "columns": ["x", "y"]}
     near = {"path": "/dof", "value": 2, "rule": "squeeze", "most": most, "least": {"rule": "regular", "minor": "m"}}
     assert faults(scene, [{**near, "about": "component"}], **parts) == {}

@@ -46,7 +46,6 @@ LABELS: dict[str, Callable[[Room, ConstraintEntry, str], Iterator[Told]]] = {
     "holonomic": labels.holonomic,
     "holonomic_alone": labels.holonomic,
     "exact": labels.exact,
-    "integrating_factor": labels.integrating_factor,
     "integral": labels.integral,
     "scleronomic": labels.scleronomic,
     "catastatic": labels.scleronomic,
@@ -83,7 +82,6 @@ class Certifying:
         self.rooms: list[Room] = []
         self.trial: ClaimTrial | None = None
         self.contradictions: dict[str, str] = {}
-        self.shown: dict[str, Any] = {}
 
     def written(self) -> dict[str, Any]:
         """All claims that are said to be proved, each with evidence or among the uncovered."""
@@ -123,7 +121,6 @@ class Certifying:
         for room in self.rooms:
             for value_shown in _guarded(self._others(room, path, value)):
                 self.contradictions.setdefault(path, f"the evidence gives {value_shown!r}, not {str(value)[:80]!r}")
-                self.shown.setdefault(path, value_shown)
                 return
             for why in _guarded(self._refutations(room, path, value)):
                 self.contradictions.setdefault(path, why)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from functools import partial
 from itertools import combinations
 
 from flint import arb
@@ -15,7 +16,7 @@ from dofkit.methods.certificates.fields import backing, kept_motions, orbit
 from dofkit.methods.certificates.numerics import SMALL, NoEstimateError, echelon
 from dofkit.methods.certificates.room import Room, Standing, Told
 from dofkit.methods.certificates.scenery import FAR, number_text
-from dofkit.methods.certificates.steps import accounted
+from dofkit.methods.certificates.steps import Order, accounted, given_in_order
 
 #: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
 STEP, NOISE, DENOMINATOR = 0.25, 0.05, 60
@@ -119,8 +120,6 @@ def reduced_rows(rows: Samples) -> dict[str, dict[str, float]]:
 
 # Evidence that no part of the set is larger: graphs, single relations, relations with symbols of their own.
 
-Order = list[list[str]]
-
 
 def everywhere(room: Room) -> Iterator[Told]:
     """dof of the whole set; with forms from that near the main point."""
@@ -177,7 +176,8 @@ def _of_set(room: Room, standing: Standing) -> Iterator[Told]:
         yield {**found, "order": order}
     own = own_symbols(room)
     if not standing.dependent or standing.accounted:
-        for tried, rest in ((order, left), ([], finite)):
+        for tried in (order, given_in_order(finite, room.scenery, partial(_gives, room)), []):
+            rest = [name for name in finite if all(name != given for given, _ in tried)]
             blocks, generic = _split(room, tried, rest, own)
             if all(name in own for name in generic):
                 yield {**found, "order": tried, "blocks": blocks, "generic": [[name, own[name]] for name in generic]}

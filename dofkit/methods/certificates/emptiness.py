@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 
 from flint import fmpq, fmpq_mat
 
@@ -91,7 +92,7 @@ def _by_squares(room: Room, name: str) -> Iterator[Told]:
     """Yield evidence that one relation is never satisfied: it is a positive number and squares, or their negative."""
     one = room.scenery.evidence.relation(name)
     for sign in (1, -1):
-        positive = positive_sum(one.left, sign)
+        positive = positive_sum(one.left, Fraction(sign))
         if positive is None:
             continue
         squares = [[c, text_of(base)] for c, base in positive[1]]

@@ -256,12 +256,6 @@ def integral(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
         yield {**found, "step": step, "integrals": others, "minor": room.minor(standing)}
 
 
-def integrating_factor(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
-    """The factor that is told."""
-    if room.point is not None:
-        yield {"rule": "integral", "at": room.point.name}
-
-
 def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """Closed, or a point where it is not."""
     if entry.exact:

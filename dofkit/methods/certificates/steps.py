@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
+from itertools import combinations
 from typing import Any
 
 from dofkit.checker.trees import (
@@ -11,6 +13,9 @@ from dofkit.checker.trees import (
     CheckError,
     Tree,
     add,
+    difference,
+    linear_in,
+    negative,
     number,
     power,
     put_in,
@@ -112,8 +117,10 @@ def _operands(tree: Tree, head: str) -> list[Tree]:
     return [one for part in tree.below for one in _operands(part, head)] if tree.head == head else [tree]
 
 
-def positive_sum(tree: Tree, sign: int = 1) -> tuple[str, list[tuple[str, Tree]]] | None:
-    """Return a sum (times a sign) as a positive number and squares of bases with positive coefficients."""
+def positive_sum(tree: Tree, sign: Fraction = Fraction(1)) -> tuple[str, list[tuple[str, Tree]]] | None:
+    """Return a sum (times a number) as a positive number and squares of bases with positive coefficients."""
+    if tree.head == "product" and isinstance(tree.below[0].value, Fraction) and len(tree.below) == 2:
+        return positive_sum(tree.below[1], sign * tree.below[0].value)
     terms = _operands(tree, "sum")
     constant = sum((sign * term.value for term in terms if isinstance(term.value, Fraction)), Fraction(0))
     squares = [_square(term) for term in terms if not isinstance(term.value, Fraction)]
@@ -131,24 +138,31 @@ def positive_sum(tree: Tree, sign: int = 1) -> tuple[str, list[tuple[str, Tree]]
 
 #: A relation and the coordinate that it gives.
 Order = list[list[str]]
+#: Relations that are longer are not solved in pairs.
+LARGEST_OF_PAIR = 30
 
 
-def puts(scenery: Scenery, names: Sequence[str]) -> Order:
-    """Finite relations with the coordinates that they give, in the order in which these are put into others.
-
-    The later one is put in, the fewer coordinates its relation holds that another one gives.
-    """
-    evidence, coordinates = scenery.evidence, scenery.problem.coordinates
-    lefts = {name: evidence.relation(name).left for name in names if evidence.relation(name).kind == "finite"}
-    held = {name: left.symbols.intersection(coordinates) for name, left in lefts.items()}
+def given_in_order(names: Iterable[str], scenery: Scenery, gives: Callable[[str, str], bool]) -> Order:
+    """Return relations with a coordinate each that those before do not hold, the ones with few coordinates first."""
+    coordinates, evidence = scenery.problem.coordinates, scenery.evidence
+    held = {name: evidence.relation(name).left.symbols.intersection(coordinates) for name in names}
     order: Order = []
     taken: set[str] = set()
     for name in sorted(held, key=lambda one: len(held[one])):
-        fit = [q for q in coordinates if q in held[name] - taken and _gives(scenery, name, q)]
-        if fit:
-            order.insert(0, [name, fit[0]])
+        fit = next((q for q in coordinates if q in held[name] - taken and gives(name, q)), None)
+        if fit is not None:
+            order.append([name, fit])
             taken |= held[name]
     return order
+
+
+def puts(scenery: Scenery, names: Sequence[str]) -> Order:
+    """Return finite relations with the coordinates that they give, in the order in which these are put into others.
+
+    The later one is put in, the fewer coordinates its relation holds that another one gives.
+    """
+    finite = [name for name in names if scenery.evidence.relation(name).kind == "finite"]
+    return given_in_order(finite, scenery, partial(_gives, scenery))[::-1]
 
 
 def _gives(scenery: Scenery, name: str, q: str) -> bool:
@@ -178,6 +192,33 @@ def needed_puts(scenery: Scenery, trees: Iterable[Tree], order: Order) -> Order:
     return found
 
 
+def solved_pairs(scenery: Scenery, names: Sequence[str], point: FoundPoint) -> list[str]:
+    """Steps by which coordinates are 0: of two relations that are linear in them, and hold nothing beside."""
+    found = []
+    short = [name for name in names if scenery.evidence.relation(name).left.size <= LARGEST_OF_PAIR]
+    for pair in combinations(short, 2):
+        for step in _pair_steps(scenery, pair, point):
+            if _stand(scenery, step):
+                found.append(str(step["id"]))
+    return found
+
+
+def _pair_steps(scenery: Scenery, pair: tuple[str, str], point: FoundPoint) -> Iterator[dict[str, object]]:
+    lefts = [scenery.evidence.relation(name).left for name in pair]
+    shared = lefts[0].symbols & lefts[1].symbols
+    for one, other in combinations([q for q in scenery.problem.coordinates if q in shared], 2):
+        parts = [linear_in(left, (one, other)) for left in lefts]
+        if any(part is None or not scenery.evidence.ring.vanishes(part[1]) for part in parts):
+            continue
+        (a, b), (c, d) = ([part[0].get(q, ZERO) for q in (one, other)] for part in parts if part is not None)
+        h = difference(times(a, d), times(b, c))
+        if not scenery.differs(h, point.floats):
+            continue
+        for q, factors in ((one, (d, negative(b))), (other, (negative(c), a))):
+            told = {"h": text_of(h), "c": {name: text_of(part) for name, part in zip(pair, factors, strict=True)}}
+            yield {"id": f"{scenery.label}{q} by {' and '.join(pair)}", "by": "implied", "function": q, **told}
+
+
 # Rows that follow from others: cofactors by linear algebra over the rationals.
 
 
@@ -205,7 +246,7 @@ def combined(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint
     if found is not None:
         yield found
     finite = [row for row in rows if scenery.evidence.relation(row).kind == "finite"]
-    order = puts(scenery, finite)
+    order = puts(scenery, [*solved_pairs(scenery, finite, point), *finite])
     found = _combination(scenery, name, rows, point, order) if order else None
     if found is not None:
         yield found
