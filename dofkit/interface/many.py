@@ -8,12 +8,12 @@ import uuid
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
 from dofkit.base import __version__
-from dofkit.base.runs import Cluster, Journal, Pool, in_order
+from dofkit.base.runs import Cluster, Journal, Pool, in_order, shared
 from dofkit.base.workers import MEMORY
 from dofkit.interface import answers  # imported here already for workers that are forks of this process
 from dofkit.interface.jobs import Printed, Request, Run, data_of, reply, requests
@@ -108,9 +108,4 @@ def answer(pool: Pool, scene: QueuedScene) -> Printed:
 
 def _answer_there(scene: QueuedScene) -> Printed:
     """Return the same on a machine of a cluster, by killable workers of its own."""
-    return answer(_pool(), scene)
-
-
-@lru_cache(maxsize=1)
-def _pool() -> Pool:
-    return Pool(modules=MODULES)
+    return answer(shared(MODULES[0]), scene)
