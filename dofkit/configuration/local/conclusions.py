@@ -100,7 +100,7 @@ TOGETHER = "a combination of the dependent equations is definite to second order
 
 def indefinite(germ: Germ) -> Conclusion | None:
     """k = 1: a function that changes sign separates M: its zeros have dimension m - 1 [HurewiczWallman1941]."""
-    if not germ.one_form or not all(germ.signature):
+    if not _has_one_form(germ) or not all(germ.signature):
         return None
     if germ.time is not None and not (germ.ball is not None and time_moves(germ.ball, germ.time, 2)):
         return None
@@ -109,7 +109,7 @@ def indefinite(germ: Germ) -> Conclusion | None:
 
 def definite(germ: Germ) -> Conclusion | None:
     """k = 1: a form that is definite across the orbit, on which f = 0, has f of one sign beside it [MorseBott]."""
-    if not germ.one_form or all(germ.signature) or sum(germ.signature) != germ.m - germ.rigid:
+    if not _has_one_form(germ) or all(germ.signature) or sum(germ.signature) != germ.m - germ.rigid:
         return None
     return Conclusion(germ.rigid, DEFINITE, germ.time is not None)
 
@@ -126,7 +126,7 @@ def prestress_stable(germ: Germ) -> Conclusion | None:
 
 def least_along_a_motion(germ: Germ) -> Conclusion | None:
     """k = 1, Q of one sign and g = 0: the set is N, all of it singular [GromollMeyer1969]."""
-    if not germ.splits or germ.remainder_order is not None or not germ.parts.solved:
+    if not _splits(germ) or germ.remainder_order is not None or not germ.parts.solved:
         return None
     if not _vanishes_on_critical(germ):
         return None
@@ -139,7 +139,7 @@ def least_along_a_motion(germ: Germ) -> Conclusion | None:
 
 def changing_sign(germ: Germ) -> Conclusion | None:
     """k = 1, Q and the lowest order of g have both signs together: f separates M [HurewiczWallman1941]."""
-    order = germ.remainder_order if germ.splits else None
+    order = germ.remainder_order if _splits(germ) else None
     if order is None:
         return None
     why = f"beyond its second order the dependent equation changes sign at order {order}"
@@ -152,7 +152,7 @@ def changing_sign(germ: Germ) -> Conclusion | None:
 
 def critical_branch(germ: Germ) -> Conclusion | None:
     """k > 1: all f_i vanish on N, whose dimension is that of the second-order cone [TangentCone]."""
-    if not germ.has_cone or len(germ.parts.free) != germ.cone:
+    if not _has_cone(germ) or len(germ.parts.free) != germ.cone:
         return None
     if any(s.poly.degree() >= 0 for s in germ.remainders) or not _vanishes_on_critical(germ):
         return None
@@ -164,7 +164,7 @@ def critical_branch(germ: Germ) -> Conclusion | None:
 
 def branch_followed(germ: Germ) -> Conclusion | None:
     """k > 1: a branch of the dimension of the second-order cone is seen; there is no larger one [TangentCone]."""
-    if not germ.has_cone or germ.ball is None or largest_branch(germ.ball, germ.signs, germ.cone) != germ.cone:
+    if not _has_cone(germ) or germ.ball is None or largest_branch(germ.ball, germ.signs, germ.cone) != germ.cone:
         return None
     why = "a finite motion was continued from here to high precision, and the second-order condition allows no more"
     return Conclusion(germ.cone, why)
@@ -173,3 +173,19 @@ def branch_followed(germ: Germ) -> Conclusion | None:
 def _vanishes_on_critical(germ: Germ) -> bool:
     """Do the dependent relations vanish on N at a distance too?"""
     return germ.ball is not None and holds_on_critical(germ.ball, germ.parts, germ.ahead())
+
+
+def _has_one_form(germ: Germ) -> bool:
+    """k = 1, with balls to tell signs."""
+    return germ.ball is not None and germ.dependent == 1
+
+
+def _splits(germ: Germ) -> bool:
+    """k = 1 over both engines, time is no column, and balls see the whole rank of Q."""
+    both = _has_one_form(germ) and germ.exact and germ.time is None
+    return both and sum(germ.signature) == len(germ.parts.solved)
+
+
+def _has_cone(germ: Germ) -> bool:
+    """k > 1 over both engines, and time is no column."""
+    return germ.ball is not None and germ.dependent > 1 and germ.exact and germ.time is None

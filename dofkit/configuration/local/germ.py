@@ -90,22 +90,6 @@ class Germ:
             return LONG_ORDER
         return max(LONG_ORDER if few else ORDER, self.degree + 1)
 
-    @property
-    def one_form(self) -> bool:
-        """k = 1, with balls to tell signs."""
-        return self.ball is not None and self.dependent == 1
-
-    @property
-    def splits(self) -> bool:
-        """k = 1 over both engines, time is no column, and balls see the whole rank of Q."""
-        exact = self.one_form and self.exact and self.time is None
-        return exact and sum(self.signature) == len(self.parts.solved)
-
-    @property
-    def has_cone(self) -> bool:
-        """k > 1 over both engines, and time is no column."""
-        return self.ball is not None and self.dependent > 1 and self.exact and self.time is None
-
     @cached_property
     def series(self) -> list[Series]:
         """The dependent relations along a random curve of M."""
