@@ -1,8 +1,8 @@
 """Certificates by hand, those that hold and those that are forged: each in a table of ``claims/``, as what it is.
 
 An entry has a scene, claims and the parts of a certificate. All claims are verified, or those of ``refused`` are not
-(``why``: what is said of the last). ``verified with`` and ``refused with`` list edits of an entry: a new value at a path
-of keys, and what is left out (``without``); ``refused``: exactly these claims, where there are several.
+(``why``: part of the reason for the last). ``verified with`` and ``refused with`` list edits of the entry: new values at
+paths of keys, and what is left out (``without``); ``refused``: exactly these claims, where there are several.
 """
 
 from __future__ import annotations
