@@ -1,7 +1,7 @@
 """Certificates by hand, those that hold and those that are forged: each in a table of ``claims/``, as what it is.
 
 An entry has a scene, claims and the parts of a certificate. All claims are verified, or those of ``refused`` are not
-(``why``: part of the reason for the last). ``verified with`` and ``refused with`` list edits of the entry: new values at
+(``why``: part of the reason for the last). ``verified with`` and ``refused with`` list edits: new values at
 paths of keys, and what is left out (``without``); ``refused``: exactly these claims, where there are several.
 """
 
