@@ -16,7 +16,9 @@ from dofkit.checker.trees import CheckError, along, not_zero
 from dofkit.methods.certificates.dimension import graph_order
 from dofkit.methods.certificates.fields import tangent_fields
 from dofkit.methods.certificates.labels import integral_text
+from dofkit.methods.certificates.numerics import NoEstimateError
 from dofkit.methods.certificates.room import Room
+from dofkit.methods.certificates.scenery import FAR
 from dofkit.report import Report
 
 #: Rules whose evidence is of the whole set, or of a constraint wherever it is looked at.
@@ -94,7 +96,16 @@ def is_told_of_less(room: Room, field: str) -> bool:
     """
     if field == "growth_vector" and room.scenery.evidence.timed:
         return True
-    return bool(room.scenery.reduced_from) or (field == "instantaneous_dof" and room.has_empty_row)
+    return bool(room.scenery.reduced_from) or (field == "instantaneous_dof" and _has_stationary_row(room))
+
+
+def _has_stationary_row(room: Room) -> bool:
+    point = room.point
+    rows = (room.row(name, point) for name in room.equations) if point is not None else ()
+    try:
+        return any(all(abs(value) <= FAR for value in row.values()) for row in rows)
+    except NoEstimateError:
+        return False
 
 
 def speaks_for_all(room: Room) -> bool:

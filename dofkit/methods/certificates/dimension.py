@@ -229,7 +229,11 @@ def _gives(room: Room, name: str, q: str) -> bool:
     evidence = room.scenery.evidence
     try:
         slope = evidence.slope(name, q)
-        plain = slope.symbols <= evidence.chosen and room.point is not None and room.differs(slope, room.point)
+        plain = (
+            slope.symbols <= evidence.chosen
+            and room.point is not None
+            and room.scenery.differs(slope, room.point.floats)
+        )
         return plain or bool(evidence.ring.rational(slope))
     except CheckError:
         return False

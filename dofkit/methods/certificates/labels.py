@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
+from dofkit.checker.label_rules import form_of
 from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, negative, number, symbol, times
 from dofkit.methods.certificates.fields import (
     LARGEST_CRAMER,
@@ -70,7 +71,7 @@ def follows_from_integrals(room: Room, name: str, steps: Sequence[str], alone: b
 def integral_alone(room: Room, entry: ConstraintEntry, name: str) -> str | None:
     """Return the step of the integral that is claimed of a form, where each follows from the other alone."""
     function = integral_text(entry)
-    step = combined_integral(room, function, name) if function and room.form(name) is not None else None
+    step = combined_integral(room, function, name) if function and form_or_none(room, name) is not None else None
     return step if step and follows_from_integrals(room, name, [step], alone=True) else None
 
 
@@ -96,6 +97,19 @@ def _combined(room: Room, step: Told, target: Components, sources: Sequence[str]
 
 def _placed(room: Room, row: Components, order: Order) -> Components:
     return {v: with_puts(room.scenery, tree, order) for v, tree in row.items()} if order else row
+
+
+def form_or_none(room: Room, name: str) -> Components | None:
+    """Return the components of a relation that is a linear form, or None."""
+    try:
+        return form_of(room.scenery.evidence, name)
+    except CheckError:
+        return None
+
+
+def variables_of(form: Components) -> frozenset[str]:
+    """Return the variables of a form: those it moves and those it mentions."""
+    return frozenset(form).union(*(tree.symbols for tree in form.values()))
 
 
 def components(room: Room, name: str) -> Components:
@@ -183,14 +197,14 @@ def holonomic(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
 def _wedge(room: Room, name: str) -> Told | None:
     """A point and three variables where omega ^ d(omega) is not 0."""
     point = room.point
-    form = room.form(name)
+    form = form_or_none(room, name)
     if point is None or form is None:
         return None
-    for triple in combinations([v for v in room.scenery.evidence.variables if v in room.met(form)], 3):
+    for triple in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 3):
         i, j, k = triple
         parts = ((i, j, k), (j, k, i), (k, i, j))
         tree = add(*(times(form.get(a, number(0)), curl(form, b, c)) for a, b, c in parts))
-        if room.differs(tree, point):
+        if room.scenery.differs(tree, point.floats):
             return {"rule": "wedge", "at": point.name, "triple": list(triple)}
     return None
 
@@ -265,9 +279,9 @@ def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     if point is None:
         return
     for name in names:
-        form = room.form(name) or {}
-        for i, j in combinations([v for v in room.scenery.evidence.variables if v in room.met(form)], 2):
-            if room.differs(curl(form, i, j), point):
+        form = form_or_none(room, name) or {}
+        for i, j in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 2):
+            if room.scenery.differs(curl(form, i, j), point.floats):
                 told = {"relation": name} if len(names) > 1 else {}
                 yield {"rule": "not exact", "at": point.name, "pair": [i, j], **told}
                 break
@@ -301,7 +315,7 @@ def _turning(room: Room, name: str, field: str) -> Iterator[Told]:
     if turned == number(0):
         return
     for point in _points_of(room, name):
-        if point is not None and room.differs(turned, point):
+        if point is not None and room.scenery.differs(turned, point.floats):
             yield {"at": room.add_point(point)}
 
 
@@ -313,7 +327,7 @@ def _points_of(room: Room, name: str) -> Iterator[FoundPoint | None]:
 
 
 def _turning_form(room: Room, name: str, field: str) -> Iterator[Told]:
-    form, point = room.form(name), room.point
+    form, point = form_or_none(room, name), room.point
     if point is None:
         return
     left = room.scenery.left(name)
@@ -321,11 +335,11 @@ def _turning_form(room: Room, name: str, field: str) -> Iterator[Told]:
     turned = form.get("t", number(0)) if form else derivative(left, "t")
     if field == "catastatic" and form is None:
         turned = add(*rates.values())
-    if room.differs(turned, point):
+    if room.scenery.differs(turned, point.floats):
         yield {"at": point.name}
     if form is None:
         return
     for a, b in combinations(form, 2) if field == "scleronomic" else ():
         back = negative(times(form[b], derivative(form[a], "t")))
-        if room.differs(add(times(form[a], derivative(form[b], "t")), back), point):
+        if room.scenery.differs(add(times(form[a], derivative(form[b], "t")), back), point.floats):
             yield {"at": point.name, "pair": [a, b]}

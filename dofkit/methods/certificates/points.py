@@ -57,6 +57,46 @@ ATTEMPTS = 5
 AFAR = 12
 
 
+def solved_rows(
+    scenery: Scenery, floats: Mapping[str, float], rows: Sequence[str], columns: Sequence[str]
+) -> dict[str, float] | None:
+    """Return the floats with the columns solved for by Newton's method on as many rows, or None."""
+    found, wanted = dict(floats), set(columns)
+    for _ in range(ITERATIONS):
+        estimates = Estimates(found)
+        pairs = [estimates.value_and_gradient(scenery.left(name)) for name in rows]
+        matrix = [{n: s for n, s in slope.items() if n in wanted} for _, slope in pairs]
+        step = solved(matrix, [value for value, _ in pairs], columns)
+        if step is None or any(abs(change) > 1e6 for change in step.values()):
+            return None
+        found |= {name: found[name] - change for name, change in step.items()}
+        if max(map(abs, step.values()), default=0.0) < 1e-13:
+            return found
+    return None
+
+
+def refined(
+    scenery: Scenery, exact: Mapping[str, Fraction], floats: Mapping[str, float], rows: list[str], columns: list[str]
+) -> dict[str, str]:
+    """Decimals of the columns, by Newton's method with a fixed matrix in balls."""
+    estimates = Estimates(floats)
+    wanted = set(columns)
+    lefts: list[Tree] = [scenery.left(name) for name in rows]
+    matrix = [{n: s for n, s in estimates.gradient(left).items() if n in wanted} for left in lefts]
+    with ctx.workprec(PRECISION):
+        balls = {n: arb(fmpq(v.numerator, v.denominator)) for n, v in exact.items()}
+        balls |= {name: arb(floats[name]) for name in columns}
+        balls["tdot"] = arb(1)
+        for _ in range(6):
+            values = [evaluated(left, balls, scenery.effort).mid() for left in lefts]
+            size = max((abs(float(v)) for v in values), default=0.0)
+            if size < 1e-60:
+                break
+            scaled = solved(matrix, [float(v / size) for v in values], columns) or {}
+            balls |= {name: (balls[name] - arb(scaled.get(name, 0.0)) * arb(size)).mid() for name in columns}
+        return {name: balls[name].str(DIGITS, radius=False) for name in columns}
+
+
 class PointSearch:
     """Looks for points of a scene."""
 
@@ -204,29 +244,13 @@ class PointSearch:
                 continue
             floats = {**found, **floats_of(exact)}
             try:
-                floats_again = self._square(floats, rows, columns)
+                floats_again = solved_rows(self.scenery, floats, rows, columns)
             except NoEstimateError:
                 continue
             if floats_again is None or residual(self.scenery, floats_again, names) > NEAR:
                 continue
             if all(abs(floats_again[c] - found[c]) < 1 + abs(found[c]) for c in columns):
                 return self._written(exact, floats_again, rows, columns)
-        return None
-
-    def _square(
-        self, floats: Mapping[str, float], rows: Sequence[str], columns: Sequence[str]
-    ) -> dict[str, float] | None:
-        found, wanted = dict(floats), set(columns)
-        for _ in range(ITERATIONS):
-            estimates = Estimates(found)
-            pairs = [estimates.value_and_gradient(self.scenery.left(name)) for name in rows]
-            matrix = [{n: s for n, s in slope.items() if n in wanted} for _, slope in pairs]
-            step = solved(matrix, [value for value, _ in pairs], columns)
-            if step is None or any(abs(change) > 1e6 for change in step.values()):
-                return None
-            found |= {name: found[name] - change for name, change in step.items()}
-            if max(map(abs, step.values()), default=0.0) < 1e-13:
-                return found
         return None
 
     def _written(
@@ -240,7 +264,7 @@ class PointSearch:
                 texts = {name: number_text(value) for name, value in self._ordered(values).items()}
                 return FoundPoint("P", texts, dict(floats), self.scenery.functions, rank=len(rows))
         texts = {name: number_text(value) for name, value in self._ordered(exact).items()}
-        centre = self._refined(exact, floats, rows, columns)
+        centre = refined(self.scenery, exact, floats, rows, columns)
         return FoundPoint("P", texts | centre, dict(floats), self.scenery.functions, rows, columns, len(rows))
 
     def _ordered(self, values: Mapping[str, Fraction]) -> dict[str, Fraction]:
@@ -250,27 +274,6 @@ class PointSearch:
     def _holds(self, values: Mapping[str, Fraction], names: Sequence[str]) -> bool:
         point = CheckedPoint("", {n: number(v) for n, v in values.items()}, {}, self.scenery.effort)
         return all(self.scenery.evidence.ring.vanishes(point.prepared(self.scenery.left(name))) for name in names)
-
-    def _refined(
-        self, exact: Mapping[str, Fraction], floats: Mapping[str, float], rows: list[str], columns: list[str]
-    ) -> dict[str, str]:
-        """Decimals of the columns, by Newton's method with a fixed matrix in balls."""
-        estimates = Estimates(floats)
-        wanted = set(columns)
-        lefts: list[Tree] = [self.scenery.left(name) for name in rows]
-        matrix = [{n: s for n, s in estimates.gradient(left).items() if n in wanted} for left in lefts]
-        with ctx.workprec(PRECISION):
-            balls = {n: arb(fmpq(v.numerator, v.denominator)) for n, v in exact.items()}
-            balls |= {name: arb(floats[name]) for name in columns}
-            balls["tdot"] = arb(1)
-            for _ in range(6):
-                values = [evaluated(left, balls, self.scenery.effort).mid() for left in lefts]
-                size = max((abs(float(v)) for v in values), default=0.0)
-                if size < 1e-60:
-                    break
-                scaled = solved(matrix, [float(v / size) for v in values], columns) or {}
-                balls |= {name: (balls[name] - arb(scaled.get(name, 0.0)) * arb(size)).mid() for name in columns}
-            return {name: balls[name].str(DIGITS, radius=False) for name in columns}
 
 
 def _fraction(text: str) -> Fraction:

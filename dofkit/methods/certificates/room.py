@@ -7,15 +7,14 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Literal
 
-from dofkit.checker.label_rules import form_of
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, sha256_of
 from dofkit.checker.relations import FAULTS, told
-from dofkit.checker.trees import CheckError, Tree
+from dofkit.checker.trees import CheckError
 from dofkit.checker.verification import PARTS, Verifier
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint, PointSearch
-from dofkit.methods.certificates.scenery import FAR, MOST_ROWS, Scenery
+from dofkit.methods.certificates.scenery import MOST_ROWS, Scenery
 from dofkit.methods.certificates.steps import accounted, rate_of, reduced
 from dofkit.report import Report
 
@@ -110,21 +109,6 @@ class Room:
         name = f"M{len(minors)}"
         minors.append({"id": name, **given})
         return name
-
-    def form(self, name: str) -> dict[str, Tree] | None:
-        """The components of a linear form."""
-        try:
-            return form_of(self.scenery.evidence, name)
-        except CheckError:
-            return None
-
-    def met(self, form: Mapping[str, Tree]) -> frozenset[str]:
-        """The variables of a form: those it moves and those it mentions."""
-        return frozenset(form).union(*(tree.symbols for tree in form.values()))
-
-    def differs(self, tree: Tree, point: FoundPoint) -> bool:
-        """Whether a tree is not 0 at a point, by far."""
-        return self.scenery.differs(tree, point.floats)
 
     @property
     def small(self) -> bool:
@@ -226,16 +210,6 @@ class Room:
         }
 
     @cached_property
-    def has_empty_row(self) -> bool:
-        """Whether a relation is stationary at the main point."""
-        try:
-            return self.point is not None and not all(
-                any(abs(v) > FAR for v in self.row(n, self.point).values()) for n in self.equations
-            )
-        except NoEstimateError:
-            return False
-
-    @cached_property
     def standing(self) -> Standing | None:
         """The main point with rows among all equations, the finite ones first; the others by steps if possible."""
         return self.accounted(self.finite_first)
@@ -245,19 +219,6 @@ class Room:
         """The equations in the order in which one is independent of those before it."""
         relation = self.scenery.evidence.relation
         return sorted(self.equations, key=lambda name: relation(name).kind != "finite")
-
-    def rows_through(self, owner: str) -> list[str]:
-        """The equations up to the last one of a constraint."""
-        last = max((k for k, name in enumerate(self.finite_first) if self.owner(name) == owner), default=-1)
-        return self.finite_first[: last + 1]
-
-    def solving(self, columns: Sequence[str]) -> Standing | None:
-        """Return the finite rows with just these columns, or None where these do not do."""
-        finite = self.finite_standing
-        if finite is None or len(columns) != len(finite.rows):
-            return None
-        standing = self.standing_of(finite.rows, columns)
-        return None if standing is None or standing.dependent else standing
 
     @cached_property
     def finite_standing(self) -> Standing | None:
