@@ -47,15 +47,14 @@ class Traits:
     exact: TraitAnswer | None = None
 
 
-def traits(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH, opened: bool = False) -> Traits:
-    """Return all labels that a piece carries by itself; ``opened``: its differential is known not to be 0."""
+def traits(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) -> Traits:
+    """Return all labels that a piece carries by itself."""
     without_t = timeless(piece, positive, engines)
     if isinstance(piece, Nonlinear):
         return Traits(without_t, _is_cone(piece.expr, positive, engines))
     if not isinstance(piece, Pfaffian):
         return Traits(without_t)
-    closed: TraitAnswer = (False, "proved") if opened else exact(piece, positive, engines)
-    return Traits(without_t, zero_and_verdict(piece.dt, positive, engines), closed)
+    return Traits(without_t, zero_and_verdict(piece.dt, positive, engines), exact(piece, positive, engines))
 
 
 def timeless(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:

@@ -119,7 +119,7 @@ def _traits_of(setting: Setting, piece: Clause) -> Traits:
     """Return the labels that a piece carries on its own; the equations of a joint that is not driven hold no time."""
     if isinstance(piece, JointEquation):
         return Traits((True, "proved"))
-    return traits(piece, setting.positive, setting.engines, False)
+    return traits(piece, setting.positive, setting.engines)
 
 
 class _Dependence(NamedTuple):

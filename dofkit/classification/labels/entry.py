@@ -95,7 +95,9 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     single = evidence.rows[0] if len(evidence.rows) == len(clauses) == 1 else None
     timed = timed_in_system(clauses[0], single.block, single.answer, integrals.others, setting) if single else None
     every = _of_every_form(labels, evidence.rows, normals)
-    traits = traits_together([*own_traits, *branches_of_time(normals, bool(consistent))], form, every, timed)
+    traits = traits_together(
+        [*own_traits, *branches_of_time(reduced, bool(consistent), setting.positive)], form, every, timed
+    )
     reasons = _labels(labels.in_system, labels.alone, evidence.rows)
     sentences = reason_of(form, reasons, proofs, evidence.circuit, integrals.others)
     reason = _once(normals) + sentences + reason_of_time(traits)

@@ -11,11 +11,11 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.single_form import Integrability
-from dofkit.integrability.traits import TraitAnswer, Traits, all_of, vanishes_on
+from dofkit.integrability.traits import TraitAnswer, Traits, all_of, timeless, vanishes_on
 from dofkit.relations.answer import BITS, GAP, Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.pieces import INSTANT_NOTE, Clause, Finite, Normal, Pfaffian, Piece
+from dofkit.relations.normal.pieces import INSTANT_NOTE, Clause, Finite, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import Form
 from dofkit.system import Relation
@@ -241,15 +241,18 @@ def traits_together(
     )
 
 
-def branches_of_time(normals: Sequence[Normal], consistent: bool) -> Iterator[Traits]:
-    """Yield that it is undecided whether t occurs where branches hold at different times, or one does at an instant.
+def branches_of_time(reduced: Reduced, consistent: bool, positive: frozenset[Expr]) -> Iterator[Traits]:
+    """Yield whether t occurs in an equation whose branches hold at different times, or one of which fixes the time.
 
-    The latter was left out, which changes nothing where motions satisfy the others.
+    A branch that holds at an instant only was left out, which changes nothing where motions satisfy the others.
     """
-    for n in normals:
+    for n, relation in zip(reduced.normals, reduced.written, strict=False):
         conditions = ([p.expr for p in b if isinstance(p, DomainCondition)] for b in n.branches)
         intervals = {frozenset(e for e in of_branch if ex.TIME in e.symbols) for of_branch in conditions}
-        if len(intervals) > 1 or (INSTANT_NOTE in n.notes and not consistent):
+        if len(intervals) > 1:
+            timed = timeless(Finite(relation.expr), positive)
+            yield Traits(timed if timed[0] is False else (None, "undecided"))
+        elif INSTANT_NOTE in n.notes and not consistent:
             yield Traits((None, "undecided"))
 
 
