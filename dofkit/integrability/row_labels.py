@@ -23,9 +23,8 @@ from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.integrability.growth_vector import derived_flag, growth
 from dofkit.integrability.lie_algebra import SampledSpan, Span, ball_span
-from dofkit.integrability.pfaffian_system import Codistribution, linear_rows
-from dofkit.integrability.prolongation import is_nonzero
-from dofkit.integrability.single_form import CurlAtPoint, proof
+from dofkit.integrability.pfaffian_system import Codistribution, is_nonzero, linear_rows
+from dofkit.integrability.traits import CurlAtPoint, proof
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
 from dofkit.relations.normal.pieces import Finite, Pfaffian, Still, with_constants
@@ -165,7 +164,7 @@ def certificate(known: SampledForms, found: Variety) -> Certificate | None:
         return known.sampled.span, known.sampled.matrix
     if known.columns > CERTIFIED_COLUMNS:
         return None
-    return ball_span(known.forms, known.rank, real.point, found.about == "reference")
+    return ball_span(known.forms, known.rank, real.point)
 
 
 def _rank_verdict(known: SampledForms, proof_of: Certificate | None, setting: Setting) -> Verdict:

@@ -14,7 +14,7 @@ from dofkit.configuration.finite_blocks import LEVEL, finite_answer, level_angle
 from dofkit.configuration.linear_blocks import confirmed, eliminated
 from dofkit.configuration.measured.equations import is_measured
 from dofkit.configuration.search import find
-from dofkit.configuration.variety import Variety, of_real_point, of_reference
+from dofkit.configuration.variety import Variety, of_real_point
 from dofkit.exact.errors import NoPointError
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
@@ -26,10 +26,10 @@ from dofkit.integrability.nonlinear_velocities import first_order_beside_bends, 
 from dofkit.integrability.pfaffian_system import (
     Codistribution,
     codistribution,
+    confinements,
     first_order_freedom,
+    prolong,
 )
-from dofkit.integrability.prolongation import confinements, prolong
-from dofkit.integrability.regular_reference import reference_points, regular_reference
 from dofkit.integrability.row_labels import ball_labels, field_labels
 from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
@@ -201,17 +201,9 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
     if setting.reference is None or alike:
         result = find(forms.chart, setting.pose)
         return result if alike else replace(result, about="component")
-    if "field" not in forms.chart.engines:
-        return Variety(None, None, "undecided", reasons=[IRREGULAR])
-    undecided = Variety(None, None, "undecided", reasons=[IRREGULAR])
-    points = reference_points(forms, setting.reference)
-    if points is None:
-        return undecided
-    if not points:
-        return replace(find(forms.chart, setting.pose), about="component")
-    if is_irreducible(forms.chart) and _as_large(forms, setting.reference):
+    if "field" in forms.chart.engines and is_irreducible(forms.chart) and _as_large(forms, setting.reference):
         return find(forms.chart, setting.pose)
-    return regular_reference(forms, points, setting.reference) or undecided
+    return Variety(None, None, "undecided", reasons=[IRREGULAR])
 
 
 def _as_large(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool:
@@ -228,10 +220,6 @@ def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list
     result = Answer(True, hidden=extra, reasons=list(found.reasons), verdict=found.verdict, about=found.about)
     result.argument, result.gap, result.witness = found.argument, found.gap, of_real_point(forms.chart, found.real)
     result.separating = found.separating
-    if found.about == "reference" and setting.reference is not None:
-        result.witness = of_reference(forms.chart.symbols, setting.reference)
-    if block.nonlinear and found.about == "reference":
-        return replace(result, consistent=None, verdict="undecided", reasons=[*found.reasons, IRREGULAR])
     if found.samples:
         good = _spans(forms, found)
         if good:
@@ -242,11 +230,13 @@ def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list
                     return replace(result, consistent=None, verdict="undecided", reasons=[*found.reasons, APART])
                 found.real, result.witness = real, of_real_point(forms.chart, real)
             field_labels(block, forms, found, good, result, setting)
-            set_velocity_freedom(block, setting, result)
+            if block.nonlinear:
+                set_velocity_freedom(block, setting, result)
             return result
     if found.real is not None and found.real.certified:
         ball_labels(block, forms, found.real, result)
-        set_velocity_freedom(block, setting, result)
+        if block.nonlinear:
+            set_velocity_freedom(block, setting, result)
         return result
     result.verdict, result.consistent = "undecided", None
     result.reasons.append("no regular point was found at which the differential constraints could be analysed")
@@ -257,7 +247,7 @@ def _spans(forms: Codistribution, found: Variety) -> list[tuple[FieldPoint, Samp
     """The Lie algebra at every sample; at one, where it is all of the tangent space and nothing could raise it."""
     good = []
     for point in found.samples:
-        sampled = span_at(forms, point, found.about == "reference")
+        sampled = span_at(forms, point)
         if sampled is None:
             continue
         good.append((point, sampled))

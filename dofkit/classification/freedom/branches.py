@@ -194,7 +194,8 @@ def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> 
         best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
     elif best.consistent is not False:
         best.answers = _of_its_part(best, [o for o in remaining if o is not best])
-        best.answers = with_reductions_checked(best.reduced, best.blocks, best.answers, setting)
+        if best.reduced:
+            best.answers = with_reductions_checked(best.reduced, best.blocks, best.answers, setting)
     elif not best.impossible and any(o.divided for o in outcomes):
         best.answers = [Answer(None, verdict="undecided", reasons=[NOT_EQUIVALENT]) for _ in best.answers]
     return best

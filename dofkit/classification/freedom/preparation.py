@@ -34,13 +34,13 @@ from dofkit.relations.normal.pieces import (
     Inequality,
     JointEquation,
     Normal,
+    NormalTemplate,
     Pfaffian,
     Piece,
     Reduced,
     unwritten,
 )
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
-from dofkit.relations.piece_shapes import NormalTemplate
 from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.relations.velocity_reductions import Way
 from dofkit.system import System

@@ -11,7 +11,6 @@ from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.verdicts import OPEN as UNDECIDED
 from dofkit.base.verdicts import Claim, Verdict, weakest
 from dofkit.base.wording import verb
-from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.labels.companions import Companionship, by_itself
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
@@ -19,10 +18,9 @@ from dofkit.classification.labels.reasons import Others, in_words
 from dofkit.expressions.tree import TIME
 from dofkit.integrability.modulo_others import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
-from dofkit.relations.answer import GAP
+from dofkit.relations.answer import GAP, Redundancies
 from dofkit.relations.blocks import Row, coordinates_of, fixed_constants
-from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Pfaffian, Reduced
-from dofkit.relations.piece_shapes import piece_shape
+from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Pfaffian, Reduced, piece_shape
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict
 

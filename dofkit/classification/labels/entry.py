@@ -26,8 +26,7 @@ from dofkit.classification.undecided import open_entry
 from dofkit.exact.zero import BOTH
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.single_form import Integrability, integrability
-from dofkit.integrability.traits import Traits
+from dofkit.integrability.traits import Integrability, Traits, integrability
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Normal, Pfaffian, Reduced, Still, with_constants

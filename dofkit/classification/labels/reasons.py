@@ -10,8 +10,7 @@ from dofkit.base.verdicts import OPEN, ArgumentKey, Claim, Verdict, least, toget
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.single_form import Integrability
-from dofkit.integrability.traits import TraitAnswer, Traits, all_of, timeless, vanishes_on
+from dofkit.integrability.traits import Integrability, TraitAnswer, Traits, all_of, timeless, vanishes_on
 from dofkit.relations.answer import BITS, GAP, Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
 from dofkit.relations.normal.domain import DomainCondition
