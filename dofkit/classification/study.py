@@ -92,7 +92,7 @@ class Study:
         """The blocks, to be asked what a form integrates to together with which others."""
         parts = AnsweredParts(self.setting)
         parts.know(zip(self.outcome.blocks, self.outcome.answers, strict=True))
-        return Companionship(parts)
+        return Companionship(parts, self.names)
 
     @cached_property
     def entries(self) -> list[ConstraintEntry]:
@@ -101,7 +101,7 @@ class Study:
 
     def entries_beside(self, dependent: Sequence[Redundancies]) -> list[ConstraintEntry]:
         """The constraints' entries, where this is known of what depends on what."""
-        return entries_of(self.reduced, self.setting, self.outcome, dependent, self.names, self.company)
+        return entries_of(self.reduced, self.setting, self.outcome, dependent, self.company)
 
     def by_name(self, labels: Sequence[bool | None]) -> Mapping[str, bool | None]:
         """A label for each constraint, by its name."""

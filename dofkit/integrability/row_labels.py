@@ -164,7 +164,7 @@ def certificate(known: SampledForms, found: Variety) -> Certificate | None:
         return known.sampled.span, known.sampled.matrix
     if known.columns > CERTIFIED_COLUMNS:
         return None
-    return ball_span(known.forms, known.rank, real.point)
+    return ball_span(known.forms, known.rank, real.point, found.about == "reference")
 
 
 def _rank_verdict(known: SampledForms, proof_of: Certificate | None, setting: Setting) -> Verdict:

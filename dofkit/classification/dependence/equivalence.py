@@ -15,12 +15,8 @@ from functools import cached_property
 from dofkit.base.deadline import part, unless_late
 from dofkit.classification.dependence.comparison import (
     Regularity,
-    bounds,
-    loses_nothing,
-    power_of,
     same_side,
     same_up_to_numbers,
-    unsound,
 )
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.branches import Outcome, solve
@@ -30,6 +26,7 @@ from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
+from dofkit.relations.blocks import coordinates_of
 from dofkit.relations.normal.pieces import UNDONE_NOTE, Finite, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System
@@ -131,9 +128,6 @@ class Equivalence:
             return self._unilateral()
         if same_up_to_numbers(self._given, self._wanted, self.setting.positive):
             return Compared(Sameness.SAME, tuple(True for _ in self._wanted))
-        times = power_of(self._given, self._wanted, self.setting.positive)
-        if times:
-            return Compared(Sameness.SAME if times == 1 else Sameness.IRREGULAR, tuple(True for _ in self._wanted))
         sound = self._sound
         kept = [g for g, s in zip(self._answer, sound, strict=True) if s is True]
         met = [self._follow(r.normals, kept) for r in self._wanted]
@@ -223,10 +217,9 @@ class Equivalence:
             return Sameness.SAME
         if _turned(self._given, self._answer):
             return Sameness.UNDECIDED
-        sides = bounds(self._all_wanted, self._rest)
-        lost = unsound(self._given, self._sound) if sides else []
-        whole = [loses_nothing(e, self._all_wanted, self._others, sides, self.setting) for e in lost]
-        return Sameness.BRANCH if not sides else Sameness.SAME if whole and all(whole) else Sameness.UNDECIDED
+        mentioned = frozenset[str]().union(*(coordinates_of(p) for n in self._all_wanted for p in n.pieces))
+        sided = any(mentioned & coordinates_of(q) for r in self._rest for q in r.inequalities)
+        return Sameness.UNDECIDED if sided else Sameness.BRANCH
 
     # differentials
 

@@ -14,7 +14,7 @@ from dofkit.configuration.finite_blocks import LEVEL, finite_answer, level_angle
 from dofkit.configuration.linear_blocks import confirmed, eliminated
 from dofkit.configuration.measured.equations import is_measured
 from dofkit.configuration.search import find
-from dofkit.configuration.variety import Variety, of_real_point
+from dofkit.configuration.variety import Variety, of_real_point, of_reference
 from dofkit.exact.errors import NoPointError
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
@@ -30,6 +30,7 @@ from dofkit.integrability.pfaffian_system import (
     first_order_freedom,
     prolong,
 )
+from dofkit.integrability.regular_reference import reference_points, regular_reference
 from dofkit.integrability.row_labels import ball_labels, field_labels
 from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
@@ -201,9 +202,15 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
     if setting.reference is None or alike:
         result = find(forms.chart, setting.pose)
         return result if alike else replace(result, about="component")
-    if "field" in forms.chart.engines and is_irreducible(forms.chart) and _as_large(forms, setting.reference):
+    undecided = Variety(None, None, "undecided", reasons=[IRREGULAR])
+    points = reference_points(forms, setting.reference) if "field" in forms.chart.engines else None
+    if points is None:
+        return undecided
+    if not points:
+        return replace(find(forms.chart, setting.pose), about="component")
+    if is_irreducible(forms.chart) and _as_large(forms, setting.reference):
         return find(forms.chart, setting.pose)
-    return Variety(None, None, "undecided", reasons=[IRREGULAR])
+    return regular_reference(forms, points, setting.reference) or undecided
 
 
 def _as_large(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool:
@@ -220,6 +227,10 @@ def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list
     result = Answer(True, hidden=extra, reasons=list(found.reasons), verdict=found.verdict, about=found.about)
     result.argument, result.gap, result.witness = found.argument, found.gap, of_real_point(forms.chart, found.real)
     result.separating = found.separating
+    if found.about == "reference" and setting.reference is not None:
+        result.witness = of_reference(forms.chart.symbols, setting.reference)
+    if block.nonlinear and found.about == "reference":
+        return replace(result, consistent=None, verdict="undecided", reasons=[*found.reasons, IRREGULAR])
     if found.samples:
         good = _spans(forms, found)
         if good:
@@ -247,7 +258,7 @@ def _spans(forms: Codistribution, found: Variety) -> list[tuple[FieldPoint, Samp
     """The Lie algebra at every sample; at one, where it is all of the tangent space and nothing could raise it."""
     good = []
     for point in found.samples:
-        sampled = span_at(forms, point)
+        sampled = span_at(forms, point, found.about == "reference")
         if sampled is None:
             continue
         good.append((point, sampled))

@@ -37,7 +37,6 @@ def entries_of(
     setting: Setting,
     outcome: Outcome,
     dependent: Sequence[Redundancies],
-    names: Sequence[str],
     company: Companionship,
 ) -> list[ConstraintEntry]:
     """An entry for every constraint, in order; one that there is no time for says so."""
@@ -50,7 +49,7 @@ def entries_of(
     traits_of, consistent = partial(_traits_of, setting), outcome.consistent
     for i, r in enumerate(reduced):
         number = known.independent.get(i, None if answer[i] else 0)
-        circuit = None if i not in known.circuits else [names[j] for j in known.circuits[i]]
+        circuit = None if i not in known.circuits else [company.names[j] for j in known.circuits[i]]
         try:
             check()
             copied = i in outcome.copies
@@ -60,7 +59,7 @@ def entries_of(
                 named = {"name": r.constraint.name, "text": r.constraint.text}
                 entries.append(by_kind[kind].model_copy(update=named))
                 continue
-            beside = partial(_with_others, i, answer[i], company, names)
+            beside = partial(_with_others, i, answer[i], company)
             alone = by_itself(i, r, answer[i], company.parts)
             evidence = Evidence(answer[i], alone, number, circuit, constants, traits_of, beside, copied)
             entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, known))
@@ -213,17 +212,13 @@ def _unmeasured(outcome: Outcome) -> set[int]:
     return {r.constraint for block, a in outcome.parts if a.velocity_dof is None for r in block.rows}
 
 
-def _with_others(
-    i: int, told: Sequence[LabelledRow], company: Companionship, names: Sequence[str], in_system: bool
-) -> Others:
+def _with_others(i: int, rows: Sequence[LabelledRow], company: Companionship, in_system: bool) -> Others:
     """What the constraints of its block do for a form; nothing where it stands alone there or in several blocks."""
-    blocks = {id(t.block): t for t in told if t.block is not None}
+    blocks = {id(t.block): t for t in rows if t.block is not None}
     only = next(iter(blocks.values())) if len(blocks) == 1 else None
-    if only is None or only.block is None or not (in_system or any(t.label and t.label.modulo for t in told)):
+    if only is None or only.block is None or not (in_system or any(t.label and t.label.modulo for t in rows)):
         return Others()
-    result = (company.of if in_system else company.modulo)(i, only.block, only.answer)
-    companions = None if result.companions is None else tuple(f"'{names[k]}'" for k in result.companions)
-    return Others(companions, result.integral, result.identically, result.timed)
+    return (company.of if in_system else company.modulo)(i, only.block, only.answer)
 
 
 def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list[LabelledRow]]:

@@ -41,15 +41,15 @@ class Others:
         return f"{self.integral}{'' if self.identically else _CHECKED}"
 
 
-@dataclass(frozen=True)
-class Labels:
-    """What is said of a constraint: in the system, alone, and why it was left open where it was.
+class EntryLabels(NamedTuple):
+    """Holonomic in the system and alone, how sure each is, and why it was left undecided where it was.
 
-    ``beside``: what the others make of one that is nonlinear in the velocities.
+    ``relates``: there is a row; ``beside``: what the others make of one that is nonlinear in the velocities.
     """
 
     in_system: bool | None
     alone: bool | None
+    verdicts: tuple[Verdict, Verdict]
     undecided: str = ""
     relates: bool = True
     beside: str = ""
@@ -62,7 +62,7 @@ def joined(parts: Sequence[str | None]) -> str | None:
 
 
 def reason_of(
-    form: Form, labels: Labels, proofs: Sequence[Integrability], circuit: list[str] | None, others: Others
+    form: Form, labels: EntryLabels, proofs: Sequence[Integrability], circuit: list[str] | None, others: Others
 ) -> str:
     """The sentences, by the constraint's form and labels."""
     if form == "pfaffian":
@@ -85,7 +85,7 @@ def reason_of(
     return reason
 
 
-def _nonlinear(labels: Labels) -> str:
+def _nonlinear(labels: EntryLabels) -> str:
     if labels.in_system:
         return (
             "On its own it is not linear in the velocities; together with the other constraints it is "
@@ -98,7 +98,7 @@ def _nonlinear(labels: Labels) -> str:
     return f"{why}: non-holonomic; it restricts the velocities, not the accessible configurations."
 
 
-def _pfaffian(labels: Labels, proofs: Sequence[Integrability], others: Others) -> str:
+def _pfaffian(labels: EntryLabels, proofs: Sequence[Integrability], others: Others) -> str:
     if labels.in_system is None:
         return f"Not decided: {labels.undecided or 'the engines found no regular point to decide at'}."
     if labels.in_system and labels.alone:
@@ -174,14 +174,6 @@ def in_words(relation: Relation, otherwise: str) -> str:
 def _given(vector: tuple[Expr, ...]) -> bool:
     """Is nothing in general position?"""
     return not any(str(s.args[1]).startswith("_") for part in vector for s in part.symbols)
-
-
-class EntryLabels(NamedTuple):
-    """Holonomic in the system and alone, and how sure each is."""
-
-    in_system: bool | None
-    alone: bool | None
-    verdicts: tuple[Verdict, Verdict]
 
 
 class EntryTraits(NamedTuple):
