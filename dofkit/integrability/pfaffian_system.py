@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations, islice
 from itertools import product as cartesian
 from typing import Any
@@ -54,15 +54,28 @@ class Codistribution:
         return self.chart.coordinates
 
 
-def codistribution(block: Block, setting: Setting, extra: Sequence[Expr], more: Sequence[Expr] = ()) -> Codistribution:
-    """dg for every finite relation (those ``extra`` included), then the Pfaffian forms; ``more`` is evaluated too."""
+def codistribution(
+    block: Block, setting: Setting, extra: Sequence[Expr], more: Sequence[Expr] = (), on: Sequence[Expr] | None = None
+) -> Codistribution:
+    """Return dg for every finite relation (those ``extra`` included), then the Pfaffian forms.
+
+    ``more`` is evaluated too; the points of the chart satisfy the relations ``on``, by default the finite ones.
+    """
     finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(extra)
-    timed = uses_time(block) or any(ex.TIME in e.symbols for e in extra)
+    timed = uses_time(block) or any(ex.TIME in e.symbols for e in (*extra, *(on or ())))
     symbols = [ex.coordinate(c) for c in block.coordinates] + ([ex.TIME] if timed else [])
     gradients = [{i: diff(g, s) for i, s in enumerate(symbols) if s in g.symbols} for g in finite]
     place = {s: i for i, s in enumerate(symbols)}
     forms = [{place[s]: e for s, e in r.piece.items()} for r in block.forms if isinstance(r.piece, Pfaffian)]
-    chart = make_chart(block, setting, extra, [*(e for g in gradients for e in g.values()), *more])
+    evaluated = [*(e for row in (*gradients, *(() if on is None else forms)) for e in row.values()), *more]
+    if on is None:
+        chart = make_chart(block, setting, extra, evaluated)
+    else:
+        locus = Block(block.coordinates, tuple(Row(-1, Finite(g)) for g in on))
+        chart = make_chart(locus, setting, (), evaluated)
+        index = chart.ring.var_index(ex.TIME)
+        if len(chart.symbols) < len(symbols):
+            chart = replace(chart, symbols=tuple(symbols), columns=(*chart.columns, -1 if index is None else index))
     entries = tuple({c: chart.ring.node(e) for c, e in row.items() if not e.is_zero} for row in (*gradients, *forms))
     return Codistribution(chart, FormRows(chart.ring, entries, chart.columns), len(finite))
 

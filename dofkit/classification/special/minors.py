@@ -1,4 +1,4 @@
-"""A block's rows as polynomials: where their rank drops, and what curvature is left on their kernel.
+"""A block's rows as polynomials: candidates for where their rank drops, or curvature on their kernel vanishes.
 
 Rows are the differentials of the finite relations and the Pfaffian forms, each times its denominators. Rows with
 a coefficient that never vanishes are eliminated first: the rank drops where that of the rest does. The kernel is
@@ -7,15 +7,16 @@ spanned by Cramer's vectors, so the curvature d(omega)(u, v) of every form on ev
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, combinations
 from math import comb
+from typing import NamedTuple
 
 from dofkit.base.deadline import check
-from dofkit.classification.special.common_zeros import Reals
-from dofkit.exact.errors import TooLargeError, raising_no_value
+from dofkit.classification.special.common_zeros import MAX_READ, Leaf, Reals, common_zeros
+from dofkit.exact.errors import NoValueError, TooLargeError, raising_no_value
 from dofkit.exact.ring.canonical import Canon, Poly, Quotient, cleared, determinant, lowest_terms
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
@@ -208,3 +209,94 @@ def curvatures(table: MinorTable, vectors: Sequence[Sequence[Poly]]) -> list[lis
             values.append(canon.reduce(total))
         result.append(values)
     return result
+
+
+# candidates
+
+
+class Candidates(NamedTuple):
+    """Conditions on coordinates under which all largest minors vanish, and all curvature or a minor of it."""
+
+    ranks: list[Leaf]
+    bends: list[Leaf]
+
+
+def candidates(table: MinorTable, rank: int, curvature: int, curved: bool) -> Candidates:
+    """Return the candidates; ``rank``: of the rows in the columns of the coordinates.
+
+    ``curvature``: the number of independent directions that [D, D] adds to D at a generic point, 0 where not known.
+    Where nothing is ``curved`` curvature has nothing to tell. What is too large has no candidates.
+    """
+    reduction = EliminatedTable(table)
+    size = rank - len(reduction.solved)
+    ranks = _attempt(lambda: _loci(table, reduction.minors(size) if size > 0 else ()))
+    bends = _attempt(lambda: _bends(table, reduction, size, curvature)) if curved and size >= 0 else []
+    return Candidates(ranks, bends)
+
+
+def _attempt(search: Callable[[], Iterable[Leaf]]) -> list[Leaf]:
+    try:
+        return raising_no_value(lambda: list(search()))()
+    except NoValueError:
+        return []
+
+
+def _bends(table: MinorTable, reduction: EliminatedTable, size: int, independent: int) -> Iterator[Leaf]:
+    """Yield the loci on which all curvature vanishes, and those on which less of it is independent."""
+    if not any(table.curls):
+        return
+    matrix = curvatures(table, reduction.kernel(size))
+    yield from _loci(table, [c for row in matrix for c in row])
+    bent = [row for row in matrix if any(c != 0 for c in row)]
+    if independent > 1 and comb(len(bent), independent) * comb(len(bent[0]), independent) <= MAX_MINORS:
+        columns = range(len(bent[0]))
+        picked = [(r, c) for r in combinations(bent, independent) for c in combinations(columns, independent)]
+        yield from _loci(table, [determinant(table.canon, [[row[i] for i in c] for row in r]) for r, c in picked])
+
+
+def _loci(table: MinorTable, polynomials: Iterable[Poly]) -> Iterator[Leaf]:
+    """Yield conditions on coordinates under which polynomials vanish and the finite relations can hold for a while."""
+    present = [p for p in polynomials if p != 0]
+    for leaf in common_zeros(table.reals, present, short=True) if present else ():
+        conditions = leaf.conditions(table.canon)
+        short = all(len(p) <= MAX_READ for p in (*leaf.others, *(v for _, v in leaf.solved)))
+        alone = any(_is_instant(table, c) or table.reals.of_parameters(c) for c in conditions)
+        if not short or alone or not _is_of_coordinates(table, conditions) or not _is_defined(table, leaf):
+            continue
+        if _can_hold(table, leaf):
+            yield leaf
+
+
+def _can_hold(table: MinorTable, leaf: Leaf) -> bool:
+    """Return whether the finite relations may hold on a leaf for an interval of time and all parameters."""
+    relations = [table.reals.on(leaf, g) for g in table.relations]
+    if any(table.reals.never_zero(g) for g in relations):
+        return False
+    try:
+        ways = [way.conditions(table.canon) for way in common_zeros(table.reals, relations)]
+    except NoValueError:
+        return True
+    return any(not any(_is_instant(table, c) or table.reals.of_parameters(c) for c in way) for way in ways)
+
+
+def _is_instant(table: MinorTable, condition: Poly) -> bool:
+    """Return whether a condition is one on time alone."""
+    symbols = _symbols(table, [condition])
+    return ex.TIME in symbols and all(s.args[0] in ("time", "parameter") for s in symbols)
+
+
+def _symbols(table: MinorTable, conditions: Iterable[Poly]) -> frozenset[Expr]:
+    present = {i for poly in conditions for i in table.canon.generators_in(poly)}
+    return frozenset[Expr]().union(*(table.canon.ring.var_expr[i].symbols for i in present))
+
+
+def _is_defined(table: MinorTable, leaf: Leaf) -> bool:
+    """Return whether the denominators of the rows do not vanish on a leaf."""
+    below = [table.reals.on(leaf, p) for p in table.below]
+    return all(p != 0 and not any(divmod(p, c)[1] == 0 for c in leaf.others) for p in below)
+
+
+def _is_of_coordinates(table: MinorTable, conditions: Sequence[Poly]) -> bool:
+    """Return whether coordinates occur, and no unknown functions."""
+    kinds = {table.canon.ring.vars[i].kind for poly in conditions for i in table.canon.generators_in(poly)}
+    return "call" not in kinds and any(s.args[0] == "coordinate" for s in _symbols(table, conditions))
