@@ -9,6 +9,7 @@ from functools import partial
 from dofkit.base.deadline import expired, unless_late
 from dofkit.base.verdicts import ArgumentKey, Claim, together
 from dofkit.classification import tangent_spaces
+from dofkit.classification.freedom.bridged_blocks import with_still_parts
 from dofkit.classification.study import Study
 from dofkit.classification.turned_coordinates import (
     TurnedGroup,
@@ -247,6 +248,7 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
     orbit = None if turning else orbit_at_reference(block, a, setting)
     if orbit is not None:
         return orbit.chart_of()
+    block = with_still_parts(block, a, setting)
     result = tangent_spaces.nearby(block, a.dof, setting, turning)
     return result if result is not None or turning else whole
 

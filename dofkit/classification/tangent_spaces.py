@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,6 +11,7 @@ from dofkit.base.libraries import np
 from dofkit.classification.turned_coordinates import ANYWHERE
 from dofkit.configuration.at_reference import ball_point
 from dofkit.configuration.generic_points import pose_point
+from dofkit.configuration.local import neighbourhood
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
@@ -25,7 +27,13 @@ from dofkit.system import Rotation
 AWAY, ZERO = (0.05, 0.05, 0.05, 0.05, 0.3, 0.6, 0.6, 1.0), 1e-7
 #: The same where there are just as many relations as the freedom asks for: far from the origin they look nearly alike.
 FAINT = 1e-10
-#: What counts as 0 in a rank at a point that a descent reaches to half its digits.
+#: The length of secants, and the least share of it that counts: the set is curved, and found to half its digits.
+SECANT, SPREAD, SETTLING = 1e-4, 3e-2, 60
+#: So many steps without half the error are the end: rounding, far from the origin, allows no less.
+STALLED = 8
+#: Powers of the error by which steps are damped: weakly first, then more.
+DAMPED = (2, 1)
+#: The same at a singular point, which a descent reaches to half its digits.
 ROUGH = 1e-5
 
 
@@ -47,6 +55,11 @@ def nearby(
         if tangent.shape[0] == dof:
             chosen = None if drawn is None else _regular_columns(chart, tangent, drawn, turning)
             chosen = _columns(chart, tangent) if chosen is None else chosen
+            return chosen if len(chosen) == dof else None
+        regular = len(chart.nodes) == len(block.coordinates) - dof
+        secants = None if regular or tangent.shape[0] < dof else _secants(chart, search, symbols, dof)
+        if secants is not None:
+            chosen = _columns(chart, _in_angles(chart, symbols, secants, turning), SPREAD)
             return chosen if len(chosen) == dof else None
     return None
 
@@ -78,8 +91,48 @@ def _regular_columns(chart: Chart, near: Any, drawn: Any, turning: Sequence[Rota
     return [names[i] for i in chosen] if complete else None
 
 
-def _rank(tangent: Any, columns: Sequence[int]) -> int:
-    return int(np.linalg.matrix_rank(tangent[:, columns], tol=ROUGH)) if columns else 0
+def _rank(tangent: Any, columns: Sequence[int], least: float = ROUGH) -> int:
+    return int(np.linalg.matrix_rank(tangent[:, columns], tol=least)) if columns else 0
+
+
+def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: int) -> Any:
+    """The tangent space at a point where relations are dependent all along, from ``dof`` independent short secants.
+
+    Coordinates that no relation holds are free.
+    """
+    names = [s for s in chart.symbols if s != ex.TIME]
+    symbols = {**dict.fromkeys(names, 0.0), **symbols}
+    result = []
+    for seed in range(2 * dof + 2):
+        rng = random.Random(f"dofkit secant {seed}")
+        change = {**{s: rng.uniform(-1.0, 1.0) for s in names}, **search.start(seed + len(AWAY), {})}
+        beside = dict(symbols)
+        for s in names:
+            beside[s] += SECANT * change[s]
+        if any(_settles(search, beside, seed, power) for power in DAMPED):
+            result.append([(beside[s] - symbols[s]) / SECANT for s in names])
+    if not result:
+        return None
+    _, singular, right = np.linalg.svd(np.array(result))
+    spread = int(np.sum(singular > SPREAD))
+    return right[:dof] if spread == dof else None
+
+
+def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int, power: int) -> bool:
+    """Moves ``symbols`` to the set nearby, by damped steps: where the gradients are dependent others go far away."""
+    errors: list[float] = []
+    for _ in range(SETTLING):
+        f, j = search.float_system(symbols, seed)
+        scale = np.abs(j).max(axis=1, initial=0) + 1e-300
+        f, j = f / scale, j / scale[:, None]
+        errors.append(float(np.max(np.abs(f))))
+        if errors[-1] < 1e-15:
+            return True
+        if len(errors) > STALLED and min(errors[-STALLED:]) > min(errors[:-STALLED]) / 2:
+            break
+        for u, s in zip(search.unknowns, neighbourhood.damped(j, f, power), strict=True):
+            symbols[u] += float(s)
+    return errors[-1] < 1e-13
 
 
 def _start(chart: Chart, setting: Setting) -> dict[Expr, float]:
@@ -157,12 +210,14 @@ def _value(at: Any, chart: Chart, name: str) -> float:
     return ANYWHERE if index is None else float(at[chart.ring.var_node[index]])
 
 
-def _columns(chart: Chart, tangent: Any) -> list[str]:
-    """Return the first coordinates, in order, on which the tangent space projects regularly."""
+def _columns(chart: Chart, tangent: Any, least: float = ROUGH) -> list[str]:
+    """The first coordinates, in order, on which the tangent space projects regularly, by singular values of at least
+    that.
+    """
     names = [str(s.args[1]) for s in chart.symbols if s != ex.TIME]
     chosen: list[int] = []
-    rank = int(np.linalg.matrix_rank(tangent, tol=ROUGH))
+    rank = int(np.linalg.matrix_rank(tangent, tol=least))
     for c in range(len(names)):
-        if len(chosen) < rank and _rank(tangent, [*chosen, c]) > len(chosen):
+        if len(chosen) < rank and _rank(tangent, [*chosen, c], least) > len(chosen):
             chosen.append(c)
     return [names[c] for c in chosen]

@@ -15,8 +15,11 @@ from functools import cached_property
 from dofkit.base.deadline import part, unless_late
 from dofkit.classification.dependence.comparison import (
     Regularity,
+    bounds,
+    loses_nothing,
     same_side,
     same_up_to_numbers,
+    unsound,
 )
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.branches import Outcome, solve
@@ -26,7 +29,6 @@ from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import coordinates_of
 from dofkit.relations.normal.pieces import UNDONE_NOTE, Finite, Normal, Pfaffian, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.system import System
@@ -217,9 +219,10 @@ class Equivalence:
             return Sameness.SAME
         if _turned(self._given, self._answer):
             return Sameness.UNDECIDED
-        mentioned = frozenset[str]().union(*(coordinates_of(p) for n in self._all_wanted for p in n.pieces))
-        sided = any(mentioned & coordinates_of(q) for r in self._rest for q in r.inequalities)
-        return Sameness.UNDECIDED if sided else Sameness.BRANCH
+        sides = bounds(self._all_wanted, self._rest)
+        lost = unsound(self._given, self._sound) if sides else []
+        whole = [loses_nothing(e, self._all_wanted, self._others, sides, self.setting) for e in lost]
+        return Sameness.BRANCH if not sides else Sameness.SAME if whole and all(whole) else Sameness.UNDECIDED
 
     # differentials
 

@@ -8,11 +8,11 @@ are linear in v by their differentials are independent: there v is a smooth func
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from itertools import combinations
+from itertools import combinations, combinations_with_replacement
 from itertools import product as cartesian
 from math import prod
 from typing import Literal, NamedTuple
@@ -34,6 +34,8 @@ from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Pfaffian, Reduced, Still
 from dofkit.relations.velocity_reductions import form_rate, rate
 
+#: Inequalities of which products are taken; equations times symbols; symbols whose differences are squared.
+MAX_FACTORS, MAX_MULTIPLES, MAX_SQUARED = 8, 24, 4
 #: Terms of all together, or twice as many as claims where those are more.
 MAX_TERMS = 80
 #: More claims than this are not put to boxes.
@@ -60,6 +62,9 @@ def refuted(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
         return True
     if all(u.op == "sym" or u == ex.ONE for c in claims for u in _terms(c.expr)):
         return False
+    more = list(_products(claims, positive))
+    if more and contradictory([*claims, *more], positive):
+        return True
     equations = [c.expr for c in claims if c.sense == "="]
     others = [c.expr for c in claims if c.sense != "="]
     return len(claims) <= MAX_BOXED and no_solution(equations, positive, others)
@@ -133,6 +138,26 @@ def _sign_of_factor(factor: Expr, positive: frozenset[Expr]) -> Sense | None:
         if exponent.denominator % 2 == 0 or exponent.numerator % 2 == 0:
             return ">" if exponent < 0 else ">="
     return None
+
+
+def _products(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> Iterator[SignClaim]:
+    """Inequalities times each other, positive parameters among them, equations times symbols, and a few squares."""
+    symbols = sorted(_symbols(claims), key=repr)
+    for a, b in combinations(symbols, 2) if len(symbols) <= MAX_SQUARED else ():
+        yield from (SignClaim(ex.power(u, ex.TWO), ">=") for u in (a + b, a - b))
+    factors = [c for c in claims if c.sense != "="] + [SignClaim(s, ">") for s in symbols if s in positive]
+    functions = {u for c in claims for e in _terms(c.expr) for u in ex.nodes(e) if u.op == "fn"}
+    factors += [fact for u in sorted(functions, key=repr) for fact in _facts(u, set(), positive)]
+    if len(factors) <= MAX_FACTORS:
+        for one, other in combinations_with_replacement(factors, 2):
+            yield SignClaim(ex.mul(one.expr, other.expr), ">" if one.sense == other.sense == ">" else ">=")
+    equations = [c for c in claims if c.sense == "="]
+    if len(equations) * len(symbols) <= MAX_MULTIPLES:
+        yield from (SignClaim(ex.mul(c.expr, s), "=") for c in equations for s in symbols)
+
+
+def _symbols(claims: Iterable[SignClaim]) -> frozenset[Expr]:
+    return frozenset[Expr]().union(*(c.expr.symbols for c in claims))
 
 
 @dataclass(frozen=True)

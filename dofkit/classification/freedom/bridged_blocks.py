@@ -11,6 +11,7 @@ from dofkit.configuration.generic_points import field_jacobian, pose_point
 from dofkit.configuration.variety import of_reference
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
+from dofkit.expressions.vectors import difference
 from dofkit.relations.answer import Answer, AnsweredPart, FollowedClasses, Size
 from dofkit.relations.blocks import Block, Row, coordinates_of, split, uses_time
 from dofkit.relations.chart import make_chart
@@ -151,3 +152,20 @@ def _looked(block: Block, parts: Sequence[AnsweredPart]) -> FollowedClasses:
     if any(not (k.left_out or k.rigid or k.followed) for k in answer):
         return whole._replace(left_out=0, rigid=0, followed=0)
     return whole._replace(left_out=whole.left_out + len(block.rows) - sum(len(p.block.rows) for p in parts))
+
+
+def with_still_parts(block: Block, a: Answer, setting: Setting) -> Block:
+    """The block with x = x0 for the coordinates of parts that do not move from the drawing, however singular they are.
+
+    So it is regular where only such parts are not.
+    """
+    still = [part.block for part in a.parts or () if part.answer.dof == 0 and part.answer.about == "reference"]
+    gone = {id(row) for part in still for row in part.rows}
+    drawn = setting.reference or {}
+    fixed = [
+        Row(part.rows[0].constraint, Finite(difference(s, drawn[s])))
+        for part in still
+        for s in map(ex.coordinate, part.coordinates)
+    ]
+    rows = (*fixed, *(row for row in block.rows if id(row) not in gone))
+    return Block(block.coordinates, rows, block.conditions) if still else block

@@ -237,11 +237,11 @@ def branches_of_time(reduced: Reduced, consistent: bool, positive: frozenset[Exp
 
     A branch that holds at an instant only was left out, which changes nothing where motions satisfy the others.
     """
-    for n, relation in zip(reduced.normals, reduced.written, strict=False):
+    for k, n in enumerate(reduced.normals):
         conditions = ([p.expr for p in b if isinstance(p, DomainCondition)] for b in n.branches)
         intervals = {frozenset(e for e in of_branch if ex.TIME in e.symbols) for of_branch in conditions}
         if len(intervals) > 1:
-            timed = timeless(Finite(relation.expr), positive)
+            timed = timeless(Finite(reduced.written[k].expr), positive)
             yield Traits(timed if timed[0] is False else (None, "undecided"))
         elif INSTANT_NOTE in n.notes and not consistent:
             yield Traits((None, "undecided"))
