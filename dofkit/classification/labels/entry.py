@@ -89,15 +89,13 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     proofs = _proofs(form, own_forms, evidence.by_itself, setting)
     labels = _labels_of(reduced, evidence, form, proofs, forms, consistent)
     integral, others = _integral_of(form, labels, proofs, evidence, bool(consistent))
-    own_traits = _traits_of(pieces, clauses, normals, evidence)
+    of_pieces = _traits_of(pieces, clauses, normals, evidence)
+    branches = branches_of_time(reduced, bool(consistent), setting.positive)
     single = evidence.rows[0] if len(evidence.rows) == len(clauses) == 1 else None
     timed = timed_in_system(clauses[0], single.block, single.answer, others, setting) if single else None
     every = _of_every_form(labels, evidence.rows, normals)
-    traits = traits_together(
-        [*own_traits, *branches_of_time(reduced, bool(consistent), setting.positive)], form, every, timed
-    )
-    sentences = reason_of(form, labels, proofs, evidence.circuit, others)
-    reason = _once(normals) + sentences + reason_of_time(traits)
+    traits = traits_together([*of_pieces, *branches], form, every, timed)
+    sentences = (_once(normals), reason_of(form, labels, proofs, evidence.circuit, others), reason_of_time(traits))
     claims = _claims(form, labels, traits, integral, evidence, bool(proofs) and all(p.proved for p in proofs))
     return ConstraintEntry(
         name=constraint.name,
@@ -117,7 +115,7 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
         independent=None if evidence.independent is None else min(evidence.independent, reduced.equations),
         verdict=weakest(*(c.verdict for c in claims.values()), *(t.answer.verdict for t in evidence.rows)),
         verdicts={name: FieldVerdict.of(claim) for name, claim in claims.items()},
-        reason=reason,
+        reason="".join(sentences),
     )
 
 
