@@ -29,8 +29,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.renaming import shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, Answer
-from dofkit.relations.blocks import Block
-from dofkit.relations.chart import make_chart
+from dofkit.relations.blocks import Block, make_chart
 from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 from dofkit.system import Rotation

@@ -18,8 +18,7 @@ from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Block
-from dofkit.relations.chart import Chart, make_chart
+from dofkit.relations.blocks import Block, Chart, make_chart
 from dofkit.relations.setting import Setting
 from dofkit.system import Rotation
 

@@ -32,7 +32,7 @@ from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 
 
 def variety_at(

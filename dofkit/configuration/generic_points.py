@@ -16,7 +16,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 
 #: Points over GF(p) that must agree.
 SAMPLES, MORE_SAMPLES = 2, 6

@@ -33,8 +33,7 @@ from dofkit.exact.ring.program import Point, Scalar, values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Block, Row, uses_time
-from dofkit.relations.chart import Chart, make_chart
+from dofkit.relations.blocks import Block, Chart, Row, make_chart, uses_time
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes, zero_set
 from dofkit.relations.setting import Setting

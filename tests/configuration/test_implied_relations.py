@@ -10,8 +10,7 @@ import dofkit
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.configuration import implied_relations
 from dofkit.configuration.implied_relations import BESIDE, ImpliedRelations
-from dofkit.relations.blocks import Block, Row
-from dofkit.relations.chart import make_chart
+from dofkit.relations.blocks import Block, Row, make_chart
 from dofkit.scene.lowering import lower
 
 

@@ -31,8 +31,7 @@ from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, in_velocities, replace_nodes, substitute
 from dofkit.expressions.tree import HALF, MINUS_ONE, ZERO, Expr
-from dofkit.relations.blocks import Block, Row, split
-from dofkit.relations.chart import make_chart
+from dofkit.relations.blocks import Block, Row, make_chart, split
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, Inequality, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.normal.polynomial_zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE

@@ -22,12 +22,12 @@ from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.modulo_others import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.relations.answer import Answer, AnsweredPart
-from dofkit.relations.blocks import Block, Row, blocks_of, names_in, with_boundaries, with_rows
+from dofkit.relations.blocks import Block, Row, blocks_of, names_in, with_rows
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import holds_somewhere
 from dofkit.relations.normal.pieces import JointEquation, Reduced, Still
 from dofkit.relations.setting import Setting
-from dofkit.relations.velocity_reductions import MAX_WAYS, RewrittenRow, ways_of
+from dofkit.relations.velocity_reductions import MAX_WAYS, RewrittenRow, ways_of, with_boundaries
 from dofkit.system import System
 
 #: Choices of branches that are looked at.

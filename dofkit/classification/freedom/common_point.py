@@ -28,13 +28,11 @@ from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.text import Names, parse_expression, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Row, expressions, uses_time
-from dofkit.relations.chart import Chart, make_chart
+from dofkit.relations.blocks import Block, Chart, Row, expressions, given_by, make_chart, uses_time
 from dofkit.relations.normal.domain import DomainCondition, holds_at
 from dofkit.relations.normal.no_solution import hold_nowhere
 from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import Setting
-from dofkit.relations.velocity_reductions import given_by
 
 #: Searches for a point, each from other starts and, but for the first, at a time later or earlier by such a factor.
 SEEDS, LATER = 6, 4.0

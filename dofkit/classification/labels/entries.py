@@ -15,11 +15,13 @@ from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.labels.companions import Companionship, by_itself
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.reasons import Others, in_words
-from dofkit.expressions.tree import TIME
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
+from dofkit.expressions.tree import TIME, Expr
 from dofkit.integrability.modulo_others import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import GAP, Redundancies
-from dofkit.relations.blocks import Row, coordinates_of, fixed_constants
+from dofkit.relations.blocks import Row, about_constants, coordinates_of, given_by
 from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Pfaffian, Reduced, piece_shape
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict
@@ -42,7 +44,7 @@ def entries_of(
     """An entry for every constraint, in order; one that there is no time for says so."""
     known = _dependence(dependent, outcome)
     answer = _labelled_rows(len(reduced), outcome, setting)
-    constants = fixed_constants(
+    constants = _fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
     entries, by_kind = list[ConstraintEntry](), dict[Hashable, ConstraintEntry]()
@@ -68,6 +70,14 @@ def entries_of(
         except OutOfTimeError as error:
             entries.append(unfinished(r, str(error)))
     return entries
+
+
+def _fixed_constants(hidden: Sequence[Expr], constants: Sequence[str]) -> dict[str, Expr]:
+    """Return the constants that linear relations among them give in terms of parameters and the other constants."""
+    among = [g for g in hidden if about_constants(g, constants)] if constants else []
+    values = given_by(among, [ex.coordinate(c) for c in reversed(constants)])
+    named = {ex.coordinate(c): ex.parameter(c) for c in constants}
+    return {str(s.args[1]): substitute(value, named) for s, value in values.items()}
 
 
 def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hashable:

@@ -45,8 +45,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.integrability.growth_vector import growth_at
 from dofkit.integrability.pfaffian_system import codistribution
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, expressions
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Block, Chart, expressions
 from dofkit.relations.normal.pieces import Finite, Inequality, Reduced
 from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.setting import Setting

@@ -20,8 +20,7 @@ from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Block, coordinates_of
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Block, Chart, coordinates_of
 from dofkit.relations.setting import Setting
 from dofkit.system import GROUND
 
