@@ -20,7 +20,7 @@ from dofkit.classification.freedom.preparation import (
 )
 from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.modulo_others import NOT_EQUIVALENT, with_reductions_checked
+from dofkit.integrability.nonlinear_velocities import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.relations.answer import Answer, AnsweredPart
 from dofkit.relations.blocks import Block, Row, blocks_of, names_in, with_rows
 from dofkit.relations.normal.domain import DomainCondition

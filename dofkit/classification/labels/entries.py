@@ -18,7 +18,7 @@ from dofkit.classification.labels.reasons import Others, in_words
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import TIME, Expr
-from dofkit.integrability.modulo_others import label_modulo_others
+from dofkit.integrability.nonlinear_velocities import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import GAP, Redundancies
 from dofkit.relations.blocks import Row, about_constants, coordinates_of, given_by
