@@ -195,14 +195,14 @@ class ForceEntry(ReportModel):
 
 
 class SpecialCase(ReportModel):
-    """Where the answer differs: values of ``parameters``, a ``locus`` of configurations, or other branches.
+    """Where the answer differs: a ``locus`` of configurations, or a branch of the configuration space.
 
     ``where`` are the conditions as text (``R = 0``, ``x = 0 and y = 0``), ``what`` says what changes there, and
     ``constraints`` for which.
     """
 
     where: str
-    kind: Literal["parameters", "locus", "branch"]
+    kind: Literal["locus", "branch"]
     what: str
     constraints: list[str]
     verdict: Verdict

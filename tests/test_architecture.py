@@ -150,7 +150,7 @@ _OTHER_WORDS = {
         "homework/questions/equations.py", "homework/starting.py",
     },
     "string": {"homework/schemas.py", "scene/fields.py", "homework/key/facts.py"},
-    "fixed": {"scene/frames.py", "scene/drawing.py"},
+    "fixed": {"scene/drawing.py"},
     "on": {"scene/world.py"},
 }  # fmt: skip
 

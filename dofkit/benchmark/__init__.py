@@ -10,8 +10,8 @@ From trials to charts
     2. `tasks` chooses some by name and lists what is to be run, with sweeps of tolerance, digits and size.
     3. `runner` gives every task to a worker that can be killed, and compares the answer with the truth.
     4. `record` writes the lines as CSV, so that figures can be made again without running.
-    5. `statistics` has scores, Pareto fronts and growth; `sentences` states in words what they show, `failures` why a
-       method fails; `figures` draws it with matplotlib.
+    5. `statistics` has scores, Pareto fronts and growth; `sentences` states in words what they show and why a method
+       fails; `figures` draws it with matplotlib.
 
 `command` is ``dofkit chart``.
 """

@@ -7,19 +7,18 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Generator, Iterator, Mapping, Sequence
-from contextlib import closing
+from contextlib import closing, nullcontext
 from dataclasses import replace
 from heapq import nlargest
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import typer
 
 from dofkit.base.errors import ArgumentError
 from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import many
-from dofkit.interface.jobs import Printed, Request, name_of_file, replies
-from dofkit.interface.output import FAILED, FAILURES, UNREADABLE, Output, Progress
+from dofkit.interface.jobs import Printed, Request, Run, name_of_file, replies
+from dofkit.interface.output import FAILED, FAILURES, UNREADABLE, Output, progress
 from dofkit.interface.show.faults import safe
 
 #: Seconds between two looks at the files that are watched.
@@ -30,15 +29,6 @@ _CLEARED = "\x1b[2J\x1b[H"
 _MOST_NAMED, _SLOWEST = 8, 3
 #: What a finding is called after a number of scenes, where its name alone would be misread.
 _FINDINGS = {"redundant": "with redundant constraints"}
-
-
-class Run(NamedTuple):
-    """The findings that a run fails on, who answers many scenes at once, and the folder for their reports."""
-
-    fail_on: tuple[str, ...] = ()
-    workers: int | None = None
-    scheduler: str | None = None
-    out: Path | None = None
 
 
 def echo(printed: Printed) -> None:
@@ -78,15 +68,11 @@ def classify_files(files: Sequence[str], request: Request, run: Run) -> int:
 
 def _timed(files: Sequence[str], request: Request, run: Run) -> Iterator[tuple[float, Printed]]:
     """Yield what is printed about each file, with the seconds that it took."""
-    progress = Progress(len(files), sys.stderr)
     with closing(_stream(files, request, run)) as stream:
-        for file in files:
-            progress.begin(file)
+        for number, file in enumerate(files, 1):
             start = time.perf_counter()
-            try:
+            with progress(f"[{number}/{len(files)}] {file}", sys.stderr) if len(files) > 1 else nullcontext():
                 printed = next(stream)
-            finally:
-                progress.end()
             yield time.perf_counter() - start, printed
         next(stream, None)
 
@@ -95,13 +81,12 @@ def _stream(files: Sequence[str], request: Request, run: Run) -> Generator[Print
     """Yield what is printed about each file: one after another, or many at once."""
     if run.workers is None and run.scheduler is None and run.out is None:
         return replies("report_lines", files, request)
-    from dofkit.interface.many import Helpers, kept_reports, many_reports  # which imports everything before it forks
+    from dofkit.interface.many import kept_reports, many_reports  # which imports everything before it forks
 
-    helpers = Helpers(run.workers, run.scheduler)
     if run.out is None:
-        return many_reports(files, request, helpers)
+        return many_reports(files, request, run)
     as_json = Output(True, only=request.output.only)
-    return kept_reports(files, replace(request, output=as_json), helpers, run.out)
+    return kept_reports(files, replace(request, output=as_json), run, run.out)
 
 
 def watch_files(files: Sequence[str], request: Request, run: Run) -> int:

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple, TextIO, cast
 
 import typer
 from rich.console import Console
+from rich.text import Text
 
 from dofkit.base.errors import DofkitError, Fault
 from dofkit.interface.show.sheet import Colours
@@ -18,7 +19,6 @@ from dofkit.interface.show.sheet import Colours
 FAILED, UNREADABLE, INTERRUPTED = 1, 2, 130
 #: The findings that ``--fail-on`` may name.
 FAILURES = ("inconsistent", "infeasible", "redundant", "undecided")
-_ERASED = "\r\x1b[K"
 
 
 class Output(NamedTuple):
@@ -55,29 +55,19 @@ def colours_of(stream: TextIO) -> Colours | None:
     return None if console.no_color else cast("Colours | None", console.color_system)
 
 
-class Progress:
-    """A line on a terminal such as ``[3/147] four-bar-linkage``, for several files; it disappears afterwards."""
+@contextmanager
+def progress(line: str, stream: TextIO) -> Iterator[None]:
+    """Show a line such as ``[3/147] four-bar-linkage`` on a terminal; it disappears afterwards."""
+    console = Console(file=stream)
+    if not stream.isatty() or console.is_dumb_terminal:
+        yield
+        return
+    from rich.live import Live  # a run that is no terminal's needs none
 
-    def __init__(self, files: int, stream: TextIO) -> None:
-        self._files, self._begun = files, 0
-        seen = files > 1 and stream.isatty() and not Console(file=stream).is_dumb_terminal
-        self._stream = stream if seen else None
-        self._width = Console(file=stream).width
-
-    def begin(self, file: str) -> None:
-        """Show a file as the next one."""
-        self._begun += 1
-        line = "".join(c if c.isprintable() else "?" for c in f"[{self._begun}/{self._files}] {file}")
-        self._write(line[: self._width - 1])
-
-    def end(self) -> None:
-        """Erase the line, so that the report can be printed there."""
-        self._write("")
-
-    def _write(self, line: str) -> None:
-        if self._stream is not None:
-            self._stream.write(_ERASED + line)
-            self._stream.flush()
+    text = Text("".join(c if c.isprintable() else "?" for c in line), no_wrap=True, overflow="ellipsis")
+    options: dict[str, Any] = {"auto_refresh": False, "redirect_stdout": False, "redirect_stderr": False}
+    with Live(text, console=console, transient=True, **options):
+        yield
 
 
 @contextmanager

@@ -11,8 +11,8 @@ Formats (`formats` recognises a file by how it begins)
         Models of MuJoCo. Its own compiler reads them (`mujoco_model`, in a worker that can be killed), and `mjcf`
         writes what the compiler made of bodies, joints, equalities and tendons.
     `solvespace`
-        Sketches of SolveSpace in one workplane: `sketch_file` reads records, `sketch_constraints` has the equations of
-        each kind of constraint. Sketches in space and derived groups are not read, and the scene says so.
+        Sketches of SolveSpace in one workplane; `sketch_constraints` has the equations of each kind of constraint.
+        Sketches in space and derived groups are not read, and the scene says so.
 
 Common parts: `markup` reads XML with lines and bounds, `model_document` writes relations between joints as a person
 would. A constraint that is not read is a warning of the report, because the true freedom may be smaller.

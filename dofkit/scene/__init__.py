@@ -11,7 +11,7 @@ Mechanisms, in the order of reading
        `fields` reads exact numbers and texts and states the faults of Pydantic in English.
     2. `parts` are points, particles, bodies, forces and energies; `constraints` has one class for each constraint
        type, with its equations, symbol and example in one file.
-    3. `lowering` goes from what is written to a `System`: first `names`, then the `drawing` with its `frames`, then
+    3. `lowering` goes from what is written to a `System`: first `names`, then the `drawing` with its frames, then
        each constraint in the `world` of points and directions. `ledger` reads texts and records their faults.
 
 Further uses: `expectation` compares a report with the `expect` of a scene,

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import weakref
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, TypeAlias
@@ -36,11 +36,11 @@ from dofkit.scene.drawing import (
 )
 from dofkit.scene.fields import suggestion
 from dofkit.scene.ledger import MOVING, Texts, symbols_of
-from dofkit.scene.names import Owners, Vocabulary, name_faults, names_by_position, vocabulary_of, within_member
+from dofkit.scene.names import Vocabulary, name_faults, names_by_position, owner_kinds, vocabulary_of, within_member
 from dofkit.scene.parts import Body, Force, texts_of
 from dofkit.scene.scene import Scene
 from dofkit.scene.world import World, within
-from dofkit.system import GROUND, Connection, Constraint, Distance, ListedForce, Rotation, System
+from dofkit.system import GROUND, Connection, Constraint, ListedForce, Rotation, System
 
 #: Values of coordinates.
 Pose: TypeAlias = dict[Expr, Expr]
@@ -67,24 +67,22 @@ LEVEL = (
 
 @dataclass(frozen=True)
 class Survey:
-    """All that is known of a scene: its drawing, its constraints with relations, what they connect, and its faults.
+    """All that is known of a scene: the world of its constraints, their relations, what they connect, and its faults.
 
-    ``generic``, ``links``, ``distances``, ``special`` and ``warnings`` are those of the `World`; ``drawn``: the bodies
-    that the drawing places; ``size``: that of the drawing; ``centre``: its middle, where the geometry is measured.
+    ``drawn``: the bodies that the drawing places; ``size``: that of the drawing.
     """
 
-    drawing: Drawing
+    world: World
     constraints: tuple[Constraint, ...]
     connections: tuple[Connection, ...]
-    generic: tuple[str, ...]
     drawn: frozenset[str]
-    links: tuple[tuple[int, str, str], ...]
-    distances: Mapping[int, tuple[Distance, ...]]
-    special: bool
     size: float
-    centre: Vec | None
-    warnings: tuple[str, ...]
     faults: tuple[Fault, ...]
+
+    @property
+    def drawing(self) -> Drawing:
+        """Frames and positions before any constraint is read."""
+        return self.world.drawing
 
     @property
     def names(self) -> Names:
@@ -141,20 +139,7 @@ def survey(scene: Scene, euler: bool = False) -> Survey:
     size, drawn = size_of(world.points), drawn_bodies(world.drawn, world.welds)
     misfits = (m for m in world.misfits if m.body is None or m.body in drawn)
     faults += [m.fault for m in misfits if not within(m.distance, drawing.tolerance, size)]
-    return Survey(
-        drawing=drawing,
-        constraints=tuple(constraints),
-        connections=tuple(connections),
-        generic=tuple(world.generic),
-        drawn=drawn,
-        links=tuple(world.links),
-        distances={index: tuple(distances) for index, distances in world.distances.items()},
-        special=world.special or not drawn.isdisjoint(world.special_of),
-        size=size,
-        centre=centre_of(world.points) if drawing.tolerance else None,
-        warnings=(*world.warnings, *_joint_warnings(constraints, connections)),
-        faults=tuple(faults),
-    )
+    return Survey(world, tuple(constraints), tuple(connections), drawn, size, tuple(faults))
 
 
 def _repeat_faults(key: str, letter: str, given: Sequence[str | None]) -> Iterator[Fault]:
@@ -238,10 +223,9 @@ def _check_value(texts: Texts, value: Any, *where: str | int) -> None:
 
 
 def _check_masses(scene: Scene, texts: Texts) -> None:
-    both: tuple[tuple[str, Owners], ...] = (("particles", scene.particles), ("bodies", scene.bodies))
-    for key, owners in both:
-        for i, owner in enumerate(owners):
-            texts.here = (key, i)
+    for kind in owner_kinds(scene):
+        for i, owner in enumerate(kind.owners):
+            texts.here = (kind.section, i)
             _check_value(texts, owner.mass, "mass")
             if isinstance(owner, Body):
                 _check_value(texts, owner.inertia, "inertia")
@@ -275,8 +259,8 @@ def lower(scene: Scene) -> System:
 
 def system_of(scene: Scene, found: Survey) -> System:
     """Return the mathematics of a scene that was surveyed without faults."""
-    drawing, vocabulary = found.drawing, found.drawing.vocabulary
-    pose = pose_of(drawing)
+    drawing, world = found.drawing, found.world
+    vocabulary, pose = drawing.vocabulary, pose_of(drawing)
     reference, singular, warning = _reference(found, pose)
     names = names_by_position("f", [force.name for force in scene.forces])
     return System(
@@ -285,7 +269,7 @@ def system_of(scene: Scene, found: Survey) -> System:
         coordinates=vocabulary.table.coordinates,
         constraints=found.constraints,
         parameters={n: sign for n, sign in vocabulary.signs.items() if vocabulary.parameters[n] == parameter(n)},
-        generic=found.generic,
+        generic=tuple(world.generic),
         functions={name: len(arguments) for name, arguments in scene.functions.items()},
         rotations=_rotations(drawing),
         reference=reference,
@@ -293,14 +277,14 @@ def system_of(scene: Scene, found: Survey) -> System:
         particles=tuple(vocabulary.table.particles),
         bodies=tuple(vocabulary.table.bodies),
         forces=tuple(ListedForce(name, force.reason) for name, force in zip(names, scene.forces, strict=True)),
-        links=found.links,
-        distances=found.distances if reference is None else {},
+        links=tuple(world.links),
+        distances={} if reference is not None else {i: tuple(parts) for i, parts in world.distances.items()},
         connections=found.connections,
         starts={name: frame.start for name, frame in drawing.frames.items()},
-        arms=_arms(drawing, found.centre),
+        arms=_arms(drawing, centre_of(world.points) if drawing.tolerance else None),
         tolerance=scene.tolerance or None,
         size=found.size,
-        warnings=(*found.warnings, *warning),
+        warnings=(*world.warnings, *_joint_warnings(found.constraints, found.connections), *warning),
         left_out=scene.left_out,
         drawn=singular,
     )
@@ -308,8 +292,9 @@ def system_of(scene: Scene, found: Survey) -> System:
 
 def _reference(found: Survey, pose: Pose) -> tuple[Pose | None, Pose | None, list[str]]:
     """Return the reference configuration, one that is singular for Euler angles in texts, and why there is none."""
-    if found.special or found.generic:
-        return None, None, [SPECIAL] if found.special else []
+    special = found.world.special or not found.drawn.isdisjoint(found.world.special_of)
+    if special or found.world.generic:
+        return None, None, [SPECIAL] if special else []
     drawing = found.drawing
     touched = cache(lambda: frozenset[str]().union(*(c.mentioned for c in found.constraints)))
     reference = reference_of(drawing, found.drawn, pose, touched)

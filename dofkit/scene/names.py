@@ -20,8 +20,20 @@ SIGNS: tuple[Sign, ...] = ("real", "positive", "nonzero")
 RESERVED = frozenset({"t", GROUND})
 
 
-#: What has coordinates of its own.
-Owners = Sequence[Particle | Body]
+class OwnerKind(NamedTuple):
+    """The particles or the bodies of a scene: their section, what one is called, and the roles of its coordinates."""
+
+    section: str
+    called: str
+    owners: Sequence[Particle | Body]
+    roles: tuple[str, ...]
+
+
+def owner_kinds(scene: Declarations) -> tuple[OwnerKind, OwnerKind]:
+    """Return the particles, then the bodies."""
+    d = scene.dimension
+    particles = OwnerKind("particles", "particle", scene.particles, PARTICLE_ROLES[d])
+    return particles, OwnerKind("bodies", "body", scene.bodies, BODY_ROLES[d])
 
 
 class NameTable(NamedTuple):
@@ -35,23 +47,18 @@ class NameTable(NamedTuple):
 def coordinate_table(scene: Declarations) -> NameTable:
     """Particles, then bodies, then the further coordinates, in the order declared."""
     coordinates: list[Coordinate] = []
-    particles: dict[str, tuple[str, ...]] = {}
-    bodies: dict[str, tuple[str, ...]] = {}
-    planar = scene.dimension == 2
-    for owners, roles, owned in (
-        (scene.particles, PARTICLE_ROLES[scene.dimension], particles),
-        (scene.bodies, BODY_ROLES[scene.dimension], bodies),
-    ):
-        kinds = ("x", "y", "angle") if planar and len(roles) == 3 else roles
-        for owner in owners:
+    owned: tuple[dict[str, tuple[str, ...]], dict[str, tuple[str, ...]]] = {}, {}
+    for kind, names_of_owners in zip(owner_kinds(scene), owned, strict=True):
+        roles = kind.roles
+        kinds = ("x", "y", "angle") if scene.dimension == 2 and len(roles) == 3 else roles
+        for owner in kind.owners:
             renamed, name = owner.coordinates, owner.name
-            names = (
-                renamed if renamed and len(renamed) == len(roles) else tuple([f"{r}_{subscript(name)}" for r in roles])
-            )
-            owned[name] = names
+            names = tuple([f"{r}_{subscript(name)}" for r in roles])
+            names = renamed if renamed and len(renamed) == len(roles) else names
+            names_of_owners[name] = names
             coordinates += [Coordinate(q, name, role) for q, role in zip(names, kinds, strict=True)]
     coordinates += [Coordinate(name) for name in scene.coordinates]
-    return NameTable(tuple(coordinates), particles, bodies)
+    return NameTable(tuple(coordinates), *owned)
 
 
 def names_by_position(letter: str, given: Sequence[str | None]) -> tuple[str, ...]:
@@ -195,33 +202,24 @@ def name_faults(scene: Declarations, table: NameTable) -> tuple[Fault, ...]:
 
 
 def _check_owners(scene: Declarations, ledger: Ledger) -> None:
-    d = scene.dimension
     seen: dict[str, str] = {}
-    both: tuple[tuple[str, str, Owners, tuple[str, ...]], ...] = (
-        ("particles", "particle", scene.particles, PARTICLE_ROLES[d]),
-        ("bodies", "body", scene.bodies, BODY_ROLES[d]),
-    )
-    for key, kind, owners, roles in both:
+    for section, called, owners, roles in owner_kinds(scene):
         for i, owner in enumerate(owners):
-            name = owner.name
+            name, where = owner.name, (section, i, "name")
             if name in RESERVED:
                 meaning = "time" if name == "t" else "the fixed world"
-                ledger.fault(f"'{name}' is {meaning}, and never declared", key, i, "name", hint="choose another name")
+                ledger.fault(f"'{name}' is {meaning}, and never declared", *where, hint="choose another name")
             elif not _is_owner_name(name):
                 hint = f"write `{readable_name(name)}`: a name has letters, digits, `_` and hyphens"
-                ledger.fault(f"'{name}' cannot be the name of a {kind}", key, i, "name", hint=hint)
+                ledger.fault(f"'{name}' cannot be the name of a {called}", *where, hint=hint)
             if name in seen:
-                ledger.fault(
-                    f"the name '{name}' is given twice",
-                    key,
-                    i,
-                    "name",
-                    hint=f"rename it: `{name}` is a {seen[name]} already",
-                )
-            seen.setdefault(name, kind)
+                hint = f"rename it: `{name}` is a {seen[name]} already"
+                ledger.fault(f"the name '{name}' is given twice", *where, hint=hint)
+            seen.setdefault(name, called)
             if owner.coordinates is not None and len(owner.coordinates) != len(roles):
-                message = f"a {kind} has {len(roles)} coordinates in dimension {d}, not {len(owner.coordinates)}"
-                ledger.fault(message, key, i, "coordinates", hint=f"name them in the order {', '.join(roles)}")
+                needed = f"a {called} has {len(roles)} coordinates in dimension {scene.dimension}"
+                hint = f"name them in the order {', '.join(roles)}"
+                ledger.fault(f"{needed}, not {len(owner.coordinates)}", section, i, "coordinates", hint=hint)
 
 
 def _is_owner_name(name: str) -> bool:
@@ -231,21 +229,17 @@ def _is_owner_name(name: str) -> bool:
 
 def _owned(scene: Declarations, table: NameTable) -> Iterator[Entry]:
     seen: set[str] = set()
-    both: tuple[tuple[str, str, Owners, Mapping[str, tuple[str, ...]]], ...] = (
-        ("particles", "particle", scene.particles, table.particles),
-        ("bodies", "body", scene.bodies, table.bodies),
-    )
-    for key, kind, owners, owned in both:
-        for i, owner in enumerate(owners):
+    for kind, owned in zip(owner_kinds(scene), (table.particles, table.bodies), strict=True):
+        for i, owner in enumerate(kind.owners):
             if owner.name in seen:
                 continue
             seen.add(owner.name)
             renamed = owner.coordinates is not None and owner.coordinates == owned[owner.name]
             if not renamed and not _is_owner_name(owner.name):
                 continue
-            what = f"a coordinate of {kind} '{owner.name}'"
+            what = f"a coordinate of {kind.called} '{owner.name}'"
             for j, name in enumerate(owned[owner.name]):
-                yield name, what, (key, i, "coordinates", j) if renamed else (key, i, "name")
+                yield name, what, (kind.section, i, "coordinates", j) if renamed else (kind.section, i, "name")
 
 
 def _further(scene: Declarations) -> Iterator[Entry]:

@@ -3,6 +3,6 @@
 python -m tests.adversary [--minutes 10] [--seed 1] [--kinds components,rounding/oval] [--certificates]
 
 A family is a file: its functions draw a `KnownScene` from a random generator and a size. `registry` lists them,
-`disguises` write a case in another way, `judgement` holds the report against the truth, `trial` looks for the
-smallest case that is answered wrongly, and `found/` keeps those as tests.
+`disguises` write a case in another way, `judgement` holds the report against the truth, `running` answers it, and
+`found/` keeps what was answered wrongly once as tests.
 """

@@ -42,22 +42,6 @@ def hidden(rng: random.Random, size: int) -> KnownScene:
     return KnownScene(scene, truths(1, holonomic=True), smaller(0), chart and {"x": "0", **chart})
 
 
-def written(rng: random.Random, size: int) -> KnownScene:
-    """The product itself as a relation."""
-    curve, chart = rng.choice(CURVES)
-    factors = [curve, *_points(rng, rng.randint(1, 4 + 3 * size))]
-    rng.shuffle(factors)
-    scene = scene_of("y z", f"{'*'.join(factors)} = 0")
-    return KnownScene(scene, truths(1, holonomic=True), smaller(0), chart)
-
-
-def of_points(rng: random.Random, size: int) -> KnownScene:
-    """Every factor is 0 at points only, or nowhere: dof 0; with x free 1."""
-    factors = [f"((y - {k})^2 + (z - {k * k})^2)" for k in rng.sample(range(-9, 10), rng.randint(1, 4 + 2 * size))]
-    factors += ["(y^2 + z^4 + 1)"] * rng.randint(0, 1)
-    return KnownScene(scene_of("x y z", f"{'*'.join(factors)} = 0"), truths(1, holonomic=True))
-
-
 def of_forms(rng: random.Random, size: int) -> KnownScene:
     """A product of forms, of which one is non-holonomic (dof 3) and the others d(a x + b y + c z) (dof 2)."""
     flat = {f"(xdot + ({nonzero(rng)})*ydot + ({nonzero(rng)})*zdot)" for _ in range(rng.randint(1, 2 + 3 * size))}
@@ -90,13 +74,3 @@ def at_reference(rng: random.Random, size: int) -> KnownScene:
     rng.shuffle(factors)
     scene = scene_of(letters, f"{'*'.join(factors)} = 0", configuration=at(place))
     return KnownScene(scene, truths(4 - len(some), holonomic=True))
-
-
-FAMILY = {
-    "hidden": hidden,
-    "written": written,
-    "of-points": of_points,
-    "of-forms": of_forms,
-    "spaces": spaces,
-    "at-reference": at_reference,
-}

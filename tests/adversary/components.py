@@ -39,17 +39,6 @@ def ladder(rng: random.Random, size: int) -> KnownScene:
     return KnownScene(scene_of(["x", "y", "u", *v], *relations), truths(1 + k), smaller(2), chart)
 
 
-def powers(rng: random.Random, size: int) -> KnownScene:
-    """The ladder with plain powers: y = s u^m, s v_i = y v_i+1, s v_k = y u. Off s = 0 each v_i is u^m v_i+1, and the
-    last u^m u: the graph over (x, u); on s = 0 it says y = 0, with u and k of the v free."""
-    k, m = 2 + rng.randint(0, size), rng.randint(1, 5 + size)
-    v = names("v", k)
-    relations = [f"y = (x - 10)*u^{m}"]
-    relations += [f"(x - 10)*{a} = y*{b}" for a, b in zip(v, [*v[1:], "u"], strict=True)]
-    chart = {"x": "10", "y": "0"} | free(["u", *v])
-    return KnownScene(scene_of(["x", "y", "u", *v], *relations), truths(1 + k), smaller(2), chart)
-
-
 def unions(rng: random.Random, size: int) -> KnownScene:
     """f_i g_j = 0 for all i, j says f = 0 or g = 0, with f_i = u_i - P_i(w), g_j = v_j - Q_j(w): two graphs, of
     codimensions m <= k; the smaller codimension counts."""
@@ -65,17 +54,6 @@ def unions(rng: random.Random, size: int) -> KnownScene:
     n = m + k + len(w)
     elsewhere = smaller(n - k)
     return KnownScene(scene_of([*u, *v, *w], *relations), truths(n - m), elsewhere, free([*w, *v]) | graph(u, first))
-
-
-def residual(rng: random.Random, size: int) -> KnownScene:
-    """h f_i = 0 for i = 1..k says h = 0, a graph of codimension 1, or f = 0, of codimension k."""
-    k = rng.randint(2, 3 + 2 * size)
-    v, w = names("v", k), names("w", 2 + size // 2)
-    height = polynomial(rng, w, 2 + size)
-    relations = [f"(z - ({height}))*({a} - ({smooth(rng, w)})) = 0" for a in v]
-    n = k + len(w) + 1
-    elsewhere = smaller(n - k)
-    return KnownScene(scene_of([*v, *w, "z"], *relations), truths(n - 1), elsewhere, free([*v, *w]) | {"z": height})
 
 
 def minors(rng: random.Random, size: int) -> KnownScene:
@@ -113,14 +91,3 @@ def form_on_the_larger(rng: random.Random, size: int) -> KnownScene:
     chart = {"x": str(a), "y": "0", "z": "3"} | free(["u", *v, "q"])
     scene = scene_of(["x", "y", "u", *v, "z", "q"], *relations, f"zdot = {s}*qdot")
     return KnownScene(scene, truths(k + 2), {"dof": [4], "velocity_dof": [3]}, chart)
-
-
-FAMILY = {
-    "ladder": ladder,
-    "powers": powers,
-    "unions": unions,
-    "residual": residual,
-    "minors": minors,
-    "empty-part": empty_part,
-    "form-on-the-larger": form_on_the_larger,
-}

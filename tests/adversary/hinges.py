@@ -85,25 +85,6 @@ def flat_vertex(rng: random.Random, size: int) -> KnownScene:
     return KnownScene(scene, known | {"redundant_equations": 5 * k - (6 * (k - 1) - dof)})
 
 
-def coaxial(rng: random.Random, size: int) -> KnownScene:
-    """A door on k hinges of one axis: 1 freedom, all but the first redundant."""
-    k, axis, at = (
-        2 + rng.randint(0, 1 + size),
-        [1, rng.randint(-2, 2), rng.randint(-2, 2)],
-        [rng.randint(-2, 2) for _ in range(3)],
-    )
-    steps = rng.sample(range(-4, 5), k)
-    joints = [revolute("ground", "door", [a + s * c for a, c in zip(at, axis, strict=True)], axis) for s in steps]
-    known = truths(
-        1,
-        instantaneous_dof=1,
-        singular=False,
-        redundant=[f"c{i}" for i in range(2, k + 1)],
-        redundant_equations=5 * (k - 1),
-    )
-    return KnownScene({"dimension": 3, "bodies": ["door"], "constraints": joints}, known)
-
-
 def planar_loop(rng: random.Random, size: int) -> KnownScene:
     """k parallel hinges at the corners of a polygon: k - 3 freedoms, regular where the corners are not on one line.
     On one line, to first order sum r_i = sum r_i x_i = 0, k - 2 freedoms, and to second order sum over i < j of r_i
@@ -116,35 +97,3 @@ def planar_loop(rng: random.Random, size: int) -> KnownScene:
     first = k - 2 if line else k - 3
     known = truths(dof, instantaneous_dof=first, singular=line, redundant_equations=5 * k - (6 * (k - 1) - dof))
     return KnownScene(scene, known)
-
-
-def parallelogram_loop(rng: random.Random, size: int) -> KnownScene:
-    """Four parallel hinges at the corners of a parallelogram, with a fifth body as a crank more: it moves, by 1."""
-    a, b = (rng.randint(1, 4), rng.randint(0, 3)), (rng.randint(-2, 2), rng.randint(1, 4))
-    more = size > 0
-    x, y = rng.randint(5, 9), rng.randint(-2, 2)
-    joints = [
-        revolute("ground", "b1", (0, 0, 0), (0, 0, 1)),
-        revolute("b1", "b2", (*b, 0), (0, 0, 1)),
-        revolute("b2", "b3", (a[0] + b[0], a[1] + b[1], 0), (0, 0, 1)),
-        revolute("b3", "ground", (*a, 0), (0, 0, 1)),
-    ]
-    if a[0] * b[1] == a[1] * b[0]:
-        return parallelogram_loop(rng, size)
-    if more:
-        joints += [
-            revolute("ground", "b4", (x, y, 0), (0, 0, 1)),
-            revolute("b4", "b2", (x + b[0], y + b[1], 0), (0, 0, 1)),
-        ]
-    bodies = ["b1", "b2", "b3", *(["b4"] if more else [])]
-    extra = 5 * len(joints) - (6 * len(bodies) - 1)
-    known = truths(1, instantaneous_dof=1, singular=False, redundant_equations=extra)
-    return KnownScene({"dimension": 3, "bodies": bodies, "constraints": joints}, known)
-
-
-FAMILY = {
-    "flat-vertex": flat_vertex,
-    "coaxial": coaxial,
-    "planar-loop": planar_loop,
-    "parallelogram-loop": parallelogram_loop,
-}

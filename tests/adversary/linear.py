@@ -88,6 +88,3 @@ def driven(rng: random.Random, size: int) -> KnownScene:
         return KnownScene(scene, IMPOSSIBLE)
     known = truths(n - rank, redundant=_dependent(rows), redundant_equations=len(rows) - rank, holonomic=True)
     return KnownScene(scene, known | {"scleronomic": not any(row[-1] for row in rows)})
-
-
-FAMILY = {"positions": positions, "speeds": speeds, "driven": driven}

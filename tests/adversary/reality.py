@@ -84,12 +84,3 @@ def handles(rng: random.Random, size: int) -> KnownScene:
     chart = {"x": "0", "y": "0", "z": "-1 - p0", **({"w": "0", "u": "p1"} if formed else {})}
     known = truths(1 + formed, holonomic=True)
     return KnownScene(scene_of([*values], *relations, configuration=at(values)), known, chart=chart)
-
-
-FAMILY = {
-    "disguised": disguised,
-    "squares": squares,
-    "squared-forms": squared_forms,
-    "isolated-points": isolated_points,
-    "handles": handles,
-}

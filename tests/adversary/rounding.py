@@ -87,12 +87,3 @@ def decimals(rng: random.Random, size: int) -> KnownScene:
     relations = [f"x = {decimal(a)}", f"y = {decimal(b)}", f"x{operation}y = {decimal(c)}"]
     known = IMPOSSIBLE if wrong else truths(0, redundant=["c3"], redundant_equations=1)
     return KnownScene(scene_of("x y", *relations), known, chart=None if wrong else {"x": str(a), "y": str(b)})
-
-
-FAMILY = {
-    "reciprocal": reciprocal,
-    "oval": oval,
-    "least": least,
-    "motzkin": motzkin,
-    "decimals": decimals,
-}

@@ -1,43 +1,46 @@
-"""A case answered: here, or in a process of its own that is ended where it does not end by itself."""
+"""A case answered, in this process or in a worker that is killed where it does not end, and what is wrong with it."""
 
 from __future__ import annotations
 
-import resource
-import signal
 import traceback
-from collections.abc import Mapping
-from functools import cache
-from multiprocessing import get_context
-from multiprocessing.connection import Connection
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import dofkit
 from dofkit.base.deadline import by_processor
+from dofkit.base.runs import Pool
+from dofkit.base.workers import Job
+from dofkit.benchmark.trials.construction import KnownScene
 
-from .judgement import Recheck, rechecked
+from .judgement import judged, overall, rechecked
 
-#: Seconds of processor time for one scene; past them it has a quarter more, and then is ended. Bytes of memory.
-SECONDS, MEMORY = 60.0, 6 << 30
+#: Seconds of processor time for one scene.
+SECONDS = 60.0
 
 
 class Answer(NamedTuple):
-    """``report`` as JSON where there is one; else ``why`` not, and the end: a scene that is refused, as too large to
-    read, is no fault; an error, a time that was overrun and a process that broke are. ``checked``: by the checker."""
+    """``report`` as JSON where there is one; otherwise ``why`` not, and the ``end``.
 
-    end: Literal["told", "refused", "failed", "late", "killed"]
+    A scene that is ``refused``, as too large to read, is no fault; one that ``failed``, or was ``killed``, is.
+    ``verified`` and ``unaccepted``: what the checker says, where it was asked (see `rechecked`).
+    """
+
+    end: str
     report: Mapping[str, Any] | None
     why: str = ""
-    checked: Recheck = Recheck()
+    verified: Sequence[str] = ()
+    unaccepted: Mapping[str, str] = {}
 
 
 def answered(scene: Mapping[str, Any], seconds: float = SECONDS, *, certificates: bool = False) -> Answer:
-    """The report, from this process; its time is counted by the processor. ``certificates``: the checker's word too."""
+    """Return the answer of this process; its time is counted by the processor. ``certificates``: ask the checker."""
     try:
         with by_processor(seconds):
             report = dofkit.classify(dict(scene), certificate=certificates)
-        checked = rechecked(scene, report) if certificates else Recheck()
-        return Answer("told", report.model_dump(mode="json", exclude={"certificate"}), checked=checked)
+        verified, unaccepted = rechecked(scene, report) if certificates else ([], {})
+        told = report.model_dump(mode="json", exclude={"certificate"})
+        return Answer("answered", told, "", verified, unaccepted)
     except dofkit.SceneError as error:
         return Answer("refused", None, str(error))
     except Exception as error:
@@ -45,42 +48,32 @@ def answered(scene: Mapping[str, Any], seconds: float = SECONDS, *, certificates
         return Answer("failed", None, f"{type(error).__name__}: {error} ({Path(where.filename).stem}.{where.name})")
 
 
-def answered_apart(scene: Mapping[str, Any], seconds: float = SECONDS, *, certificates: bool = False) -> Answer:
-    """The report, from a process of its own, a copy of this one."""
-    _warm()
-    context = get_context("fork")
-    receiver, sender = context.Pipe(duplex=False)
-    child = context.Process(target=_answer, args=(scene, seconds, sender, certificates))
-    child.start()
-    sender.close()
-    try:
-        found: Answer = receiver.recv()
-    except EOFError:
-        child.join()
-        late = child.exitcode == -signal.SIGXCPU
-        found = Answer("late" if late else "killed", None, f"the process ended with {child.exitcode}")
-    child.join()
-    return found
+def answered_apart(
+    pool: Pool, scene: Mapping[str, Any], seconds: float = SECONDS, *, certificates: bool = False
+) -> Answer:
+    """Return the answer of a worker, which is killed after twice the time."""
+    ended = pool.run(Job(_answered, (dict(scene), seconds, certificates), 2 * seconds + 10))
+    return Answer(*ended.value) if ended.finished else Answer("killed", None, ended.reason)
 
 
-#: Scenes that have all that is imported late imported.
-_WARM: tuple[Mapping[str, Any], ...] = (
-    {"coordinates": ["x", "y", "z"], "constraints": ["dz = sin(y)*dx", "x^2 + y^2 = 1"]},
-    {"coordinates": ["x", "y"], "constraints": ["y = exp(x) + sqrt(2)", "x^3 + 2*x*y = 7"]},
-    {"dimension": 2, "bodies": ["a"], "constraints": [{"type": "revolute", "between": ["ground", "a"], "at": [0, 0]}]},
-    {"coordinates": ["x", "y"], "constraints": ["(x^2 + y^2)*(x - 1) = 0", "abs(x) <= 2"]},
-)
+def _answered(asked: tuple[Mapping[str, Any], float, bool]) -> Answer:
+    scene, seconds, certificates = asked
+    return answered(scene, seconds, certificates=certificates)
 
 
-@cache
-def _warm() -> None:
-    """Import here what a copy would else import again."""
-    for scene in _WARM:
-        answered(scene, certificates=True)
+def faults(case: KnownScene, answer: Answer) -> dict[str, Any]:
+    """Return the fields that are answered wrongly with their values; or the end, where there is no report.
+
+    Where the checker was asked, ``certified FIELD`` is wrong and verified; the claims that it refuses are faults too.
+    """
+    if answer.report is None:
+        return {} if answer.end == "refused" else {answer.end: answer.why}
+    wrong = [judgement for judgement in judged(case, answer.report) if judgement.outcome == "wrong"]
+    sure = {row.field for row in wrong if row.verdict == "proved"} & {*answer.verified}
+    values = {f"{'certified ' * (row.field in sure)}{row.field}": f"{row.value} ({row.verdict})" for row in wrong}
+    return {**values, **answer.unaccepted}
 
 
-def _answer(scene: Mapping[str, Any], seconds: float, sender: Connection, certificates: bool) -> None:
-    most = int(1.25 * seconds) + 2
-    resource.setrlimit(resource.RLIMIT_CPU, (most, most + 5))
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    sender.send(answered(scene, seconds, certificates=certificates))
+def outcome(case: KnownScene, answer: Answer) -> str:
+    """Return ``right``, ``undecided`` or ``wrong``; or how it ended without a report."""
+    return answer.end if answer.report is None else overall(judged(case, answer.report))

@@ -64,13 +64,13 @@ def test_families_stand_under_their_headings_the_hardest_last() -> None:
     from dofkit.benchmark.figures import outcomes
 
     lines = [
-        *(replace(line("a", "count", "right", 0.1), family=family) for family in ("trailers", "time", "walls")),
+        *(replace(line("a", "count", "right", 0.1), family=family) for family in ("trailers", "time", "scales")),
         *(replace(line("b", "count", "wrong", 0.1), family=family) for family in ("time", "time")),
         *(replace(line("b", "count", "wrong", 0.1), family=family) for family in ("trailers",)),
     ]
     cells = outcomes.together(score for score in summary(replace(DATA, lines=lines)).scores if score.family != "all")
-    differential, equations = HEADINGS["time"], HEADINGS["walls"]
-    assert outcomes.in_order(cells) == ["all", differential, "trailers", "time", equations, "walls"]
+    differential, equations = HEADINGS["time"], HEADINGS["scales"]
+    assert outcomes.in_order(cells) == ["all", differential, "trailers", "time", equations, "scales"]
     assert (cells["all", "count"].trials, cells["all", "count"].wrong) == (6, 3)
 
 

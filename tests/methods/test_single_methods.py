@@ -11,7 +11,7 @@ from shared.known_scenes import SCENES, VARIED, dealt, few, report_of, scene_of
 import dofkit
 import dofkit.methods
 from dofkit.base.verdicts import VERDICTS
-from dofkit.benchmark.failures import TRAITS, WHY, explained
+from dofkit.benchmark.sentences import TRAITS, WHY, explained
 from dofkit.methods.ask import answered
 from dofkit.methods.table import METHODS, QUESTIONS, Knobs, MethodName, Question, function_of
 from dofkit.report import Report

@@ -9,14 +9,12 @@ from functools import cache
 from itertools import islice
 
 import pytest
-from adversary.findings import faults, outcome
-from adversary.running import answered
+from adversary.running import answered, faults, outcome
 from shared.known_scenes import swept
 
 from dofkit.benchmark.trials.construction import KnownScene
 from dofkit.benchmark.trials.identities import CONTEXTS, NOT_ZERO, TRAPS, Trap, tiny_steps
 from dofkit.benchmark.trials.poses import JOINTED, NEAR, SWEEPS, FrameworkPose
-from dofkit.benchmark.trials.rewritten import other_coordinates
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.text import Names, parse_expression
 from dofkit.expressions.tree import num
@@ -40,7 +38,6 @@ FAMILIES: Mapping[str, tuple[Callable[[], Iterator[KnownScene]], float]] = {
     "identities": (identities, 0.7),
     "near misses of identities": (near_misses, 0.97),
     "tiny steps from integrable": (tiny_steps, 0.97),
-    "other coordinates": (other_coordinates, 0.95),
 }
 #: The same of scenes near singular poses. Far from the origin floating point tells little of measured positions.
 FLOORS = {"rounded, with tolerance": 0.85, "scaled and moved, with tolerance": 0.65}

@@ -135,7 +135,7 @@ ERROR, POINTS = 0.1, 4
 #: What is counted as the size, in the families whose size is a plain number of things; these are drawn first.
 COUNTED: Mapping[str, str] = {
     "Henneberg": "joints", "links on a line": "links", "chains of bodies": "bodies", "trailers": "trailers",
-    "chains of links": "links", "clusters": "clusters", "cliques": "joints", "double bananas": "spindles",
+    "chains of links": "links", "cliques": "joints", "double bananas": "spindles",
     "trees of bodies": "bodies",
 }  # fmt: skip
 

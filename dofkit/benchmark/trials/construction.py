@@ -24,7 +24,7 @@ class Trial:
     """One question about one scene. Its truth is never asked of dofkit.
 
     ``scene`` is a mapping as `dofkit.load` takes it; ``truth`` see `Truth`; ``because`` says in one line why it holds.
-    ``traits`` name what makes it hard (keys of `dofkit.benchmark.failures`), the one that matters most first; ``size``
+    ``traits`` name what makes it hard (keys of `dofkit.benchmark.sentences`), the one that matters most first; ``size``
     counts what grows with the family; ``swept`` holds what is varied (``digits``, ``gap``, ``scale``, ...).
     ``answer``: for equivalence, ``{"constraint": name, "text": what was handed in}``.
     """

@@ -5,9 +5,8 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from itertools import combinations
 
-from dofkit.benchmark.trials.construction import KnownScene, every, known_scene, labels, numbered, scene_of, tables
+from dofkit.benchmark.trials.construction import KnownScene, known_scene, labels, numbered, scene_of, tables
 
 TABLES = tables("equations.yaml")
 
@@ -27,25 +26,6 @@ def hidden_relations(quick: bool) -> Iterator[KnownScene]:
             traits = (main, trait) if main != trait else (trait,)
             made = scene_of(row["coordinates"], *row["rows"], last)
             about = f"{row['name']}, {how}", made, f"{row['implied']} by the rows before", traits, k + 1
-            yield known_scene(*about, dof=dof, redundancy=over)
-
-
-def power_sums(quick: bool) -> Iterator[KnownScene]:
-    """The power sums of n numbers are polynomials in the elementary symmetric ones [NewtonGirard]."""
-    because = "p_n = e_1 p_n-1 - e_2 p_n-2 + ... up to n e_n (Newton); missed, it forces e_n = 0"
-    for n in (2,) if quick else (2, 3, 4, 5):
-        x = [f"x{k}" for k in range(n)]
-        elementary = [" + ".join("*".join(c) for c in combinations(x, k)) for k in range(1, n + 1)]
-        rows = [f"e{k + 1} = {text}" for k, text in enumerate(elementary)]
-        rows += [f"p{k} = " + " + ".join(f"{q}^{k}" for q in x) for k in range(1, n + 1)]
-        names = [*x, *(f"e{k + 1}" for k in range(n)), *(f"p{k + 1}" for k in range(n))]
-        terms = [f"{'+' if i % 2 else '-'} e{i}*p{n - i}" for i in range(1, n)]
-        newton = f"p{n} = " + f"{' '.join(terms)} {'+' if n % 2 else '-'} {n}*e{n}".lstrip("+ ")
-        for how, row, dof, over in (
-            ("Newton's identity", newton, n, [f"c{2 * n + 1}"]),
-            ("Newton's identity missed", f"{newton} + e{n}", n - 1, []),
-        ):
-            about = f"{how} of {n}", scene_of(names, *rows, row), because, ("hidden-relation",), n
             yield known_scene(*about, dof=dof, redundancy=over)
 
 
@@ -134,18 +114,6 @@ def scales(quick: bool) -> Iterator[KnownScene]:
             yield known_scene(
                 *about, swept={"scale": 10.0**power}, dof=row["dof"], integrability=label, redundancy=over
             )
-
-
-def walls(quick: bool) -> Iterator[KnownScene]:
-    """Relations without velocities are holonomic, inequalities never: nothing has to be computed."""
-    for n in (2,) if quick else (2, 4, 8, 16):
-        rows = [f"x{k}^2 + x{(k + 1) % n}^2 = {k + 2}" for k in range(0, n, 2)]
-        inequalities = [f"x{k} >= {-k - 9}" for k in range(1, n, 2)]
-        made = scene_of([f"x{k}" for k in range(n)], *rows, *inequalities)
-        holonomic = every(numbered(len(rows)), True) | every(numbered(len(inequalities), len(rows) + 1), False)
-        because = "inequalities reduce nothing and are not holonomic"
-        dof = n - len(rows) if n > 2 else 1
-        yield known_scene(f"{n} coordinates", made, because, ("inequality",), n, dof=dof, integrability=holonomic)
 
 
 def branches(quick: bool) -> Iterator[KnownScene]:
@@ -249,12 +217,10 @@ def _sum(n: int, text: str, first: int = 0) -> str:
 
 FAMILIES = {
     "hidden relations": hidden_relations,
-    "power sums": power_sums,
     "rotation matrices": rotations,
     "linear rows": linear_rows,
     "touching surfaces": touching,
     "scales": scales,
-    "walls": walls,
     "branches": branches,
     "high powers": high_powers,
     "powers in forms": power_forms,

@@ -98,22 +98,6 @@ def together(quick: bool) -> Iterator[KnownScene]:
     return map(tabled, tables("forms.yaml")["together"][: 9 if quick else None])
 
 
-def near_integrable(quick: bool) -> Iterator[KnownScene]:
-    """n exact forms, one with a step e x_k dx_l in it: it does not integrate, however small the step."""
-    for n, digits in ((n, d) for n in ((1, 2) if quick else (1, 2, 4)) for d in (3, 6, 9, 12, 18, 30)):
-        names = [*(f"z{k}" for k in range(n)), "x", "y"]
-        exact = [f"dz{k} + {k + 1}*(y dx + x dy)" for k in range(n)]
-        for name, step, holonomic, because, trait in (
-            ("turned", "x dy", False, "d of the last is e dx dy, which no other form holds", "near-integrable"),
-            ("curved", "y dy", True, "all are closed", "integrable"),
-        ):
-            rows = [*(f"{form} = 0" for form in exact[:-1]), f"{exact[-1]} + 1e-{digits}*{step} = 0"]
-            labels = {f"c{k + 1}": k < n - 1 or holonomic for k in range(n)}
-            about = f"{n} forms, the last {name} by 1e-{digits}", scene_of(names, *rows), because, (trait,), n
-            dof = 2 if holonomic else 3
-            yield known_scene(*about, swept={"gap": 10.0**-digits}, dof=dof, integrability=labels)
-
-
 # Time
 
 
@@ -172,35 +156,10 @@ def _blocks(name: str, parts: Sequence[Row], because: str, traits: tuple[str, ..
     return known_scene(*about, dof=sum(part["dof"] for part in parts), integrability=labels, redundancy=over)
 
 
-def shared_heading(quick: bool) -> Iterator[KnownScene]:
-    """Discs that share their heading: each row has columns of its own, and theta sits in the coefficients of all."""
-    because = "turning takes each anywhere; held, all follow their angles; turned by the first's roll, it does"
-    for n in (1, 2) if quick else (1, 2, 4, 8):
-        names = ["th", *(f"{q}{k}" for k in range(n) for q in ("x", "y", "ph"))]
-        rows = [f"d{q}{k} = {f}(th) dph{k}" for k in range(n) for q, f in (("x", "cos"), ("y", "sin"))]
-        # what is held; the dof; how many of the constraints integrate
-        for held, dof, holonomic, trait in (
-            ([], 3 * n + 1, 0, "non-holonomic"),
-            (["th = 1"], n, 2 * n + 1, "together"),
-            (["dth = 0"], n, 2 * n + 1, "together"),
-            (["th = ph0"], 3 * n - 2, 3, "together"),
-        ):
-            labels = {f"c{i + 1}": i < holonomic for i in range(len(held) + 2 * n)}
-            about = (
-                f"{n} discs, {held[0] if held else 'free to turn'}",
-                scene_of(names, *held, *rows),
-                because,
-                (trait,),
-            )
-            yield known_scene(*about, n, dof=dof, integrability=labels)
-
-
 FAMILIES = {
     "mixed forms": mixed_forms,
     "forms together": together,
-    "near-integrable forms": near_integrable,
     "time": rheonomic,
     "rates of rates": hidden_by_time,
     "many blocks": many_blocks,
-    "discs with one heading": shared_heading,
 }

@@ -153,20 +153,6 @@ def union(vertices: Iterable[T], edges: Iterable[tuple[T, T]]) -> tuple[int, lis
     return sum(1 for _ in classes.to_sets()), closing
 
 
-def clusters(quick: bool) -> Iterator[KnownScene]:
-    """Rigid clusters with one link too many each, hinged one to the next; or with a link less."""
-    for n in (2, 4) if quick else (2, 4, 8, 16, 32, 64, 128):
-        links = [link for k in range(n) for link in combinations(range(3 * k, 3 * k + 4), 2)]
-        needed = [link for k, link in enumerate(links) if k % 6 != 5]
-        members: tuple[tuple[str, str, list[Link], list[Link]], ...] = (
-            ("both diagonals", "all pairs of four joints are one link too many", links, links[5::6]),
-            ("one diagonal", "two triangles each", needed, []),
-        )
-        for name, because, chosen, over in members:
-            turns = f"{because}; each cluster turns against the last"
-            yield _known(f"{n} quadrilaterals with {name}", (3 * n + 1, 2, chosen), turns, n, 3 + n - 1, over)
-
-
 # With positions
 
 
@@ -212,39 +198,12 @@ def braced_grids(quick: bool) -> Iterator[KnownScene]:
             yield known_scene(*about, dof=3 + components - 1, redundancy=over)
 
 
-def triangulated(quick: bool) -> Iterator[KnownScene]:
-    """Squares with a diagonal each, of any lengths: rigid, and every square off the border has a link too many."""
-    because = "each joint stands on two of a rigid framework; a third link to it is redundant"
-    for m in (2, 3) if quick else (2, 3, 4, 8, 16):
-        joints = [(i, j) for i in range(m + 1) for j in range(m + 1)]
-        links: list[tuple[str, list[str]]] = []
-        for i, j in [*((i, j) for j in range(m + 1) for i in (0, 1)), *(joint for joint in joints if joint[0] > 1)]:
-            before = [(i - 1, j), (i, j - 1), (i - 1, j - 1)]
-            links += [
-                (f"l{i}_{j}_{k}", [f"p{i}_{j}", f"p{a}_{b}"]) for k, (a, b) in enumerate(before) if a >= 0 and b >= 0
-            ]
-        over = [f"l{i}_{j}_2" for i, j in joints if i >= 2 and j >= 2]
-        needed = [link for link in links if link[0] not in over]
-        for drawn in (False, True):
-            particles = [{"name": f"p{i}_{j}", "at": [i, j]} if drawn else f"p{i}_{j}" for i, j in joints]
-            for name, chosen, dof in (
-                ("a diagonal in each", links, 3), ("no more than needed", needed, 3), ("one link less", needed[:-1], 4),
-            ):  # fmt: skip
-                constraints = [{"name": label, "type": "link", "between": pair} for label, pair in chosen]
-                made = {"dimension": 2, "particles": particles, "constraints": constraints}
-                redundant = over if chosen is links else []
-                about = f"{m} by {m} squares, {name}, {'drawn' if drawn else 'of any lengths'}", made, because
-                yield known_scene(*about, ("redundant",) if redundant else ("plain",), m, dof=dof, redundancy=redundant)
-
-
 FAMILIES = {
     "cliques": cliques,
     "complete bipartite": complete_bipartite,
     "double bananas": bananas,
     "Henneberg": henneberg,
     "links on a line": trees_on_a_line,
-    "clusters": clusters,
     "random bars": bars,
     "braced grids": braced_grids,
-    "triangulated grids": triangulated,
 }

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from dofkit.benchmark.trials.construction import KnownScene, known_scene, labels, scene_of, tables
-from dofkit.benchmark.trials.rewritten import other_coordinates
 
 TABLES = tables("identities.yaml")
 
@@ -223,16 +222,6 @@ def steps(quick: bool) -> Iterator[KnownScene]:
         yield replace(known, because="a step is exact, however small", traits=(trait,))
 
 
-def rewritten(quick: bool) -> Iterator[KnownScene]:
-    """The same scene in other coordinates: what is true of it does not change."""
-    for known in [*other_coordinates()][:: 40 if quick else STRIDE + 2]:
-        how = known.name.removeprefix(f"{known.group}, ")
-        trait = "scale" if "scaled" in how else "offset" if "moved" in how else "rewritten"
-        holonomic = [value for key, value in known.truth.items() if key.endswith(".holonomic")]
-        other = "non-holonomic" if False in holonomic else "integrable"
-        yield replace(known, because="coordinates do not change what is true", traits=(trait, other))
-
-
 def bases(quick: bool) -> Iterator[KnownScene]:
     """Powers to different bases in the coefficients of forms."""
     for number, row in enumerate(TABLES["bases"][:: 4 if quick else 1]):
@@ -253,4 +242,4 @@ def bases(quick: bool) -> Iterator[KnownScene]:
             yield known_scene(*about, dof=dof, integrability={"c1": dof == 2})
 
 
-FAMILIES = {"identities": identities, "tiny steps": steps, "other coordinates": rewritten, "mixed bases": bases}
+FAMILIES = {"identities": identities, "tiny steps": steps, "mixed bases": bases}

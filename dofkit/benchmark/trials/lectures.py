@@ -16,14 +16,6 @@ from dofkit.benchmark.trials.construction import (
 )
 from dofkit.scene.catalog import catalog_names, catalog_text
 
-#: What is done to an equation ``left = right``; is it the same constraint then?
-REWRITTEN: tuple[tuple[str, str, bool, str], ...] = (
-    ("other side", "2*({right}) = 2*({left})", True, "rewritten"),
-    ("with a factor", "(1 + {q}^2)*({left}) = (1 + {q}^2)*({right})", True, "rewritten"),
-    ("a tiny difference", "{left} = {right} + 1e-9*{q}", False, "tiny-difference"),
-    ("squared", "(({left}) - ({right}))^2 = 0", False, "irregular"),
-)
-
 
 def scenes() -> Iterator[tuple[str, dict[str, Any]]]:
     """Yield every scene of the catalog as it is written."""
@@ -47,28 +39,6 @@ def catalog(quick: bool) -> Iterator[KnownScene]:
             integrability=_labels(scene),
             redundancy=expect.get("redundant"),
         )
-
-
-def catalog_rewritten(quick: bool) -> Iterator[KnownScene]:
-    """Equations of the catalog, rewritten: the same, or not quite."""
-    for number, (name, scene) in enumerate(scenes()):
-        if quick and number % 30:
-            continue
-        plain = {key: value for key, value in scene.items() if key != "expect"}
-        q = next(iter(scene.get("coordinates") or ()), None)
-        for constraint in scene.get("constraints", ()) if q is not None else ():
-            if not isinstance(constraint, Mapping) or constraint.get("type") != "equation" or "name" not in constraint:
-                continue
-            left, equals, right = str(constraint["text"]).partition("=")
-            if not equals or left.endswith(("<", ">")) or "=" in right:
-                continue
-            entry = scene["expect"].get("constraints", {}).get(constraint["name"], {})
-            for how, text, truth, trait in REWRITTEN:
-                if entry.get("form", "finite") != "finite" and trait == "tiny-difference":
-                    continue
-                answer = (constraint["name"], text.format(left=left.strip(), right=right.strip(), q=q))
-                label = f"{name}, {constraint['name']}, {how}"
-                yield known_scene(label, plain, how, (trait,), equivalence=(*answer, truth))
 
 
 def _labels(scene: Mapping[str, Any]) -> dict[str, bool] | None:
@@ -140,59 +110,8 @@ def inequalities(quick: bool) -> Iterator[KnownScene]:
         yield known_scene(row["text"], disc, "a disc", (row["trait"], "inequality"), equivalence=answer)
 
 
-def large_answers(quick: bool) -> Iterator[KnownScene]:
-    """The same with many coordinates: spheres, sums of many rows, many forms."""
-    for n in (3,) if quick else (3, 6, 12, 24):
-        x = [f"x{k}" for k in range(n)]
-        square = " + ".join(f"{q}^2" for q in x)
-        sphere = scene_of(x, _asked(f"{square} = 1"))
-        chain = scene_of([*x, "y"], *(f"x{k} = {k} x0" for k in range(1, n)), _asked("y = x0^2"))
-        total = " + ".join(f"{k + 2}*(x{k} - {k} x0)" for k in range(1, n))
-        names = [*x, *(f"y{k}" for k in range(1, n)), "z", "w"]
-        moving = scene_of(names, *(f"dx{k} = y{k} dx0" for k in range(1, n)), _asked("dz = w dx0"))
-        left, right = (" + ".join(f"w*{text}".format(k=k) for k in range(1, n)) for text in ("dx{k}", "y{k}*dx0"))
-        members = (
-            (f"sphere in {n}, in exp", sphere, f"exp({square}) = E", "rewritten"),
-            (f"sphere in {n}, squared", sphere, f"({square} - 1)^2 = 0", "irregular"),
-            (f"sphere in {n}, another", sphere, f"{square} + 1e-9*x0*x1 = 1", "tiny-difference"),
-            (f"{n} rows, their sum", chain, f"y + {total} = x0^2", "combined"),
-            (f"{n} rows, not quite", chain, f"y + {total} = x0^2 + 1e-9*x0", "tiny-difference"),
-            (f"{n} rows, but this", chain, f"{total} = 0", "weaker"),
-            (f"{n} forms, their sum", moving, f"dz + {left} = w dx0 + {right}", "combined"),
-            (f"{n} forms, not quite", moving, f"dz + {left} = w dx0 + {right} + 1e-9*dw", "tiny-difference"),
-        )
-        for name, made, text, trait in members:
-            answer = ("asked", text, trait in ("rewritten", "combined"))
-            yield known_scene(name, made, "by its making", (trait, "large"), n, equivalence=answer)
-
-
-def tiny_answers(quick: bool) -> Iterator[KnownScene]:
-    """A difference of 10^-k, in a finite relation and in a form, beside a factor of the same size."""
-    circle = scene_of("x y", _asked("x^2 + y^2 = 4"))
-    form = scene_of("x y z", _asked("dz = y dx"))
-    rows = (
-        ("radius", circle, "x^2 + y^2 = 4 + {e}"),
-        ("ellipse", circle, "x^2 + (1 + {e}) y^2 = 4"),
-        ("centre", circle, "(x - {e})^2 + y^2 = 4"),
-        ("factor", circle, "{e}*(x^2 + y^2 - 4) = 0"),
-        ("factor of each", circle, "(1 + {e} x^2)*(x^2 + y^2) = 4 + 4*{e} x^2"),
-        ("form", form, "dz = y dx + {e} dy"),
-        ("factor of a form", form, "{e}*dz = {e}*y dx"),
-    )
-    for k in (6, 30) if quick else (3, 6, 9, 12, 15, 18, 24, 30, 60):
-        for name, made, text in rows:
-            same, e = name.startswith("factor"), f"1e-{k}"
-            because, trait = ("a factor without zeros", "rewritten") if same else ("another set", "tiny-difference")
-            answer = ("asked", text.format(e=e), same)
-            about = f"{name}, {e}", made, because, (trait,)
-            yield known_scene(*about, swept={"gap": float(e)}, equivalence=answer)
-
-
 FAMILIES = {
     "catalog": catalog,
-    "catalog rewritten": catalog_rewritten,
     "answers": answers,
     "sides": inequalities,
-    "large answers": large_answers,
-    "tiny differences": tiny_answers,
 }

@@ -246,16 +246,9 @@ def measured_poses(quick: bool) -> Iterator[KnownScene]:
     return (_freedom(case, ("measured",)) for case in islice(measured(), 0, None, 11 if quick else 1))
 
 
-def measured_anywhere(quick: bool) -> Iterator[KnownScene]:
-    """Exact drawings with a tolerance, of any size and anywhere."""
-    cases = islice(measured_elsewhere(), 0, None, 29 if quick else 3)
-    return (_freedom(case, ("measured", _moved_trait(case))) for case in cases)
-
-
 FAMILIES = {
     "near singular": near_singular,
     "size and place": scaled,
     "rounded": rounded_poses,
     "rounded, with tolerance": measured_poses,
-    "size and place, with tolerance": measured_anywhere,
 }

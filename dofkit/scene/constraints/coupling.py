@@ -20,8 +20,8 @@ from dofkit.expressions.tree import MINUS_ONE, ONE, TIME, ZERO, Expr, coordinate
 from dofkit.expressions.vectors import Vec, difference, dot, is_zero, length
 from dofkit.scene.constraints.base import ConstraintBase, root
 from dofkit.scene.constraints.joints import Axial, Joint, Measure
+from dofkit.scene.drawing import Frame, relative
 from dofkit.scene.fields import Text, untagged
-from dofkit.scene.frames import Frame, relative
 from dofkit.scene.ledger import FINITE
 from dofkit.scene.names import within_member
 from dofkit.scene.symbols import Symbol

@@ -12,8 +12,8 @@ from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import ZERO, Expr, coordinate, mul
 from dofkit.expressions.vectors import Vec, difference, dot, minus, scaled
 from dofkit.scene.constraints.base import ConstraintBase, component_relations, figures, meet
+from dofkit.scene.drawing import Frame, Placed, between
 from dofkit.scene.fields import Vector
-from dofkit.scene.frames import Frame, Placed, between
 from dofkit.scene.parts import BodyPoint, Ends, Point, show_point, show_vector
 from dofkit.scene.symbols import POINT, RING, Symbol, axle, prism, rail
 from dofkit.scene.world import Direction, World

@@ -28,7 +28,7 @@ from dofkit.scene.constraints.joints import (
     together,
     turn_rate,
 )
-from dofkit.scene.frames import Frame
+from dofkit.scene.drawing import Frame
 from dofkit.scene.symbols import RING, Stroke, Symbol, axle, box, cylinder, prism, rail
 from dofkit.scene.world import World
 from dofkit.system import DRIVE, Kinematics, Relation, TypeFacts, VelocityRow

@@ -30,8 +30,8 @@ from dofkit.scene.constraints.joints import (
     together,
     turn_rate,
 )
+from dofkit.scene.drawing import Frame, relative
 from dofkit.scene.fields import Value, Vector, as_written
-from dofkit.scene.frames import Frame, relative
 from dofkit.scene.parts import show_vector
 from dofkit.scene.symbols import RING, Stroke, Symbol, arc, axle, cylinder, helix, plate, prism
 from dofkit.scene.world import Direction, World, within
