@@ -149,7 +149,7 @@ class RunReview:
         """Return the assignment with the decisions."""
         return replace(prepared, decisions=FilledTable(self.rows).decisions)
 
-    def write(self, results: Path, prepared: Prepared) -> None:
+    def write(self, results: Iterable[Result], prepared: Prepared) -> None:
         """Write the queue of these results and say on standard error where it is. Raises OSError."""
         if self.paths is None:
             return
@@ -166,18 +166,16 @@ class RunReview:
             again = f"fill in points, then grade again with --reviewed {self.paths.table}"
             print(f"{different} review in {self.paths.table}: {again}", file=sys.stderr)
 
-    def write_page(self, results: Path, prepared: Prepared) -> None:
+    def write_page(self, results: Iterable[Result], prepared: Prepared) -> None:
         """Write the page alone, of results whose table is elsewhere. Raises OSError."""
         if self.paths is not None:
             queue = queue_of(results, prepared)
             write_page(queue, queue.rows(self.rows), prepared, self.paths.page, str(self.paths.table))
 
 
-def queue_of(results: Path, prepared: Prepared) -> Queue:
-    """Return the queue of results in dofkit's own format."""
+def queue_of(results: Iterable[Result], prepared: Prepared) -> Queue:
+    """Return the queue of the answers that wait for a person or were decided by one."""
     queue = Queue([(problem.id, question.id) for problem, question in prepared.questions()])
-    with results.open(encoding="utf-8", newline="\n") as lines:
-        for line in lines:
-            if '"needs_review":0' not in line or '"decided_by":"' in line:
-                queue.add(Result.model_validate_json(line))
+    for result in results:
+        queue.add(result)
     return queue
