@@ -110,17 +110,12 @@ MOST_NAMED = 20
 
 @dataclass
 class QueuedAnswer:
-    """A different answer: an ``item`` that it got, and how many gave it, of whom the first ones are named.
-
-    ``variant``: of the problem, where students have different ones, and what it says as far as that is known.
-    """
+    """A different answer: an ``item`` that it got, and how many gave it; the first of them have their pages."""
 
     id: str
     item: Item
     count: int = 0
-    students: list[str] = field(default_factory=list)
-    links: list[str] = field(default_factory=list)
-    variant: str = ""
+    given_by: list[tuple[str, str]] = field(default_factory=list)
 
     @property
     def open(self) -> bool:
@@ -130,9 +125,8 @@ class QueuedAnswer:
     def add(self, student: str, link: str) -> None:
         """One more student who gave it; ``link``: where the student's page is."""
         self.count += 1
-        if len(self.students) < MOST_NAMED:
-            self.students.append(student)
-            self.links.append(link)
+        if len(self.given_by) < MOST_NAMED:
+            self.given_by.append((student, link))
 
 
 class Queue:
@@ -147,7 +141,7 @@ class Queue:
         for item in result.items:
             if item.score is None or item.decided_by is not None:
                 identity = answer_id(item.problem, item.question, item.answer or "", item.variant or "")
-                queued = self.answers.setdefault(identity, QueuedAnswer(identity, item, variant=item.variant or ""))
+                queued = self.answers.setdefault(identity, QueuedAnswer(identity, item))
                 queued.add(result.student, link)
 
     def open_answers(self) -> list[QueuedAnswer]:
@@ -182,7 +176,7 @@ def cells_of(queued: QueuedAnswer) -> dict[str, str]:
         "id": queued.id,
         "problem": item.problem,
         "question": item.question,
-        "variant": queued.variant,
+        "variant": item.variant or "",
         "text": item.answer or "",
         "why": place + item.feedback,
         "readings": " | ".join(read_as for read_as, _ in ways),
@@ -193,8 +187,8 @@ def cells_of(queued: QueuedAnswer) -> dict[str, str]:
 
 
 def _who(queued: QueuedAnswer) -> dict[str, str]:
-    more = queued.count - len(queued.students)
-    named = "; ".join(queued.students) + (f"; and {more} more" if more else "")
+    more = queued.count - len(queued.given_by)
+    named = "; ".join(student for student, _ in queued.given_by) + (f"; and {more} more" if more else "")
     return {"students": str(queued.count), "given_by": named}
 
 
