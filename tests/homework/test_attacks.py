@@ -7,7 +7,9 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+import sympy as sp
 
 import dofkit
 from dofkit.homework import hand_in
@@ -111,6 +113,9 @@ def test_a_line_of_json_holds_no_end_of_line(tmp_path: Path) -> None:
 
 
 def test_a_notebook_only_writes_its_answers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path = hand_in({"p": {"f": 1, "g": ..., "h": {"x", "y"}}}, tmp_path / "answers.json", "ada@x")
-    assert json.loads(path.read_text()) == {"student": "ada@x", "answers": {"p": {"f": 1, "h": ["x", "y"]}}}
+    x = sp.Symbol("x")
+    given = {"f": 1, "g": ..., "h": {"x", "y"}, "e": sp.Eq(x, 2), "n": np.int64(3), "m": sp.Matrix([x, 1])}
+    path = hand_in({"p": given}, tmp_path / "answers.json", "ada@x")
+    written = {"f": 1, "h": ["x", "y"], "e": "Eq(x, 2)", "n": 3, "m": [["x"], ["1"]]}
+    assert json.loads(path.read_text()) == {"student": "ada@x", "answers": {"p": written}}
     assert "submit this file" in capsys.readouterr().out

@@ -96,12 +96,12 @@ def test_gradescope(prepared: Prepared) -> None:
         "extra_data": {"student": "ada", "needs_review": 0, "open_points": 0, "error": None, "doubt": None},
         "tests": [
             {
-                "name": "p.f", "number": "1.1", "score": 2.0, "max_score": 2.0, "status": "passed",
+                "name": "p.f", "score": 2.0, "max_score": 2.0, "status": "passed",
                 "output": "Correct.\nRead as: 1", "output_format": "text", "tags": [], "visibility": "visible",
                 "extra_data": {"status": "right", "max_score": 2.0},
             },
             {
-                "name": "p.rod", "number": "1.2", "score": 4.0, "max_score": 8.0, "status": "failed",
+                "name": "p.rod", "score": 4.0, "max_score": 8.0, "status": "failed",
                 "output": "Partly correct.\nRead as: x = 0\nIt is a square.", "output_format": "text",
                 "tags": ["IRREGULAR"], "visibility": "visible",
                 "extra_data": {"status": "partly", "max_score": 8.0},
