@@ -74,6 +74,23 @@ def test_the_same_submission_twice_counts_once(tmp_path: Path) -> None:
     assert results == [("ada@x", 1.0, False, False), ("ada@x", None, False, True)]
 
 
+@pytest.mark.parametrize(
+    ("name", "roster", "doubts"),
+    [
+        ("\u0430da@x", True, [False, True]),  # a Cyrillic letter
+        ("ada@x\u200b", True, [False, True]),
+        ("\u0430da@x", False, [True, True]),
+        ("eda@x", True, [False, False]),
+    ],
+)
+def test_a_name_that_looks_like_anothers_is_a_doubt(
+    name: str, roster: bool, doubts: list[bool], tmp_path: Path
+) -> None:
+    found = graded(tmp_path, {"ada@x.yaml": RIGHT, f"{name}.yaml": WRONG}, roster)
+    assert [one["doubt"] is not None for one in found] == doubts
+    assert [one["score"] for one in found] == [1.0, 0.0]
+
+
 #: Answers of one shape, of which only the first is right: a constant under another name, and two readings.
 ORACLES = [
     ("eq", "x^2 + y^2 = r^2", "x^2 + y^2 = 2 r^2"),

@@ -179,11 +179,8 @@ def test_prairielearn_stays_below_a_megabyte(status: Status, prepared: Prepared)
         ((RIGHT, PARTLY), 0.6, "Points: 6 of 10."),
         ((RIGHT, OPEN), 0.6, "This score is provisional: it includes half of the points (4 of 8)"),
         ((OPEN,), 0.4, "This score is provisional: "),
-        (
-            (RIGHT, UNREADABLE),
-            0.2,
-            "Some answers could not be read (points: 8). Write them differently and submit again.",
-        ),
+        ((RIGHT, UNREADABLE), 0.2, "Some answers could not be read (points: 8). Write them differently and submit"),
+        ((RIGHT, UNCERTAIN), 0.2, "Some answers could not be read (points: 8). Write them differently and submit"),
         ((), 0.0, "Points: 0 of 10."),
     ],
 )
@@ -304,10 +301,12 @@ class Page(HTMLParser):
         self.attributes: set[str] = set()
         self.links: list[str] = []
         self.shown = ""
+        self.scripts = 0
         self.feed(text)
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         self.tags.add(tag)
+        self.scripts += tag == "script"
         self.attributes |= {name for name, _ in attrs}
         self.links += [value or "" for name, value in attrs if name in ("href", "src", "action", "data", "srcset")]
 
@@ -328,8 +327,9 @@ def test_pages_of_hostile_students(prepared: Prepared, tmp_path: Path) -> None:
     refused = [REFUSED.model_copy(update={"student": text, "error": text or "?"}) for text in HOSTILE]
     found = pages(prepared, tmp_path, [*map(odd, HOSTILE), *reviews, *refused])
     assert len(found) == 3 * len(HOSTILE) + 2
-    for page in found.values():
-        assert not page.tags & {"script", "img", "iframe", "object", "embed", "link", "base", "form", "b"}
+    for name, page in found.items():
+        assert not page.tags & {"img", "iframe", "object", "embed", "link", "base", "form", "b"}
+        assert page.scripts == (name == "review.html")  # the form, which saves what a person decides
         assert not {name for name in page.attributes if name.startswith("on")}
         assert "\0" not in page.shown
         assert "\u202e" not in page.shown
@@ -356,6 +356,15 @@ def test_a_students_page(prepared: Prepared, tmp_path: Path) -> None:
     assert "4 / 8 ◐ partly correct Read as x = 0 It is a square." in bob
     assert "IRREGULAR" not in bob
     assert "Not final" not in bob
+
+
+def test_relations_are_formulas(prepared: Prepared, tmp_path: Path) -> None:
+    read = item("wrong", "rod", 0.0, 8.0, read_as="x_A^2 = 1 or <b>x</b> = 1")
+    pages(prepared, tmp_path, [result("ada", RIGHT, read)])
+    text = (tmp_path / "students" / "ada.html").read_text(encoding="utf-8")
+    assert text.count("<math>") == 1
+    assert "<msubsup>" in text or "<msup>" in text
+    assert " or &lt;b&gt;x&lt;/b&gt; = 1" in text
 
 
 def test_the_overview(prepared: Prepared, tmp_path: Path) -> None:

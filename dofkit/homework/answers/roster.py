@@ -62,6 +62,11 @@ _SUBMITTER = re.compile(
     r"^(?P<folder>submission_\d+):|^  :(?P<block>\w+):|^\s+(?P<next>- )?:(?P<field>name|email|sid): *(?P<value>.*)$",
     re.MULTILINE,
 )
+#: Cyrillic and Greek letters that look like Latin ones, and these.
+_LOOKALIKES = str.maketrans(
+    "\u0430\u0435\u043e\u0440\u0441\u0443\u0445\u0456\u0458\u0455\u0501\u04bb\u03b1\u03bf\u03b9\u03bd",
+    "aeopcyxijsdhaoiv",
+)
 #: Files as PrairieLearn calls them: ``UID_..._QUESTION_..._SUBMISSION_NAME``.
 _PRAIRIELEARN = re.compile(r"(?P<who>[^@\s/]+@[^@\s/_]+)_(?:.*_)?\d+_[^_]*")
 
@@ -158,6 +163,16 @@ def own_name(claim: str) -> str:
 
 def _key(text: str) -> str:
     return " ".join(unicodedata.normalize("NFC", text).casefold().split())
+
+
+def lookalike(name: str) -> str:
+    """Return what a name looks like: the same for two names that a reader cannot tell apart.
+
+    >>> lookalike("Ad\u0430 ") == lookalike("\uff21da\u200b")  # a Cyrillic letter; a wide letter and a zero-width space
+    True
+    """
+    shown = unicodedata.normalize("NFKC", name).casefold().translate(_LOOKALIKES)
+    return " ".join("".join(c for c in shown if unicodedata.category(c) != "Cf").split())
 
 
 def load_roster(path: str | os.PathLike[str]) -> Roster:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import csv
 import os
+import secrets
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -68,6 +69,7 @@ def write_page(queue: Queue, rows: Iterable[ReviewRow], prepared: Prepared, path
         "students": sum(queued.count for queued in waiting),
         "decided": [row for row in rows if row.decision is not None][:MOST_SHOWN],
         "table": table,
+        "nonce": secrets.token_urlsafe(16),
     }
     beside = path.with_name(f".{path.name}.new")
     beside.write_text(rendered("review.html", page=page), encoding="utf-8")
@@ -116,7 +118,11 @@ class RunReview:
             beside = read_table(paths.table, asked)
         if reviewed is not None:
             named = read_table(reviewed, asked)
-        rows = {**beside.rows, **{i: row for i, row in named.rows.items() if row.filled or i not in beside.rows}}
+        rows = dict(beside.rows)
+        for identity, row in named.rows.items():
+            if row.filled or identity not in rows:
+                cells = rows[identity].cells if identity in rows else {}
+                rows[identity] = replace(row, cells={**cells, **row.cells})
         return cls(paths, rows, beside.delimiter or named.delimiter)
 
     def applied(self, prepared: Prepared) -> Prepared:

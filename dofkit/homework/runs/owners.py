@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
-from dofkit.homework.answers.roster import Roster, attributed
+from dofkit.homework.answers.roster import Roster, attributed, lookalike
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.runs.batch import Orders, Outcome
 
@@ -41,11 +41,12 @@ def owned(roster: Roster | None, one: Handed, outcome: Outcome) -> OwnedOutcome:
     return OwnedOutcome(outcome, str(one.place), confirmed or one.listed)
 
 
-def settled(orders: Orders, owned_outcomes: Iterable[OwnedOutcome]) -> list[Outcome]:
+def settled(orders: Orders, owned_outcomes: Iterable[OwnedOutcome], roster: Roster | None) -> list[Outcome]:
     """Return the results in their order; each of a student's but the first is an error that names both places.
 
     A confirmed submission counts before those that only claim to be the student's. The first keeps its points with a
-    doubt if another of the same standing has other answers.
+    doubt if another of the same standing has other answers. A name that looks like another's is a doubt, too, unless
+    the roster has it.
     """
     submitted = list(owned_outcomes)
     of_student: defaultdict[str, list[int]] = defaultdict(list)
@@ -63,4 +64,13 @@ def settled(orders: Orders, owned_outcomes: Iterable[OwnedOutcome]) -> list[Outc
         for n in others:
             why = f"{submitted[n].place}: '{student}' also submitted {counted.place}: only that submission is graded"
             result[n] = orders.refused(student, why)
+    alike = defaultdict[str, set[str]](set)
+    for student in (*of_student, *(member.student for member in ([] if roster is None else roster.members))):
+        alike[lookalike(student)].add(student)
+    for n, outcome in enumerate(result):
+        twins = sorted(alike[lookalike(outcome.student)] - {outcome.student})
+        unknown = roster is None or roster.find(outcome.student) is None
+        if twins and unknown and outcome.error is None and outcome.doubt is None:
+            why = f"the name '{outcome.student}' looks like '{twins[0]}': a person has to decide whose it is"
+            result[n] = outcome.model_copy(update={"doubt": f"{submitted[n].place}: {why}"})
     return result

@@ -125,7 +125,7 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
         grading(orders, options.workers, options.scheduler) as grade_all,
         nullcontext() if out is None else closing(Journal(unfinished(out), mark)) as journal,
     ):
-        outcomes = settled(orders, _graded(grade_all, orders, stream, people, journal))
+        outcomes = settled(orders, _graded(grade_all, orders, stream, people, journal), people)
         results = [one for one in outcomes if isinstance(one, Result)]
         if form.name != NATIVE:
             form.write(iter(results), prepared, out or sys.stdout, roster)
