@@ -289,7 +289,7 @@ _OWN: dict[ArgumentKey, Argument] = {
 def _rows() -> Iterator[tuple[ArgumentKey, Argument]]:
     yield from _OWN.items()
     for row in CRITERIA:
-        check, claims = f"{row.applies.__module__}.{row.applies.__name__}", CONCLUSIONS[row.concludes]
+        check, claims = f"{row.decide.__module__}.{row.decide.__name__}", CONCLUSIONS[row.concludes]
         yield row.key, Argument(claims, row.theorem, row.hypotheses, check)
 
 

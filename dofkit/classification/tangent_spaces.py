@@ -220,7 +220,7 @@ def rigid(block: Block, dof: int, setting: Setting) -> list[str] | None:
         start = search.start(1, {})
         if search.descend(start, 1) is None:
             return None
-    fields = displacements_real(chart, lambda i: start.get(chart.ring.vars[i].key, 0.0))
+    fields = displacements_real(chart, FloatPoint(start, 1))
     rank = int(np.linalg.matrix_rank(fields, tol=ROUGH)) if fields.size else 0
     return _columns(chart, fields) if rank == dof else None
 

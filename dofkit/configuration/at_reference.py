@@ -25,7 +25,7 @@ from dofkit.base.libraries import nx
 from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import gap_in_words
 from dofkit.configuration.fewer_coordinates import smaller
-from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
+from dofkit.configuration.generic_points import chart_of_rows, field_jacobian, on_variety, pose_point
 from dofkit.configuration.local import conclusions, criteria
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
@@ -157,7 +157,7 @@ def _by_parts(
     found = []
     followed = more = 0
     for part in parts:
-        own = chart_of(chart, part.rows)
+        own = chart_of_rows(chart, part.rows)
         local, spared = _of_part(own, known, part.rank)
         if local is None:
             own, local, spared = _of_wider_part(chart, known, part, reduced)
@@ -203,7 +203,7 @@ def _of_wider_part(
     wide = widened(chart, part, found)
     if not len(part.rows) < len(wide.rows) < len(chart.relations) + chart.within:
         return chart, None, 0
-    own = chart_of(chart, wide.rows)
+    own = chart_of_rows(chart, wide.rows)
     return own, *_of_part(own, known, wide.rank)
 
 
@@ -224,8 +224,7 @@ def _by_balls(chart: Chart, known: Mapping[Expr, Expr]) -> AtReference | None:
     timed = columns - n
     part = ball_part(matrix)
     rank = part.rank
-    at = values(chart.ring, ball)
-    rigid = rigid_motions_real(chart, lambda i: float(at[chart.ring.var_node[i]].mid()))
+    rigid = rigid_motions_real(chart, ball)
     of_q = ball_part([row[:n] for row in matrix])
     local = LocalDimension(None, "undecided", gap_in_words(part.gap, "pivot"))
     if part.gap > CLEAR:
@@ -329,23 +328,3 @@ def widened(chart: Chart, part: DependentClass, found: Echelon) -> DependentClas
     within = {i for i, those in enumerate(mentioned) if those <= held}
     rows = {i for i in within if i not in found.supports or within.issuperset(found.supports[i])} | {*part.rows}
     return DependentClass(tuple(sorted(rows)), len(rows) - sum(i in found.supports for i in rows))
-
-
-def chart_of(chart: Chart, rows: Sequence[int]) -> Chart:
-    """Some of the relations on the columns that they mention."""
-    relations = tuple(chart.relations[r] for r in rows)
-    ring = Ring(relations, chart.positive)
-    nodes = tuple(ring.node(g) for g in relations)
-    mentioned = frozenset[Expr]().union(*(g.symbols for g in relations))
-    symbols = tuple(s for s in chart.symbols if s in mentioned)
-    columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
-    return replace(
-        chart,
-        ring=ring,
-        nodes=nodes,
-        symbols=symbols,
-        columns=columns,
-        unknowns=tuple(u for u in chart.unknowns if u in mentioned),
-        relations=relations,
-        kinds=tuple(chart.kinds[r] for r in rows),
-    )

@@ -8,10 +8,9 @@ theta_B = theta_A), z = 0. Coordinates and independent relations go together, so
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
-from dofkit.exact.ring.ring import Ring
+from dofkit.configuration.generic_points import chart_of_relations
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
@@ -41,22 +40,8 @@ def smaller(chart: Chart) -> tuple[Chart, int]:
     gone, left = _without_explicit(chart, said)
     if not gone:
         return chart, 0
-    relations = tuple(s.relation for s in left)
-    ring = Ring(relations, chart.positive)
-    nodes = tuple(ring.node(g) for g in relations)
-    mentioned = frozenset[Expr]().union(*(g.symbols for g in relations))
-    symbols = tuple(s for s in chart.symbols if s in mentioned)
-    small = replace(
-        chart,
-        ring=ring,
-        nodes=nodes,
-        symbols=symbols,
-        columns=tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols),
-        unknowns=tuple(u for u in chart.unknowns if u in mentioned),
-        relations=relations,
-        kinds=tuple(s.kind for s in left),
-    )
-    return small, len(chart.symbols) - len(gone) - len(symbols)
+    small = chart_of_relations(chart, [s.relation for s in left], [s.kind for s in left])
+    return small, len(chart.symbols) - len(gone) - len(small.symbols)
 
 
 def _without_explicit(chart: Chart, said: Sequence[ReducibleRelation]) -> tuple[set[Expr], list[ReducibleRelation]]:

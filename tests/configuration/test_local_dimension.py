@@ -53,18 +53,15 @@ def test_dimensions_near_a_point(texts: list[str], at: tuple[int, int, int], dim
         (2, ["x^2 + y^2"], 0),
         (2, ["x y"], 1),
         (2, ["x^2 - y^3"], 1),  # a cusp
-        (2, ["x^2 + y^4"], 0),
         (2, ["x^2 - y^4"], 1),  # two parabolas that touch
         (2, ["(x - y^2)^2"], 1),  # a parabola, singular all along
         (2, ["(x - y^2)^2 - y^7"], 1),
-        (2, ["(x - y^2)^2 + y^6"], 0),
         (2, ["x^3 + y^3"], 1),  # a line and a point's worth of complex ones
         (2, ["x^4 - y^4"], 1),
         (2, ["x^2 y"], 1),
         (1, ["x^20"], 0),
         (2, ["x^9 + y^9"], 1),
         (3, ["x^2 + y^2 - z^3"], 2),  # a pointed cap
-        (3, ["x^2 + y^2 + z^4"], 0),
         (3, ["x^2 + y^2 z"], 2),  # Whitney's umbrella
         (3, ["x^2 + y^2"], 1),  # two complex planes that meet in a real line
         (3, ["x y", "x z"], 2),  # a plane and a line
@@ -90,7 +87,10 @@ def test_dimensions_where_the_lowest_order_decides(n: int, functions: list[str],
     ("n", "functions"),
     [
         (2, ["x^3", "x y^2"]),  # a line
-        (2, ["x^4 + y^4"]),  # a point, as the next three
+        (2, ["x^2 + y^4"]),  # a point, as the next six
+        (2, ["(x - y^2)^2 + y^6"]),
+        (3, ["x^2 + y^2 + z^4"]),
+        (2, ["x^4 + y^4"]),
         (2, ["x^6 + y^6 + x^5 y"]),
         (2, ["x^3 + y^5", "y^3"]),
         (2, ["x^3 + y^3 + x^4", "x^3 - y^3"]),
@@ -98,7 +98,7 @@ def test_dimensions_where_the_lowest_order_decides(n: int, functions: list[str],
         (3, ["x^2 + (y^2 - z^2)^2"]),  # two lines
         (3, ["x^2 + z^4", "y^2 + z^4"]),  # a point
         (2, ["(x - y^2)^2 + y^30"]),  # a point, seen only at a distance
-        (1, ["x^64"]),
+        (2, ["x^40 y^40"]),  # two lines
     ],
 )
 def test_what_the_lowest_order_does_not_decide_is_left_open(n: int, functions: list[str]) -> None:

@@ -48,7 +48,7 @@ GLOSSES: Mapping[str, str] = {
 
 def _family(name: str) -> Family:
     def trials(quick: bool) -> Iterator[Trial]:
-        every = (trial for known in KNOWN_SCENES[name](quick) for trial in known.trials(name))
+        every = (trial for scene in KNOWN_SCENES[name](quick) for trial in scene.trials(name))
         return few(every) if quick else every
 
     return trials

@@ -133,14 +133,14 @@ def hidden_by_time(quick: bool) -> Iterator[KnownScene]:
 
 def many_blocks(quick: bool) -> Iterator[KnownScene]:
     """Copies of one part, each in its own coordinates: what is true of one holds of each."""
-    parts = tables("forms.yaml")["blocks"]
-    for part in parts:
+    blocks = tables("forms.yaml")["blocks"]
+    for part in blocks:
         for n in (1, 2) if quick else (1, 4, 8, 16, 64):
             if n <= part["most"]:
                 traits = (*part["traits"], "many-blocks")
                 yield _blocks(f"{n} times {part['name']}", [part] * n, part["because"], traits)
     for n in (1,) if quick else (1, 2, 4):
-        yield _blocks(f"{n} of each", [*parts] * n, "freedoms of separate parts add up", ("many-blocks",))
+        yield _blocks(f"{n} of each", [*blocks] * n, "freedoms of separate parts add up", ("many-blocks",))
 
 
 def _blocks(name: str, parts: Sequence[Row], because: str, traits: tuple[str, ...]) -> KnownScene:

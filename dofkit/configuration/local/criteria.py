@@ -1,6 +1,6 @@
 """The criteria for finite motion and rigidity, in the order in which they are asked, and their driver.
 
-The first row whose hypotheses hold and whose function comes to a conclusion decides. A new criterion is a function of
+The first row whose function comes to a conclusion decides. A new criterion is a function of
 the germ (`germ.Germ`) in `conclusions` and a row here; its theorem is a line of `dofkit/THEOREMS.md`.
 """
 
@@ -31,16 +31,15 @@ UNDECIDED = LocalDimension(
 class Criterion:
     """A row of the table; m, mu, k, M and N as in `germ`.
 
-    ``hypotheses`` in words, and ``applies``, which checks them; ``decide`` gives its conclusion, None where it comes to
-    none. ``concludes``: "motion" where first-order motions, or some of them, are finite ones; "rigidity" where only
-    motions of the whole are; "nothing" where the question is left open and no later row is asked. ``verdict``: how sure
-    that is at the best; with balls alone it is "numeric".
+    ``hypotheses`` in words; ``decide`` checks them and returns the conclusion, None where it comes to none.
+    ``concludes``: "motion" where first-order motions, or some of them, are finite ones; "rigidity" where only motions
+    of the whole are; "nothing" where the question is left open and no later row is asked. ``verdict``: how sure that
+    is at the best; with balls alone it is "numeric".
     """
 
     key: ArgumentKey
     theorem: str
     hypotheses: str
-    applies: Callable[[Germ], bool]
     concludes: Literal["motion", "rigidity", "nothing"]
     verdict: Verdict
     decide: Callable[[Germ], Conclusion | None]
@@ -57,7 +56,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "independent relations",
         "ImplicitFunctions",
         "all equations are independent at the point (k = 0)",
-        conclusions.independent,
         "motion",
         "proved",
         conclusions.manifold,
@@ -66,26 +64,15 @@ CRITERIA: tuple[Criterion, ...] = (
         "rigid to first order",
         "AsimowRoth1978",
         "the equations allow only the velocities of rigid motions of the system (m = mu)",
-        conclusions.rigid_to_first_order,
         "rigidity",
         "proved",
         conclusions.orbit,
-    ),
-    Criterion(
-        "degree too high",
-        "SchwartzZippel",
-        "a dependent equation has a degree beyond the orders that are examined",
-        conclusions.of_high_degree,
-        "nothing",
-        "undecided",
-        conclusions.unfollowed,
     ),
     Criterion(
         "zero along a curve",
         "SchwartzZippel",
         "the dependent equations vanish along a random curve of M to an order above their degree, and at a "
         "finite distance",
-        conclusions.vanishing,
         "motion",
         "probable",
         conclusions.whole_manifold,
@@ -93,8 +80,8 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "flat along a curve",
         "SchwartzZippel",
-        "the dependent equations vanish along a random curve of M, but not, or not verifiably, at a finite distance",
-        conclusions.vanishing_here,
+        "the dependent equations vanish along a random curve of M, but not to an order above their degree, or not "
+        "verifiably at a finite distance",
         "nothing",
         "undecided",
         conclusions.flat,
@@ -104,7 +91,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "IsolatedZeros",
         "one motion remains besides the rigid motions of the system (m = mu + 1), and a dependent equation "
         "is not zero along it",
-        conclusions.of_one_variable,
         "rigidity",
         "proved",
         conclusions.isolated_zero,
@@ -113,7 +99,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "indefinite form",
         "HurewiczWallman1941",
         "one dependent equation, whose second order has certified squares of both signs; time, if any, moves on M",
-        conclusions.one_form,
         "motion",
         "proved",
         conclusions.indefinite,
@@ -122,7 +107,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "definite form",
         "MorseBott",
         "one dependent equation, whose second order has m - mu certified squares, all of one sign",
-        conclusions.one_form,
         "rigidity",
         "proved",
         conclusions.definite,
@@ -131,7 +115,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "definite combination",
         "ConnellyWhiteley1996",
         "several dependent equations, of whose second orders a combination has m - mu certified squares of one sign",
-        conclusions.several_forms,
         "rigidity",
         "proved",
         conclusions.prestress_stable,
@@ -141,7 +124,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "GromollMeyer1969",
         "one dependent equation, of second order of one sign, and which vanishes on its critical set N as "
         "far as examined",
-        conclusions.split_form,
         "motion",
         "probable",
         conclusions.least_along_a_motion,
@@ -150,35 +132,15 @@ CRITERIA: tuple[Criterion, ...] = (
         "change of sign",
         "HurewiczWallman1941",
         "one dependent equation, whose second order and lowest order on N together take both signs",
-        conclusions.split_form,
         "motion",
         "probable",
         conclusions.changing_sign,
-    ),
-    Criterion(
-        "definite at a higher order",
-        "GromollMeyer1969",
-        "one dependent equation, whose second order and lowest order on N are of one sign, and N has dimension mu + 1",
-        conclusions.split_form,
-        "rigidity",
-        "probable",
-        conclusions.definite_at_higher_order,
-    ),
-    Criterion(
-        "no second-order flex",
-        "TangentCone",
-        "several dependent equations, whose second orders have a cone of common zeros of dimension mu, and no more",
-        conclusions.several_forms_over_both,
-        "rigidity",
-        "proved",
-        conclusions.no_second_order_flex,
     ),
     Criterion(
         "critical branch",
         "TangentCone",
         "several dependent equations, all zero on N as far as examined, which has the dimension of their "
         "second-order cone",
-        conclusions.several_forms_over_both,
         "motion",
         "probable",
         conclusions.critical_branch,
@@ -187,7 +149,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "branch followed",
         "TangentCone",
         "several dependent equations; a branch of the dimension of their second-order cone was found numerically",
-        conclusions.several_forms_over_both,
         "motion",
         "numeric",
         conclusions.branch_followed,
@@ -198,7 +159,7 @@ CRITERIA: tuple[Criterion, ...] = (
 def decision(germ: Germ) -> tuple[Criterion | None, LocalDimension]:
     """The first criterion that decides, and what it says; None where all are asked and none does."""
     for criterion in CRITERIA:
-        told = criterion.decide(germ) if criterion.applies(germ) else None
+        told = criterion.decide(germ)
         if told is None:
             continue
         verdict = weakest(criterion.verdict, told.verdict, "proved" if germ.exact else "numeric")
@@ -274,6 +235,6 @@ def _vanish(germ: Germ) -> bool | None:
     with ctx.workprec(max(ctx.prec, precision())):
         if germ.dependent == 0 or germ.m == germ.rigid:
             return True
-        if conclusions.of_high_degree(germ):
-            return None
-        return germ.vanishes_away if germ.vanishes else False
+        if not germ.vanishes:
+            return False
+        return None if germ.order <= germ.degree else germ.vanishes_away
