@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 from dofkit.base.errors import DofkitError, Fault
 from dofkit.base.wording import nearest
-from dofkit.homework.answers.spreadsheet import Row, decoded, spreadsheet
+from dofkit.homework.answers.spreadsheet import SpreadsheetRow, decoded, spreadsheet
 from dofkit.homework.answers.submission import clean
 from dofkit.homework.result import Item, Result
 
@@ -250,7 +250,7 @@ class _TableReader:
     def table(self, text: str) -> FilledTable:
         """All rows. Raises ReviewError."""
         delimiter, rows = spreadsheet(text, lambda cells: any(name in COLUMNS for name in cells))
-        columns = self._header(next(rows, Row(1, [])))
+        columns = self._header(next(rows, SpreadsheetRow(1, [])))
         for row in rows if columns else ():
             if row.error is None:
                 self._row(row.line, columns, row.cells)
@@ -269,7 +269,7 @@ class _TableReader:
     def _fault(self, message: str, line: int, column: int, hint: str | None = None) -> None:
         self.faults.append(Fault(message, (), line, column, hint))
 
-    def _header(self, row: Row) -> dict[str, int]:
+    def _header(self, row: SpreadsheetRow) -> dict[str, int]:
         """Return where each column stands; nothing where one is missing."""
         line, cells, _ = row
         names = [cell.strip().lower() for cell in cells]

@@ -16,7 +16,7 @@ csv.field_size_limit(MOST_CHARACTERS)
 _OPEN = "a quotation mark is never closed"
 
 
-class Row(NamedTuple):
+class SpreadsheetRow(NamedTuple):
     """The first line of a row, its cells, and why they cannot be taken apart."""
 
     line: int
@@ -28,7 +28,7 @@ class Spreadsheet(NamedTuple):
     """A table: its delimiter, and the rows that say anything, the header first."""
 
     delimiter: str
-    rows: Iterator[Row]
+    rows: Iterator[SpreadsheetRow]
 
 
 def decoded(data: bytes) -> str:
@@ -65,7 +65,7 @@ def _first(lines: list[str], start: int) -> int:
     return next((n for n in range(start, len(lines)) if lines[n].strip(" \t\r\n,;|")), len(lines))
 
 
-def _rows(lines: list[str], start: int, delimiter: str) -> Iterator[Row]:
+def _rows(lines: list[str], start: int, delimiter: str) -> Iterator[SpreadsheetRow]:
     while start < len(lines):
         end, cells, error = start, list[str](), None
         while end == start or (error == _OPEN and end < min(len(lines), start + MOST_LINES)):
@@ -74,7 +74,7 @@ def _rows(lines: list[str], start: int, delimiter: str) -> Iterator[Row]:
         if error is not None:
             end, cells = start + 1, lines[start].rstrip("\r\n").replace('"', "").split(delimiter)
         if any(cell.strip() for cell in cells):
-            yield Row(start + 1, cells, error)
+            yield SpreadsheetRow(start + 1, cells, error)
         start = end
 
 

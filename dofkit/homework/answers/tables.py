@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 from dofkit.base.wording import nearest
 from dofkit.homework.answers.roster import identity_column
-from dofkit.homework.answers.spreadsheet import DELIMITERS, Row, cells_of, spreadsheet
+from dofkit.homework.answers.spreadsheet import DELIMITERS, SpreadsheetRow, cells_of, spreadsheet
 from dofkit.homework.answers.submission import clean
 
 STUDENT = "student"
@@ -71,7 +71,7 @@ def rows(text: str, known: Columns) -> Iterator[TableRow]:
     yield from answered
 
 
-def _header(row: Row | None, known: Columns) -> Header:
+def _header(row: SpreadsheetRow | None, known: Columns) -> Header:
     if row is None:
         raise TableError("it is empty")
     names = [cell.strip() for cell in row.cells]
@@ -130,7 +130,7 @@ def _split(name: str) -> tuple[str, str]:
     return problem.strip(), question.strip()
 
 
-def _row(header: Header, row: Row) -> TableRow:
+def _row(header: Header, row: SpreadsheetRow) -> TableRow:
     cells, error = row.cells, row.error or header.fault
     width = len(header.asked)
     named = header.student >= 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import networkx as nx
@@ -86,22 +87,7 @@ def _counted(key: Key) -> SceneCounts:
     bars.add_edges_from((a, b) for _, a, b in system.links)
     groups = [bars.subgraph(c) for c in nx.connected_components(bars)]
     held = [name for entry, constraint in pairs for name in _held(entry, constraint)]
-    finite = [(e, c, _owners(c, system)) for e, c in pairs if e.form == "finite"]
-    alone, shared = Counter[str | None](), Counter[str | None]()
-    surplus = guides = 0
-    for entry, constraint, owners in finite:
-        facts = constraint.facts
-        single = len(owners) == 1
-        for owner in owners if single or facts.shared else ():
-            shared[owner] += entry.equations // len(owners)
-        if single and facts.surface:
-            guides += facts.written
-            alone.update(dict.fromkeys(owners, entry.equations))
-        elif facts.shared and d == SPACE:
-            surplus += entry.equations - len(owners)
-    if d == SPACE:
-        surplus += sum(max(0, alone[name] - 1) for name in particles)
-    guides += sum(c.facts.slides for _, c in pairs)
+    surplus, on_curves, guides = _surfaces(pairs, system, particles, d)
     return SceneCounts(
         dof=dof,
         n=n,
@@ -114,7 +100,7 @@ def _counted(key: Key) -> SceneCounts:
         rods=sum(len(g) == 2 for g in groups),
         clusters=sum(len(g) > 2 and g.number_of_edges() == len(g) * (len(g) - 1) // 2 for g in groups),
         surplus=surplus,
-        on_curves=sum(shared[name] == d - 1 for name in particles),
+        on_curves=on_curves,
         planes=sum(name[0] in "xyzXYZ" for name in held) if n >= SPACE else 0,
         fixed=len(held),
         forces=[force.type for force in scene.forces],
@@ -128,6 +114,28 @@ def _counted(key: Key) -> SceneCounts:
         guides=0 if len(particles) + bodies < 2 and n < SPACE else guides,
         joints=sum(c.facts.planar_pair for _, c in pairs),
     )
+
+
+def _surfaces(
+    pairs: Sequence[tuple[ConstraintEntry, Constraint]], system: System, particles: Sequence[str], d: int
+) -> tuple[int, int, int]:
+    """Return the surplus surfaces, the particles on curves, and the guides."""
+    alone, shared = Counter[str | None](), Counter[str | None]()
+    surplus, guides = 0, sum(constraint.facts.slides for _, constraint in pairs)
+    for entry, constraint in pairs:
+        facts, owners = constraint.facts, _owners(constraint, system)
+        if entry.form != "finite":
+            continue
+        for owner in owners if len(owners) == 1 or facts.shared else ():
+            shared[owner] += entry.equations // len(owners)
+        if len(owners) == 1 and facts.surface:
+            guides += facts.written
+            alone.update(dict.fromkeys(owners, entry.equations))
+        elif facts.shared and d == SPACE:
+            surplus += entry.equations - len(owners)
+    if d == SPACE:
+        surplus += sum(max(0, alone[name] - 1) for name in particles)
+    return surplus, sum(shared[name] == d - 1 for name in particles), guides
 
 
 def _coordinates(e: Expr) -> list[str]:
