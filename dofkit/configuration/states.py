@@ -179,9 +179,9 @@ class States:
     def _search(self, nodes: Sequence[int], unknowns: Sequence[Expr]) -> RealSearch:
         return RealSearch(self.ring, nodes, unknowns, self.setting.positive)
 
-    def certain(self, count: int, first: int = 0) -> Iterator[BallPoint]:
-        """Real states that are certified, at generic configurations; of so many searches, from the ``first`` on."""
-        for k in range(first, first + count):
+    def certain(self, count: int) -> Iterator[BallPoint]:
+        """Real states that are certified, at generic configurations, of so many searches."""
+        for k in range(count):
             found = self.real(k)
             if found is not None and found.certified and found.consistent:
                 whole, moving, finite = self.ranks(found.point)
