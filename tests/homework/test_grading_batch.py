@@ -465,8 +465,9 @@ def hostile(*answers: Mapping[str, str]) -> list[Handed]:
 def statuses(given: Sequence[Handed], workers: int) -> Iterator[tuple[str, list[str], list[str]]]:
     with Pool(workers) as pool:
         for _, (line,) in in_order(pool, Keeper(orders(), pool).grade, given):
-            items = json.loads(line.text)["items"]
-            yield line.student, [item["status"] for item in items], [item["feedback"] for item in items]
+            result = json.loads(line)
+            items = result["items"]
+            yield result["student"], [item["status"] for item in items], [item["feedback"] for item in items]
 
 
 @pytest.mark.sweep

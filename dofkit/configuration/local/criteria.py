@@ -20,7 +20,7 @@ from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.points.balls import BallPoint, precision
 from dofkit.exact.points.field import FieldPoint
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 
 UNDECIDED = LocalDimension(
     None, "undecided", "the equations are dependent here and their lowest-order terms do not decide"

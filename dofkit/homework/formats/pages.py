@@ -8,6 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from dofkit.expressions.text.typesetting import mathml, typeset
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import STATUSES, line, number, open_points, plain, stop_of
 from dofkit.homework.problem import Problem
@@ -139,7 +140,7 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters.update(plain=plain, line=line, number=number, stop=stop_of, pieces=_pieces)
+    environment.filters.update(plain=plain, line=line, number=number, stop=stop_of, pieces=_pieces, formulas=_formulas)
     environment.globals["badges"] = BADGES
     return environment
 
@@ -147,3 +148,10 @@ def _environment() -> Environment:
 def _pieces(text: str) -> list[str]:
     """A text cut at the names between backquotes: what is around them and, at every second place, a name."""
     return _NAME.split(plain(text))
+
+
+def _formulas(text: str) -> list[tuple[str, str]]:
+    """Return the parts of how an answer was read, each with its MathML if it is a relation in the grammar of scenes."""
+    parts = re.split("(; | or )", plain(text))
+    formulas = [typeset(part) if re.search("[=<>]", part) else None for part in parts]
+    return [("" if latex is None else mathml(latex), part) for latex, part in zip(formulas, parts, strict=True)]
