@@ -1,7 +1,7 @@
 """Certificates by hand, those that hold and those that are forged: each in a table of ``claims/``, as what it is.
 
 An entry has a scene, claims and the parts of a certificate. All claims are verified, or those of ``refused`` are not
-(``why``: part of the reason for the last). ``verified with`` and ``refused with`` list edits: new values at
+(``why``: words of the reason for the last). ``verified with`` and ``refused with`` list edits: new values at
 paths of keys, and what is left out (``without``); ``refused``: exactly these claims, where there are several.
 """
 
@@ -31,7 +31,7 @@ def entries() -> Iterator[Any]:
 def edited(certificate: Entry, edit: Entry) -> Entry:
     """A copy with the edit's values at their paths, and without what it leaves out."""
     made = deepcopy(certificate)
-    values = {path: value for path, value in edit.items() if path not in ("without", "refused")}
+    values = {path: value for path, value in edit.items() if path not in ("without", "refused", "why")}
     for path in (*values, *edit.get("without", [])):
         *above, last = path.split("/")
         place: Any = made
@@ -62,3 +62,4 @@ def test_what_holds_is_verified_and_what_is_forged_is_refused(entry: Entry) -> N
         failed = refused(edited(certificate, edit))
         assert list(failed) == edit.get("refused", list(failed))
         assert failed, edit
+        assert edit.get("why", "") in list(failed.values())[-1]
