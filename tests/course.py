@@ -250,7 +250,7 @@ def run_sheet(folder: Path, name: str, students: Sequence[str]) -> dict[str, int
             more = ("--format", form, "--out", target, "--roster", "roster.csv")
             dofkit(folder, "export", "grades", varied, out / "results.jsonl", *more)
         exported(name, form, target, again)
-    dofkit(folder, "export", "gradescope", varied, "--no-wheels", "--reviewed", out / "review.csv", "--out",
+    dofkit(folder, "export", "gradescope", varied, "--reviewed", out / "review.csv", "--out",
            f"{name}.zip")  # fmt: skip
     return {
         "students": len(again), "right": sum(i["status"] == "right" for one in again.values() for i in one["items"]),

@@ -40,7 +40,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import FollowedClasses
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 
 #: A gap between singular values that tells them apart.
 CLEAR = 1e3

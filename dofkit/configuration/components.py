@@ -32,7 +32,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 from dofkit.relations.normal.zero_set import never_vanishes
 
 #: Relations that are looked at; nodes of an expression past which no coordinate is put into it; cases of all parts

@@ -13,8 +13,7 @@ from dofkit.configuration.generic_points import chart_of_relations
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import linear
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart, linear
 
 #: Coordinates are not replaced by longer sums than this: what they stand in would fill up.
 TERMS = 5

@@ -24,8 +24,7 @@ from dofkit.exact.zero import doubt
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer, RealRows
-from dofkit.relations.blocks import Block
-from dofkit.relations.chart import Chart, make_chart
+from dofkit.relations.blocks import Block, Chart, make_chart
 from dofkit.relations.setting import Setting
 
 OFF_REFERENCE = (

@@ -31,7 +31,7 @@ from dofkit.exact.ring.program import values
 from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 
 
 def variety_at(chart: Chart, samples: list[FieldPoint], seed: int, core: Sequence[int]) -> Variety:

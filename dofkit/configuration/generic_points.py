@@ -17,7 +17,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 from dofkit.relations.setting import ReductionName
 
 #: Points over GF(p) that must agree.

@@ -39,7 +39,7 @@ from dofkit.exact.points.series import Series
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 from dofkit.relations.setting import Setting
 
 #: Points that are looked for beside a drawing, and how far they are begun, in the columns' scales.

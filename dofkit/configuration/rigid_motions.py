@@ -16,7 +16,7 @@ from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import gradient, values
 from dofkit.expressions import tree as ex
-from dofkit.relations.chart import Chart, Displacement, displacement_fields, free_point
+from dofkit.relations.blocks import Chart, Displacement, displacement_fields, free_point
 from dofkit.relations.setting import Setting
 
 #: Random real points that are tried.

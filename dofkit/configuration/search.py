@@ -31,8 +31,7 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import differs_from_zero, interval_of
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import presolve
-from dofkit.relations.chart import Chart, free_point
+from dofkit.relations.blocks import Chart, free_point, presolve
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.zero_set import candidates, is_analytic_in_coordinates
 

@@ -26,8 +26,7 @@ from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Block, Row
-from dofkit.relations.chart import aliases
+from dofkit.relations.blocks import Block, Row, aliases
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting

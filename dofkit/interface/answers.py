@@ -133,7 +133,9 @@ def _report_text(report: Report, scene: Scene, request: Request, sections: Seque
 
 def _with_certificate(scene: Scene, report: Report, path: str) -> Report:
     """Return the report with its certificate, which is written to a path."""
-    from dofkit.methods.classify import with_certificate  # few runs ask for certificates, whose search is large
+    from dofkit.methods.certificates.lowering import (
+        with_certificate,  # few runs ask for certificates, whose search is large
+    )
 
     report = with_certificate(scene, report)
     _write_certificate(report.certificate, path)

@@ -275,9 +275,9 @@ def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tup
     if kind in _NEEDS:
         return f"{_NEEDS[kind]} is needed, not {in_words(detail['input'])}", None
     if kind == "literal_error":
-        known = re.findall(r"'([^']*)'", str(context["expected"]))
+        choices = re.findall(r"'([^']*)'", str(context["expected"]))
         return f"{in_words(detail['input'])} is not one of {context['expected']}", suggestion(
-            detail["input"], known, "choices"
+            detail["input"], choices, "choices"
         )
     if kind in ("too_short", "too_long"):
         bound = int(context.get("min_length", context.get("max_length", 0)))

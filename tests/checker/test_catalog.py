@@ -20,7 +20,7 @@ UNCOVERED: Mapping[str, tuple[str, str]] = {
         "angles of Euler, at a pose where they are singular",
         "ball-and-socket-chain block-on-table cylindrical-driven cylindrical-piston lead-screw rccc-linkage "
         "rigid-body-fixed-axis rigid-body-four-bars-space rssr-linkage welded-bracket",
-    ),
+    )
 }
 #: The least share of the proved claims of all test scenes, and of a tenth, that verify.
 LEAST = 0.95

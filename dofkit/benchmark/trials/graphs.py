@@ -84,8 +84,8 @@ def bananas(quick: bool) -> Iterator[KnownScene]:
         ]  # fmt: skip
         for how, joints, links, dof, over, because in members:
             if how != "in a ring" or n > 2:
-                known = _known(f"{n} bananas {how}", (joints, 3, links), because, n, dof, over)
-                yield replace(known, traits=("banana",)) if over else known
+                scene = _known(f"{n} bananas {how}", (joints, 3, links), because, n, dof, over)
+                yield replace(scene, traits=("banana",)) if over else scene
 
 
 def _spindle(a: int, b: int, first: int) -> list[Link]:

@@ -186,11 +186,11 @@ def identities(quick: bool) -> Iterator[KnownScene]:
     """Zero by an identity, or missed by a constant that floating point does not see, or by a sign."""
     names = set()
     for trap, text, zero, trait, number in _traps(9 if quick else 1):
-        known = _in_context(trap, text, zero, number)
-        if known is not None and known.name not in names:
-            names.add(known.name)
+        scene = _in_context(trap, text, zero, number)
+        if scene is not None and scene.name not in names:
+            names.add(scene.name)
             because = "zero by an identity" if zero else "an identity missed by a constant, or by a sign"
-            yield replace(known, because=because, traits=(trait,))
+            yield replace(scene, because=because, traits=(trait,))
 
 
 def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, str, int]]:
@@ -209,7 +209,7 @@ def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, str, int]]:
 def _in_context(trap: Trap, text: str, zero: bool, number: int) -> KnownScene | None:
     """Return the trap in the first context from this number on in which it can stand."""
     scenes = (CONTEXTS[(number + turn) % len(CONTEXTS)](trap, text, zero) for turn in range(len(CONTEXTS)))
-    return next((known for known in scenes if known is not None), None)
+    return next((scene for scene in scenes if scene is not None), None)
 
 
 def steps(quick: bool) -> Iterator[KnownScene]:
@@ -228,10 +228,10 @@ def bases(quick: bool) -> Iterator[KnownScene]:
         zero = row["zero"]
         trap = Trap(row["name"], zero, None, "w")
         for turn, (text, is_zero) in enumerate(((zero, True), (f"{zero} + 1e-12", False), (f"{zero} + 1", False))):
-            known = _in_context(trap, text, is_zero, 2 * number + turn)
-            if known is not None:
+            scene = _in_context(trap, text, is_zero, 2 * number + turn)
+            if scene is not None:
                 because = "one function, written to two bases" if is_zero else "off by a constant"
-                yield replace(known, because=because, traits=("mixed-bases" if is_zero else "near-identity",))
+                yield replace(scene, because=because, traits=("mixed-bases" if is_zero else "near-identity",))
     for power in (2,) if quick else (2, 3, 5, 8, 12):
         for name, second, dof, because in (
             (f"a factor 2^({power} x)", "dy", 2, "dz + dy"),

@@ -21,7 +21,7 @@ from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.points.balls import BallPoint, precision
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 
 UNDECIDED = LocalDimension(
     None, "undecided", "the equations are dependent here and their lowest-order terms do not decide"

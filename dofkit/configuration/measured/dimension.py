@@ -31,7 +31,7 @@ from dofkit.configuration.measured.equations import (
 )
 from dofkit.exact.matrices.certified import dependency_pattern, greedy_pivots
 from dofkit.expressions.tree import Expr
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 from dofkit.relations.setting import Setting
 
 #: From so many sizes from the origin singular values are smaller by the square of that, since turns are about it; from

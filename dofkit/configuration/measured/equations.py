@@ -20,8 +20,7 @@ from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Block
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Block, Chart
 from dofkit.relations.setting import Setting
 
 #: A singular value counts as 0 below tolerance * SLACK; between that and tolerance * GREY the rank is undecided.
