@@ -34,7 +34,7 @@ from shared.trees import tree_with_loops
 
 import dofkit
 from dofkit.benchmark.command import machine
-from dofkit.benchmark.trials.chains import car
+from dofkit.benchmark.trials.forms import car
 
 #: Seconds that a row may take by the clock, what it needs included.
 PATIENCE = 60.0

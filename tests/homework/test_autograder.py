@@ -84,10 +84,10 @@ def test_gradescope(sheet: Path, tmp_path: Path) -> None:
     assert found["extra_data"]["student"] == "ada@uni.example"
     assert "ada@uni.example's, but names 'somebody else'" in found["extra_data"]["doubt"]
     assert found["output"].startswith("This result is not final: it was submitted as ada@uni.example's")
-    assert [(t["number"], t["score"], t["max_score"], t["status"]) for t in found["tests"]] == [
-        ("1.1", 2.0, 2.0, "passed"),
-        ("1.2", 4.0, 8.0, "failed"),
-        ("2.1", 0.0, 0.5, "failed"),
+    assert [(t["name"], t["score"], t["max_score"], t["status"]) for t in found["tests"]] == [
+        ("pendulum.f", 2.0, 2.0, "passed"),
+        ("pendulum.rod", 4.0, 8.0, "failed"),
+        ("disc.f", 0.0, 0.5, "failed"),
     ]
     assert sorted(path.name for path in (root / "results").iterdir()) == ["results.json"]
 
@@ -138,8 +138,8 @@ def test_when_points_are_shown(line: str, expected: str, sheet: Path, tmp_path: 
     root = hand_in(tmp_path / "root" / "submission", answers__json=json.dumps({"answers": given}))
     grade_at(replace(SITES["gradescope"], root=root), sheet, MEMORY)
     found = written(root, "gradescope")
-    judged = [test for test in found["tests"] if "number" in test]
-    read = [test for test in found["tests"] if "number" not in test]
+    judged = [test for test in found["tests"] if "extra_data" in test]
+    read = [test for test in found["tests"] if "extra_data" not in test]
     assert {found["visibility"], *(test["visibility"] for test in judged)} == {expected}
     if expected == "visible":
         assert read == []

@@ -439,19 +439,6 @@ def test_points_decided_by_hand_are_in_every_format(form: str, course: Course) -
 
 
 @pytest.mark.sweep
-def test_any_number_of_workers_decides_the_same(course: Course) -> None:
-    course.grade()
-    table = course.fill({UNREAD: "3"})
-    one = course.grade("--reviewed", str(table), out="-")[1]
-    two = called(
-        course.capsys, "grade", str(course.sheet), str(course.folder / "class.jsonl"), "--workers", "2",
-        "--reviewed", str(table),
-    )[1]  # fmt: skip
-    assert one == two
-    assert '"decided_by":"review"' in one
-
-
-@pytest.mark.sweep
 def test_reading_alone_goes_with_it(course: Course) -> None:
     course.grade()
     table = course.fill({UNREAD: "3"})
