@@ -34,6 +34,7 @@ from shared.trees import tree_with_loops
 
 import dofkit
 from dofkit.benchmark.command import machine
+from dofkit.benchmark.trials.forms import car
 
 #: Seconds that a row may take by the clock, what it needs included.
 PATIENCE = 60.0
@@ -290,8 +291,8 @@ ROWS = {
     "dense-4-8": Row("four in 8", seconds(0.15), partial(forms, dense(4, 8), 4, 5)),
     "dense-8-16": Row("eight in 16", seconds(0.5), partial(forms, dense(8, 16), 8, 3)),
     "trailers-6": Row("a car with 6 trailers", times(40),
-                      partial(forms, speed_scenes.car(6), 10, 5, (speed_scenes.sympy_car, 6)), WEDGE),
-    "trailers-20": Row("a car with 20 trailers", seconds(0.4), partial(forms, speed_scenes.car(20), 24, 3)),
+                      partial(forms, car(6), 10, 5, (speed_scenes.sympy_car, 6)), WEDGE),
+    "trailers-20": Row("a car with 20 trailers", seconds(0.4), partial(forms, car(20), 24, 3)),
     "truss": Row("10^5 constraints in one scene: a truss of links", seconds(10),
                  partial(links, speed_scenes.truss, 100_000, 4)),
     "apart": Row("the same: triangles of links", seconds(10),

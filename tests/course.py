@@ -1,9 +1,8 @@
 """A whole course, dry: fifty students, four sheets with a variant for each, review, grading again, every platform.
 
-python tests/course.py FOLDER [SCREENSHOTS]
+python tests/course.py FOLDER
 
-Everything goes through the command line, as a lecturer would. With a folder for screenshots the pages are also taken
-at a telephone's width, where there is a Chromium.
+Everything goes through the command line, as a lecturer would.
 """
 
 from __future__ import annotations
@@ -251,7 +250,7 @@ def run_sheet(folder: Path, name: str, students: Sequence[str]) -> dict[str, int
             more = ("--format", form, "--out", target, "--roster", "roster.csv")
             dofkit(folder, "export", "grades", varied, out / "results.jsonl", *more)
         exported(name, form, target, again)
-    dofkit(folder, "export", "gradescope", varied, "--no-wheels", "--reviewed", out / "review.csv", "--out",
+    dofkit(folder, "export", "gradescope", varied, "--reviewed", out / "review.csv", "--out",
            f"{name}.zip")  # fmt: skip
     return {
         "students": len(again), "right": sum(i["status"] == "right" for one in again.values() for i in one["items"]),
@@ -289,25 +288,6 @@ def points_in(document: Mapping[str, Any], results: Mapping[str, dict[str, Any]]
     if "gradable" in document:
         return float(document["score"]) * most if "score" in document else None
     return float(document["score"])
-
-
-def screenshots(pages: Sequence[Path], folder: Path, width: int = 390, height: int = 3200) -> list[Path]:
-    """Pictures of pages at a telephone's width."""
-    assert CHROMIUM is not None
-    folder.mkdir(parents=True, exist_ok=True)
-    made = []
-    for page in pages:
-        target = folder / f"{page.parent.parent.name}-{page.parent.name}-{page.stem}.png"
-        frame = folder / "frame.html"
-        frame.write_text(
-            f'<body style="margin:0"><iframe src="{page.as_uri()}" width={width} height={height} style="border:0">'
-        )
-        options = ["--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files", "--hide-scrollbars"]
-        shot = [f"--window-size={width},{height}", f"--screenshot={target}", f"--user-data-dir={folder / 'profile'}"]
-        subprocess.run([CHROMIUM, *options, *shot, frame.as_uri()], check=True, capture_output=True, timeout=120)
-        made.append(target)
-    shutil.rmtree(folder / "profile", ignore_errors=True)
-    return made
 
 
 _FRAME = """<iframe id=f src="{page}" width={width} height=900></iframe><p id=o></p><script>
@@ -357,9 +337,6 @@ def main() -> None:
     count = int(os.environ.get("STUDENTS", STUDENTS))
     for name, counted in run(folder, count):
         print(name, ", ".join(f"{what} {number}" for what, number in counted.items()), flush=True)
-    if len(sys.argv) > 2:
-        for picture in screenshots(pages_of(folder), Path(sys.argv[2]).resolve()):
-            print(picture)
 
 
 if __name__ == "__main__":

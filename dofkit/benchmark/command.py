@@ -131,18 +131,12 @@ def _gather(
     options: ChartOptions, work: Sequence[tasks.TrialTask], swept: Sequence[tasks.TrialTask], data: Data
 ) -> None:
     """Fill the data."""
-    with _bench(options) as bench, _bar() as bar:
+    with runner.bench_of(options.workers, options.scheduler, options.seconds) as bench, _bar() as bar:
         for name, members, lines in (("trials", work, data.lines), ("sweeps", swept, data.sweeps)):
             progress = bar.add_task(name, total=len(members))
             for line in runner.run(members, bench):
                 lines.append(line)
                 bar.update(progress, advance=1)
-
-
-def _bench(options: ChartOptions) -> AbstractContextManager[runner.Bench]:
-    if options.scheduler is not None:
-        return runner.cluster_bench(options.scheduler, options.seconds)
-    return runner.local_bench(options.workers or cores(), options.seconds)
 
 
 def _bar() -> AbstractContextManager[Progress]:

@@ -12,11 +12,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
-from functools import lru_cache
 from typing import Any
 
 from dofkit.base.process_limits import LateError, interrupting
-from dofkit.base.runs import Cluster, Crew, Pool, StoppedError
+from dofkit.base.runs import Cluster, Crew, Pool, StoppedError, shared
 from dofkit.base.workers import MEMORY, Job, Json, function_named
 from dofkit.base.workers import JobOutcome as Ended
 from dofkit.benchmark.record import Outcome, TrialLine
@@ -206,25 +205,20 @@ def run(tasks: Iterable[TrialTask], bench: Bench) -> Iterator[TrialLine]:
 
 
 @contextmanager
-def local_bench(workers: int, limit: float, memory: int = MEMORY) -> Iterator[Bench]:
-    """Workers on this machine, copies of this process where it may be forked."""
-    with Pool(workers, memory, MODULES) as pool:
+def bench_of(workers: int | None, scheduler: str | None, limit: float) -> Iterator[Bench]:
+    """Workers on this machine, one for each core where their number is not given, or the machines of a Dask scheduler.
+
+    Those of this machine are copies of this process where it may be forked. Raises StoppedError.
+    """
+    if scheduler is not None:
+        with Cluster(scheduler) as cluster:
+            yield Bench(cluster, run_there, limit, ANSWERING)
+        return
+    with Pool(workers, MEMORY, MODULES) as pool:
         pool.fork()
         yield Bench(pool, pool.run, limit, ANSWERING)
 
 
-@contextmanager
-def cluster_bench(address: str, limit: float) -> Iterator[Bench]:
-    """The machines of a Dask scheduler, each with workers of its own. Raises StoppedError."""
-    with Cluster(address) as cluster:
-        yield Bench(cluster, run_there, limit, ANSWERING)
-
-
 def run_there(job: Job) -> Ended:
     """Return how a job ended, on a machine of the cluster."""
-    return _pool().run(job)
-
-
-@lru_cache(maxsize=1)
-def _pool() -> Pool:
-    return Pool(modules=MODULES)
+    return shared(MODULES[0]).run(job)

@@ -27,9 +27,9 @@ def grouped(members: Iterable[T], key: Callable[[T], K]) -> dict[K, list[T]]:
 
 def scores(lines: Sequence[TrialLine]) -> list[Score]:
     """Return the scores of every question and method, over all families and for each."""
-    total = grouped(lines, lambda line: (line.question, ALL, line.method))
-    parts = grouped(lines, lambda line: (line.question, line.family, line.method))
-    return [_score(*key, members) for key, members in {**total, **parts}.items()]
+    overall = grouped(lines, lambda line: (line.question, ALL, line.method))
+    by_family = grouped(lines, lambda line: (line.question, line.family, line.method))
+    return [_score(*key, members) for key, members in {**overall, **by_family}.items()]
 
 
 def _score(question: str, family: str, method: str, lines: Sequence[TrialLine]) -> Score:
@@ -126,14 +126,14 @@ def power_law(pairs: Sequence[tuple[float, float]]) -> tuple[float, float, float
 def steps(lines: Sequence[TrialLine]) -> list[Step]:
     """Return every sweep, step by step; what a method cannot answer at all is left out."""
     able = [line for line in lines if line.outcome != "cannot"]
-    found = []
+    rows = []
     for key, members in grouped(able, lambda line: (line.knob, line.method, line.group, line.value)).items():
         sweep, method, group, value = key
         counts = Counter(line.outcome for line in members)
         about = {"trials": len(members), "right": counts["right"], "wrong": counts["wrong"]}
         undecided = counts["undecided"] + counts["timed out"]
-        found.append(Step(sweep=sweep, method=method, group=group, value=value, undecided=undecided, **about))
-    return found
+        rows.append(Step(sweep=sweep, method=method, group=group, value=value, undecided=undecided, **about))
+    return rows
 
 
 def against(lines: Sequence[TrialLine]) -> list[Against]:

@@ -191,15 +191,6 @@ def _has_timed_integral(evidence: CheckedEvidence, claim: Told, verified: Told) 
     return not_zero(point.value(derivative(function, "t")))
 
 
-def factor(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
-    """An integrating factor makes the form closed, and is not 0."""
-    point, tree = evidence.point(claim["at"]), evidence.text(claim["value"])
-    (form,) = _forms(evidence, claim, single=True).values()
-    refuse(evidence.met_by(tree) or not not_zero(point.value(tree)), "the factor may be 0")
-    _is_closed(evidence, {}, [{name: times(tree, part) for name, part in form.items()}], 2)
-    return claim["value"]
-
-
 def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
     """The constraint says that a function keeps its value, as a step does: it follows from its rate.
 

@@ -37,8 +37,8 @@ TABLE: tuple[tuple[str, str, Rule], ...] = (
     ("holonomic, holonomic_alone", "integral, frobenius", labels.integrable),
     ("holonomic, holonomic_alone", "bracket", labels.bracket), ("holonomic_alone", "wedge", labels.wedge),
     ("scleronomic, catastatic", "timeless", labels.timeless), ("scleronomic, catastatic", "turns", labels.turns),
-    ("exact", "exact, not exact", labels.exact), ("integrating_factor", "integral", labels.factor),
-    ("integral", "integral", labels.integral), ("/dof, /velocity_dof", "everywhere", numbers.everywhere),
+    ("exact", "exact, not exact", labels.exact), ("integral", "integral", labels.integral),
+    ("/dof, /velocity_dof", "everywhere", numbers.everywhere),
     ("/motion", "lagrange", motion),
 )  # fmt: skip
 RULES = {(path, rule): look for paths, rules, look in TABLE for path in paths.split(", ") for rule in rules.split(", ")}

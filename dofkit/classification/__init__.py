@@ -1,11 +1,11 @@
 """Classification: how can this system move, and what does each of its constraints do?
 
 A `System` becomes a `Report`. What is known of a system is a `Study` (`study`); the fields of the report are filled
-by the passes of the table `PASSES` (`passes`), by functions of `report`, which also holds the claim of each field.
+by the passes of the table `PASSES` (`passes`, with the claim of each field), by functions of `study`.
 
 Types
     `Study`, the relations of a system in blocks with their answers; `Outcome` (in `freedom`), the answer for one
-    choice of branches; `Redundancies` (in `dependence`), what depends on what; `Claim`, a verdict with its argument
+    choice of branches; `Redundancies` (from `relations`), what depends on what; `Claim`, a verdict with its argument
     and bound.
 
 Mechanisms, in the order in which a report is filled

@@ -126,7 +126,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "no motion through an interval of time satisfies the equations",
         "SchwartzZippel",
         "dt lies in the span of the rows, and the resulting equation is satisfied at isolated instants only",
-        "dofkit.integrability.prolongation.confinements",
+        "dofkit.integrability.pfaffian_system.confinements",
     ),
     "generic points": Argument(
         "an identity at random points holds on the configuration space",
@@ -188,7 +188,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "the constraint is holonomic",
         "Frobenius1877",
         "the form is closed, has two variables, satisfies d(omega) ^ omega = 0, or has a verified integral",
-        "dofkit.integrability.single_form.proof",
+        "dofkit.integrability.traits.proof",
     ),
     "in the integrable part": Argument(
         "the constraint is holonomic",
@@ -258,7 +258,7 @@ _OWN: dict[ArgumentKey, Argument] = {
         "without any one of them the others can be satisfied",
         "dofkit.classification.dependence.implied_constraints.conflict",
     ),
-    "count": Argument("a number determined by other fields", "", "the others", "dofkit.classification.report.claims"),
+    "count": Argument("a number determined by other fields", "", "the others", "dofkit.classification.passes.claims"),
     "exact elimination": Argument(
         "every field of a linear system",
         "",
@@ -289,7 +289,7 @@ _OWN: dict[ArgumentKey, Argument] = {
 def _rows() -> Iterator[tuple[ArgumentKey, Argument]]:
     yield from _OWN.items()
     for row in CRITERIA:
-        check, claims = f"{row.applies.__module__}.{row.applies.__name__}", CONCLUSIONS[row.concludes]
+        check, claims = f"{row.decide.__module__}.{row.decide.__name__}", CONCLUSIONS[row.concludes]
         yield row.key, Argument(claims, row.theorem, row.hypotheses, check)
 
 

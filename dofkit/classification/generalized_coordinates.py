@@ -29,8 +29,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.renaming import shape_of
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import BITS, Answer
-from dofkit.relations.blocks import Block
-from dofkit.relations.chart import make_chart
+from dofkit.relations.blocks import Block, make_chart
 from dofkit.relations.normal.pieces import Finite
 from dofkit.relations.setting import Setting
 from dofkit.system import Rotation
@@ -249,7 +248,7 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
     if orbit is not None:
         return orbit.chart_of()
     block = with_still_parts(block, a, setting)
-    result = tangent_spaces.nearby(block, a.dof, setting, turning) or tangent_spaces.rigid(block, a.dof, setting)
+    result = tangent_spaces.nearby(block, a.dof, setting, turning)
     return result if result is not None or turning else whole
 
 

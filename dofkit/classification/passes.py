@@ -1,32 +1,31 @@
-"""The passes that fill a report, in their order."""
+"""The passes that fill a report, in their order, with the claim of each field and the laws that fields obey."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
 
 from dofkit.base.deadline import DEFAULT_SECONDS, gc_rarely, limited, part, unless_late
-from dofkit.base.verdicts import OPEN, Claim, weakest
-from dofkit.classification import report as fields
+from dofkit.base.verdicts import OPEN, VERDICTS, ArgumentKey, Claim, least, together, weakest
+from dofkit.classification import study as fields
 from dofkit.classification.counts import counts_beside
 from dofkit.classification.feasibility.feasibility import inequalities_together
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import all_of
-from dofkit.classification.generalized_coordinates import generalized_coordinates
-from dofkit.classification.report import claims, freedom
+from dofkit.classification.generalized_coordinates import claim_of_choice, counted, generalized_coordinates
 from dofkit.classification.special import special_cases
 from dofkit.classification.study import Study, study
 from dofkit.exact.points.balls import precise_for
 from dofkit.exact.zero import BOTH, Engines
+from dofkit.integrability.growth_vector import is_free
 from dofkit.mobility.counts import without_drives
-from dofkit.relations.answer import DEFECTS
+from dofkit.relations.answer import BITS, DEFECTS
 from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.report import ConstraintEntry, FieldVerdict, Mobility, Report
 from dofkit.system import System
 
-#: Fields that are an empty list where they have no value.
-LISTS = ("redundancies",)
 #: Fields of the entries that are withheld together with the redundancy of the report.
 OF_ENTRIES = ("independent", "circuit", "redundant_equations")
 UNDECIDED = FieldVerdict.of(OPEN)
@@ -130,19 +129,113 @@ def agreed(values: Values) -> dict[str, Any]:
 
 
 def _without(values: dict[str, Any], row: Agreement) -> dict[str, Any]:
-    withheld: dict[str, Any] = {name: [] if name in LISTS else None for name in row.fields}
+    withheld: dict[str, Any] = {name: [] if name == "redundancies" else None for name in row.fields}
     verdicts = values["verdicts"] | {name: UNDECIDED for name in row.fields if name in values["verdicts"]}
     warnings = [*values["warnings"], CONTRADICTION.format(law=row.law, fields=", ".join(row.fields))]
-    entries = values["constraints"]
+    changed = {"warnings": warnings, "verdict": "undecided", "verdicts": verdicts}
     if row.fields == _REDUNDANCY:
-        entries = [_undecided_entry(e) for e in entries]
-    changed = {"constraints": entries, "warnings": warnings, "verdict": "undecided", "verdicts": verdicts}
+        changed["constraints"] = [_with_open_dependence(e) for e in values["constraints"]]
     return {**values, **withheld, **changed}
 
 
-def _undecided_entry(e: ConstraintEntry) -> ConstraintEntry:
+def _with_open_dependence(e: ConstraintEntry) -> ConstraintEntry:
     verdicts = e.verdicts | {name: UNDECIDED for name in OF_ENTRIES if name in e.verdicts}
     return e.model_copy(update={**dict.fromkeys(OF_ENTRIES), "verdict": "undecided", "verdicts": verdicts})
+
+
+#: Rows that depend on each other at points over GF(p), and what the others imply at drawn states.
+ROWS = Claim("probable", "rows at a point", bits=BITS)
+IMPLIED = Claim("probable", "implication", bits=BITS)
+#: Arguments that tell what depends on what as well.
+SETTLED: frozenset[ArgumentKey | None] = frozenset({"links in general position", "exact elimination"})
+LEFT_OUT = Claim("probable", "leaving out", bits=BITS)
+
+
+def claims(study: Study, told: Mapping[str, Any]) -> dict[str, Claim]:
+    """The claim of every field that the report decides, or leaves open."""
+    free = fields.freedom(study)
+    result = {"consistent": fields.consistency(study)}
+    if told["consistent"] is False:
+        result["conflicting"] = _conflict(study, result["consistent"])
+    else:
+        result |= {"dof": _unless(told["dof"], free), "velocity_dof": _unless(told["velocity_dof"], free)}
+        result["redundant_equations"] = _unless(told["redundant_equations"], counted(free))
+        result["redundant"] = _unless(told["redundant"], _dependence(study, free, bool(told["redundant"])))
+        result["redundancies"] = _unless(told["redundant"], _dependence(study, free, bool(told["redundancies"])))
+        claim = claim_of_choice(study, free, told["generalized_coordinates"] or ())
+        result["generalized_coordinates"] = _unless(told["generalized_coordinates"], claim)
+    if study.system.reference is not None and told["consistent"] is not False:
+        first = fields.first_order(study)
+        result["instantaneous_dof"] = _unless(told["instantaneous_dof"], first)
+        result["singular"] = _unless(told["singular"], together(first, free))
+    for name in ("holonomic", "scleronomic"):
+        result[name] = of_entries(told["constraints"], name, told[name])
+    if told["growth_vector"] is not None:
+        result["growth_vector"] = _growth(study, free, told["growth_vector"])
+    if told["integrable_part"] is not None:
+        result["integrable_part"] = free
+    return result
+
+
+def _unless(value: Any, claim: Claim) -> Claim:
+    """The claim; open where there is no value."""
+    return OPEN if value is None else claim
+
+
+def _conflict(study: Study, against: Claim) -> Claim:
+    """Of a minimal set that cannot hold together: without any one of them the others do, which may be proved."""
+    members, minimal = study.dependence.conflicting
+    if not members:
+        return OPEN
+    return against if minimal else together(against, LEFT_OUT)
+
+
+def of_entries(entries: Sequence[ConstraintEntry], name: str, value: bool | None) -> Claim:
+    """Of a label of the whole: all entries' where it is true, the surest that is false where it is not."""
+    if value is None:
+        return OPEN
+    if value:
+        known = {id(e.verdicts): _claim(e.verdicts[name]) for e in {id(e.verdicts): e for e in entries}.values()}
+        return together(*[known[id(e.verdicts)] for e in entries])
+    against = [e.verdicts[name] for e in entries if getattr(e, name) is False]
+    return _claim(min(against, key=lambda v: VERDICTS.index(v.verdict)))
+
+
+def _claim(told: FieldVerdict) -> Claim:
+    """A claim again from what an entry tells of it."""
+    if told.verdict == "undecided":
+        return OPEN
+    bits = int(told.bound.removeprefix("2^-")) if told.verdict == "probable" and told.bound else None
+    gap = float(told.bound) if told.verdict == "numeric" and told.bound else None
+    return Claim(told.verdict, told.argument, bits, gap, told.about or "everywhere")
+
+
+def _dependence(study: Study, free: Claim, some: bool) -> Claim:
+    """Of what depends on what: nothing does where the count says so; links in general position by their graph."""
+    if not some and study.redundant_equations == 0:
+        return counted(free)
+    copied = {study.names[i] for i in study.outcome.copies}
+    if {study.names[i] for r in study.dependence.dependent for i in r.redundant} <= copied:
+        return free
+    settled = {a.argument for a in study.outcome.answers if a.velocity_dof is not None} <= SETTLED
+    if settled:
+        return free
+    return replace(together(free, ROWS, IMPLIED), about=least(study.dependence.about, free.about))
+
+
+def _growth(study: Study, free: Claim, growth: Sequence[int]) -> Claim:
+    """Of the growth vector: its first and last numbers are those of the freedoms; others are ranks over GF(p).
+
+    Those are not too large where what is not 0 there is not 0; nor too small where no more brackets there are.
+    """
+    blocks = [
+        (a.growth, a.trusted) for b, a in zip(study.outcome.blocks, study.outcome.answers, strict=True) if b.forms
+    ]
+    if len(growth) == 1 or (len(growth) == 2 and all(trusted for _, trusted in blocks)):
+        return counted(free)
+    if free.verdict == "proved" and all(trusted and own and is_free(own) for own, trusted in blocks):
+        return replace(free, argument="free Lie algebra")
+    return together(free, Claim("probable", "brackets at points", bits=BITS))
 
 
 #: Of the time, for the blocks of a scene.
@@ -224,7 +317,7 @@ def _special(study: Study, values: Values) -> Values:
 def _velocity_freedom(reductions: Reductions, released: System) -> Values:
     """Return the velocity freedom of a system whose drives are released, with its verdict; nothing if undecided."""
     answered = study(released, reductions=reductions)
-    number, verdict = answered.outcome.velocity_dof, freedom(answered).verdict
+    number, verdict = answered.outcome.velocity_dof, fields.freedom(answered).verdict
     return {} if number is None or verdict == "undecided" else {"undriven": number, "undriven_verdict": verdict}
 
 

@@ -12,15 +12,13 @@ from dofkit.classification.turned_coordinates import ANYWHERE
 from dofkit.configuration.at_reference import ball_point
 from dofkit.configuration.generic_points import pose_point
 from dofkit.configuration.local import neighbourhood
-from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Block
-from dofkit.relations.chart import Chart, make_chart
+from dofkit.relations.blocks import Block, Chart, make_chart
 from dofkit.relations.setting import Setting
 from dofkit.system import Rotation
 
@@ -209,20 +207,6 @@ def _euler_rates(basis: Any, places: Sequence[int], at: Any, chart: Chart, rotat
 def _value(at: Any, chart: Chart, name: str) -> float:
     index = chart.ring.var_index(ex.coordinate(name))
     return ANYWHERE if index is None else float(at[chart.ring.var_node[index]])
-
-
-def rigid(block: Block, dof: int, setting: Setting) -> list[str] | None:
-    """Where only motions of the whole are left: from the displacement fields at the reference."""
-    chart = make_chart(block, setting)
-    start = _start(chart, setting)
-    if not start:
-        search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
-        start = search.start(1, {})
-        if search.descend(start, 1) is None:
-            return None
-    fields = displacements_real(chart, lambda i: start.get(chart.ring.vars[i].key, 0.0))
-    rank = int(np.linalg.matrix_rank(fields, tol=ROUGH)) if fields.size else 0
-    return _columns(chart, fields) if rank == dof else None
 
 
 def _columns(chart: Chart, tangent: Any, least: float = ROUGH) -> list[str]:

@@ -25,8 +25,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.enclosures import approximate
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block
-from dofkit.relations.chart import Chart, make_chart
+from dofkit.relations.blocks import Block, Chart, make_chart
 from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import NamedRows, Setting
 from dofkit.system import Rotation

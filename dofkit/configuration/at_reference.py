@@ -9,7 +9,7 @@ apart.
 
 Two rows are in one class if a minimal dependent set holds both. Together with a class those equations are kept that
 mention its coordinates only: without them a bar across a square could not tell that the square is held. Where that is
-not enough, all equations on its bodies are looked at (`widened`).
+not enough, all equations are looked at together.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from dofkit.base.libraries import nx
 from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import gap_in_words
 from dofkit.configuration.fewer_coordinates import smaller
-from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
+from dofkit.configuration.generic_points import chart_of_rows, field_jacobian, on_variety, pose_point
 from dofkit.configuration.local import conclusions, criteria
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_fields, rigid_motions_real
@@ -40,7 +40,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import FollowedClasses
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 
 #: A gap between singular values that tells them apart.
 CLEAR = 1e3
@@ -143,7 +143,7 @@ def _by_parts(
 ) -> tuple[LocalDimension, FollowedClasses] | None:
     """The local dimension where every class of dependent relations gives a manifold, and what was looked at.
 
-    See `dependent_classes`. None where one does not, or is not known to, or is all there is: then all have to be
+    None where one does not, or is not known to, or is all there is: then all have to be
     looked at together.
     """
     dimension = len(chart.columns) - rank
@@ -157,10 +157,8 @@ def _by_parts(
     found = []
     followed = more = 0
     for part in parts:
-        own = chart_of(chart, part.rows)
+        own = chart_of_rows(chart, part.rows)
         local, spared = _of_part(own, known, part.rank)
-        if local is None:
-            own, local, spared = _of_wider_part(chart, known, part, reduced)
         if local is None:
             return None
         found.append(local)
@@ -196,17 +194,6 @@ def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[Local
     return (local if local.dimension == left else None), spared
 
 
-def _of_wider_part(
-    chart: Chart, known: Mapping[Expr, Expr], part: DependentClass, found: Echelon
-) -> tuple[Chart, LocalDimension | None, int]:
-    """A class with all that is said of its bodies, where that is more and not all there is."""
-    wide = widened(chart, part, found)
-    if not len(part.rows) < len(wide.rows) < len(chart.relations) + chart.within:
-        return chart, None, 0
-    own = chart_of(chart, wide.rows)
-    return own, *_of_part(own, known, wide.rank)
-
-
 def _at_fixed_time(local: LocalDimension, timed: int) -> LocalDimension:
     """The dimension without that of time, along which the set goes on; none where it does not."""
     if local.dimension is None:
@@ -224,8 +211,7 @@ def _by_balls(chart: Chart, known: Mapping[Expr, Expr]) -> AtReference | None:
     timed = columns - n
     part = ball_part(matrix)
     rank = part.rank
-    at = values(chart.ring, ball)
-    rigid = rigid_motions_real(chart, lambda i: float(at[chart.ring.var_node[i]].mid()))
+    rigid = rigid_motions_real(chart, ball)
     of_q = ball_part([row[:n] for row in matrix])
     local = LocalDimension(None, "undecided", gap_in_words(part.gap, "pivot"))
     if part.gap > CLEAR:
@@ -315,37 +301,3 @@ def dependent_parts(chart: Chart, found: Echelon) -> list[DependentClass]:
         rows = tuple(sorted(component | beside))
         parts.append(DependentClass(rows, len(rows) - sum(r in found.supports for r in rows)))
     return sorted(parts, key=lambda part: part.rows)
-
-
-def widened(chart: Chart, part: DependentClass, found: Echelon) -> DependentClass:
-    """The class with all that is said of the bodies and particles that it mentions: a loop with all of its joints.
-
-    The height alone of hinges whose axes are upright closes round a loop to first order only; beside the other
-    equations of these hinges it follows from them. Dependent rows of other classes come along with their own.
-    """
-    owners = {c.name: c.owner for c in chart.roles if c.owner is not None}
-    mentioned = [frozenset(owners.get(s.args[1], s) for s in g.symbols) for g in chart.relations]
-    held = frozenset[object]().union(*(mentioned[i] for i in part.rows))
-    within = {i for i, those in enumerate(mentioned) if those <= held}
-    rows = {i for i in within if i not in found.supports or within.issuperset(found.supports[i])} | {*part.rows}
-    return DependentClass(tuple(sorted(rows)), len(rows) - sum(i in found.supports for i in rows))
-
-
-def chart_of(chart: Chart, rows: Sequence[int]) -> Chart:
-    """Some of the relations on the columns that they mention."""
-    relations = tuple(chart.relations[r] for r in rows)
-    ring = Ring(relations, chart.positive)
-    nodes = tuple(ring.node(g) for g in relations)
-    mentioned = frozenset[Expr]().union(*(g.symbols for g in relations))
-    symbols = tuple(s for s in chart.symbols if s in mentioned)
-    columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
-    return replace(
-        chart,
-        ring=ring,
-        nodes=nodes,
-        symbols=symbols,
-        columns=columns,
-        unknowns=tuple(u for u in chart.unknowns if u in mentioned),
-        relations=relations,
-        kinds=tuple(chart.kinds[r] for r in rows),
-    )

@@ -22,7 +22,7 @@ from dofkit.base.deadline import check
 from dofkit.base.libraries import components
 from dofkit.base.verdicts import ArgumentKey, weakest
 from dofkit.configuration import cases as all_cases
-from dofkit.configuration.generic_points import field_jacobian, on_variety
+from dofkit.configuration.generic_points import chart_of_relations, field_jacobian, on_variety
 from dofkit.configuration.variety import Variety
 from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.errors import NoValueError
@@ -32,9 +32,8 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.tree import Expr
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 from dofkit.relations.normal.zero_set import never_vanishes
-from dofkit.relations.setting import ReductionName
 
 #: Relations that are looked at; nodes of an expression past which no coordinate is put into it; cases of all parts
 #: together that are looked at, and that are listed.
@@ -46,8 +45,6 @@ NEAR = (
     "component was not excluded"
 )
 OTHERS = "whether several components pass through the point that was found was not decided"
-
-_ELIMINATED: tuple[ReductionName, ...] = ("eliminations",)
 
 
 class RelationPart(NamedTuple):
@@ -194,10 +191,7 @@ def _restricted(chart: Chart, relations: Sequence[Expr]) -> Chart:
     for var in chart.ring.vars:
         if var.kind == "symbol":
             ring.symbol(var.key)
-    nodes = tuple(ring.node(g) for g in relations)
-    columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in chart.symbols)
-    kinds = _ELIMINATED * len(nodes)
-    return replace(chart, ring=ring, nodes=nodes, columns=columns, relations=tuple(relations), kinds=kinds)
+    return chart_of_relations(chart, relations, ["eliminations"] * len(relations), ring)
 
 
 def is_graph(chart: Chart) -> bool:

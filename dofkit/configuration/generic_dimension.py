@@ -22,26 +22,23 @@ from dofkit.configuration.rigid_motions import rigid_motions_real
 from dofkit.configuration.variety import Variety
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.certified import independent_part
-from dofkit.exact.matrices.sparse import rank_of, rank_of_rows
+from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
-from dofkit.exact.ring.program import gradient, values
-from dofkit.exact.triangular import TriangularSolver
+from dofkit.exact.ring.program import values
 from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 
 
-def variety_at(
-    chart: Chart, samples: list[FieldPoint], solver: TriangularSolver | None, seed: int, core: Sequence[int]
-) -> Variety:
+def variety_at(chart: Chart, samples: list[FieldPoint], seed: int, core: Sequence[int]) -> Variety:
     """The set near generic points over GF(p) that lie on it, held against a real point.
 
-    ``solver``: what drew them, None where they have given values; ``core``: relations to search a real point of. Points
-    at which the time is fixed, or at which a sign is another than at the real point, lie on other parts of the set.
+    ``core``: relations to search a real point of. Points at which the time is fixed, or at which a sign is another than
+    at the real point, lie on other parts of the set.
     """
     real = real_point(chart, seed, core) if len(chart.columns) <= BALL_COLUMNS else None
     samples = [p for p in samples if time_is_free(chart, p)] or samples
@@ -57,7 +54,7 @@ def variety_at(
     verdict: Verdict = "proved" if rank == len(chart.nodes) else "probable"
     argument: ArgumentKey | None = "regular point"
     reasons: list[str] = []
-    if rank < len(chart.nodes) and not _smooth(chart, samples[0], solver):
+    if rank < len(chart.nodes):
         local = criteria.local_at(chart, samples[0], None, 0, chart.time, drawn=False)
         if local.dimension is None or local.confined or local.dimension < columns - rank:
             exact = None if local.confined else local.dimension
@@ -65,31 +62,6 @@ def variety_at(
             verdict, argument = "undecided" if exact is None else "probable", local.argument or "generic points"
             reasons.append(local.reason)
     return with_reality(chart, Variety(True, dimension, verdict, samples, real, reasons, argument=argument), rank)
-
-
-def _smooth(chart: Chart, point: FieldPoint, solver: TriangularSolver | None) -> bool:
-    """Is the set with all parameters free a manifold at the point, of the dimension of the family drawn from?
-
-    Then a generic fibre over the parameters is one too [Sard1942], and its dimension is the number of columns less the
-    rank. The family has as many dimensions as there are symbols less steps; a root's own relation adds both.
-    """
-    if solver is None or solver.plan.stuck or solver.plan.contradictory:
-        return False
-    ring = chart.ring
-    if any(ring.vars[i].kind not in ("symbol", "pi") for i in generators_of(chart)):
-        return False
-    symbols = [v.index for v in ring.vars if v.kind == "symbol"]
-    at = values(ring, point)
-    one = point.number(ex.ONE.args[0])
-    place = {c: k for k, c in enumerate(symbols)}
-    rows = []
-    for node in chart.nodes:
-        check()
-        row = [0] * len(symbols)
-        for c, v in gradient(ring, at, point, [(node, one)]).items():
-            row[place[c]] = int(v)
-        rows.append(row)
-    return rank_of(rows, point.p) == len(solver.plan.steps)
 
 
 def near_real_point(chart: Chart, real: RealPoint | None, core: Sequence[int]) -> Variety:
@@ -174,9 +146,7 @@ def _by_field_alone(chart: Chart, found: Variety) -> Variety:
     if independent_on_set(chart.ring, chart.nodes):
         found.verdict = weakest(found.verdict, "probable")
         return found
-    found.consistent, found.dimension, found.verdict = None, None, "undecided"
-    found.reasons.append("the functions that occur may satisfy an identity that points over GF(p) do not detect")
-    return found
+    return _left_open(found, "the functions that occur may satisfy an identity that points over GF(p) do not detect")
 
 
 def _without_reality(chart: Chart, found: Variety) -> Variety:
@@ -186,8 +156,12 @@ def _without_reality(chart: Chart, found: Variety) -> Variety:
         found.verdict = weakest(found.verdict, "probable")
         found.reasons.append(ALLOWING)
         return found
+    return _left_open(found, "no real configuration was found, and none was excluded")
+
+
+def _left_open(found: Variety, why: str) -> Variety:
     found.consistent, found.dimension, found.verdict = None, None, "undecided"
-    found.reasons.append("no real configuration was found, and none was excluded")
+    found.reasons.append(why)
     return found
 
 
@@ -196,10 +170,8 @@ def near_singular_point(chart: Chart, found: Variety) -> Variety:
     real = found.real
     local = None if real is None else numeric_local(chart, real)
     if local is None or local.dimension is None or local.confined:
-        found.consistent = None
-        found.verdict, found.dimension = "undecided", None
-        found.reasons.append("every real configuration that was found is singular; the motions there were not decided")
-        return found
+        why = "every real configuration that was found is singular; the motions there were not decided"
+        return _left_open(found, why)
     found.dimension = local.dimension - (len(chart.columns) - chart.coordinates)
     found.verdict, found.argument = weakest(found.verdict, "numeric"), local.argument
     found.reasons.append(f"every real configuration that was found is singular: {local.reason}")
@@ -251,7 +223,7 @@ def _dimension_near(chart: Chart, real: RealPoint) -> LocalDimension | None:
     free = tuple(i for i in range(len(chart.columns)) if i not in set(dependent))
     frame = Pivots(tuple(rows), dependent, free)
     manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point, chart.scales)
-    rigid = rigid_motions_real(chart, lambda i: float(at[chart.ring.var_node[i]].mid()))
+    rigid = rigid_motions_real(chart, point)
     return numeric_dimension(manifold, rigid, chart.time)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from hashlib import sha256
 
 from dofkit.base.deadline import check
@@ -16,7 +17,8 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
+from dofkit.relations.setting import ReductionName
 
 #: Points over GF(p) that must agree.
 SAMPLES, MORE_SAMPLES = 2, 6
@@ -127,6 +129,25 @@ def generators_of(chart: Chart) -> set[int]:
     """The generators that the finite relations reach."""
     code = chart.ring.code
     return {code[i][1] for i in reachable(chart.ring, chart.nodes) if code[i][0] == VAR}
+
+
+def chart_of_relations(
+    chart: Chart, relations: Sequence[Expr], kinds: Sequence[ReductionName], ring: Ring | None = None
+) -> Chart:
+    """Return a chart of other relations on the columns that they mention; on all columns where it has a ``ring``."""
+    mentioned = frozenset[Expr]().union(*(g.symbols for g in relations))
+    symbols = chart.symbols if ring else tuple(s for s in chart.symbols if s in mentioned)
+    ring = ring or Ring(relations, chart.positive)
+    nodes = tuple(ring.node(g) for g in relations)
+    columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
+    return replace(
+        chart, ring=ring, nodes=nodes, symbols=symbols, columns=columns, relations=tuple(relations), kinds=tuple(kinds)
+    )
+
+
+def chart_of_rows(chart: Chart, rows: Sequence[int]) -> Chart:
+    """Return some of the relations on the columns that they mention."""
+    return chart_of_relations(chart, [chart.relations[r] for r in rows], [chart.kinds[r] for r in rows])
 
 
 def frame_at(chart: Chart, point: FieldPoint) -> Pivots:

@@ -21,9 +21,9 @@ from dataclasses import dataclass, field, replace
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
-from dofkit.configuration.at_reference import ball_point, chart_of
+from dofkit.configuration.at_reference import ball_point
 from dofkit.configuration.fewer_coordinates import smaller
-from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
+from dofkit.configuration.generic_points import chart_of_rows, field_jacobian, on_variety, pose_point
 from dofkit.configuration.local.criteria import vanish_near
 from dofkit.configuration.local.germ import random_direction
 from dofkit.configuration.local.manifold import Manifold
@@ -39,7 +39,7 @@ from dofkit.exact.points.series import Series
 from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 from dofkit.relations.setting import Setting
 
 #: Points that are looked for beside a drawing, and how far they are begun, in the columns' scales.
@@ -64,7 +64,7 @@ class ImpliedRelations:
         """
         key = (int(afar), row, *sorted(others))
         if key not in self._told:
-            own = chart_of(self.chart, sorted(key[1:]))
+            own = chart_of_rows(self.chart, sorted(key[1:]))
             known = {**self.drawing, ex.TIME: ex.ZERO}
             if self.setting.tolerance is None:
                 self._told[key] = _on_manifold(own, known, len(others), afar)
@@ -78,7 +78,7 @@ class ImpliedRelations:
         All of them where that is not known.
         """
         numbers = sorted((row, *others))
-        own = chart_of(self.chart, numbers)
+        own = chart_of_rows(self.chart, numbers)
         point = pose_point(own, {**self.drawing, ex.TIME: ex.ZERO}, 3)
         if point is None or "field" not in own.engines or self.setting.tolerance is not None:
             return list(others)
@@ -94,7 +94,7 @@ class ImpliedRelations:
 
         0 where they mention not all, or the motions are not known.
         """
-        own = chart_of(self.chart, rows)
+        own = chart_of_rows(self.chart, rows)
         point = pose_point(own, {**self.drawing, ex.TIME: ex.ZERO}, 3)
         return 0 if point is None or len(own.symbols) < len(self.chart.symbols) else rigid_motions(own, point)
 

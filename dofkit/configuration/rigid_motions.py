@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
+
+from flint import arb
 
 from dofkit.base.libraries import np
 from dofkit.configuration.generic_points import on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of
-from dofkit.exact.points.balls import BallPoint
+from dofkit.exact.points.balls import BallPoint, FloatPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import gradient, values
 from dofkit.expressions import tree as ex
-from dofkit.relations.chart import Chart, Displacement, displacement_fields, free_point
+from dofkit.relations.blocks import Chart, Displacement, displacement_fields, free_point
 from dofkit.relations.setting import Setting
 
 #: Random real points that are tried.
@@ -41,28 +43,21 @@ def rigid_fields(chart: Chart, point: FieldPoint) -> list[list[Any]]:
     return [_at(chart, point, f) for f in kept]
 
 
-def rigid_motions_real(chart: Chart, value: Callable[[int], float]) -> int:
-    """The same at a real point; ``value`` of a generator index."""
-    fields = displacements_real(chart, value)
+def rigid_motions_real(chart: Chart, point: BallPoint | FloatPoint) -> int:
+    """Return the dimension of the displacement fields that keep all relations at a real point."""
+    fields = displacements_real(chart, point)
     return int(np.linalg.matrix_rank(fields, tol=1e-9)) if fields.size else 0
 
 
-def displacements_real(chart: Chart, value: Callable[[int], float]) -> Any:
-    """The displacement fields that keep all relations, at a real point, as rows over the columns."""
+def displacements_real(chart: Chart, point: BallPoint | FloatPoint) -> Any:
+    """Return the displacement fields that keep all relations, at a real point, as rows over the columns."""
     fields = displacement_fields(chart)
     away = _away(chart) if fields else None
     if away is None:
         return np.zeros((0, 0))
-    rows = []
     slopes = _slopes(chart, away)
-    for field in fields:
-        if not _keeps(chart, away, field, slopes):
-            continue
-        row = [0.0] * len(chart.columns)
-        for column, terms in field.items():
-            row[column] = sum(f * (1.0 if o is None else value(chart.columns[o])) for f, o in terms)
-        rows.append(row)
-    return np.array(rows)
+    rows = [_at(chart, point, field) for field in fields if _keeps(chart, away, field, slopes)]
+    return np.array([[float(v.mid()) if isinstance(v, arb) else float(v) for v in row] for row in rows])
 
 
 def _away(chart: Chart) -> FieldPoint | BallPoint | None:
@@ -80,7 +75,7 @@ def _away(chart: Chart) -> FieldPoint | BallPoint | None:
     return None
 
 
-def _at(chart: Chart, point: FieldPoint | BallPoint, field: Displacement) -> list[Any]:
+def _at(chart: Chart, point: FieldPoint | BallPoint | FloatPoint, field: Displacement) -> list[Any]:
     zero = point.number(ex.ZERO.args[0])
     vector = [zero] * len(chart.columns)
     at = values(chart.ring, point)

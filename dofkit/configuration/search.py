@@ -31,8 +31,7 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import differs_from_zero, interval_of
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import presolve
-from dofkit.relations.chart import Chart, free_point
+from dofkit.relations.blocks import Chart, free_point, presolve
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.zero_set import candidates, is_analytic_in_coordinates
 
@@ -88,7 +87,7 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
     if "field" in chart.engines and _has_joint_positions(chart):
         posed = pose_samples(chart, pose, seed)
         if posed:
-            return variety_at(chart, posed, None, seed, chart.nodes)
+            return variety_at(chart, posed, seed, chart.nodes)
     linear = presolve(chart.relations if "eliminations" in chart.reductions else ())
     if linear.contradiction:
         why = "the linear equations contradict each other"
@@ -104,10 +103,10 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
     drawn = [p for p in (solver.draw(seed + k + 1) for k in range(samples_for(chart))) if p is not None]
     drawn = [p for p in drawn if on_variety(chart, p)]
     if drawn:
-        return variety_at(chart, drawn, solver, seed, core)
+        return variety_at(chart, drawn, seed, core)
     samples = pose_samples(chart, pose, seed)
     return (
-        variety_at(chart, samples, None, seed, core)
+        variety_at(chart, samples, seed, core)
         if samples
         else near_real_point(chart, real_point(chart, seed, core), core)
     )

@@ -26,8 +26,7 @@ from dofkit.exact.zero import independent_on_set
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Block, Row
-from dofkit.relations.chart import aliases
+from dofkit.relations.blocks import Block, Row, aliases
 from dofkit.relations.normal.normal_form import linear_form, velocities_of
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
@@ -60,10 +59,7 @@ class States:
         more: Sequence[Expr] = (),
         still: bool = False,
     ) -> None:
-        pieces = [r.piece for r in rows]
-        finite = [*(p.expr for p in pieces if isinstance(p, Finite)), *hidden]
-        linear = [*(rate(g) for g in finite), *(form_rate(p) for p in pieces if isinstance(p, Pfaffian))]
-        nonlinear = [p.expr for p in pieces if isinstance(p, Nonlinear)]
+        finite, linear, nonlinear = state_relations(rows, hidden)
         if still:
             linear, nonlinear = [], []
         everything = [*finite, *linear, *nonlinear, *more]
@@ -182,9 +178,9 @@ class States:
     def _search(self, nodes: Sequence[int], unknowns: Sequence[Expr]) -> RealSearch:
         return RealSearch(self.ring, nodes, unknowns, self.setting.positive)
 
-    def certain(self, count: int, first: int = 0) -> Iterator[BallPoint]:
-        """Real states that are certified, at generic configurations; of so many searches, from the ``first`` on."""
-        for k in range(first, first + count):
+    def certain(self, count: int) -> Iterator[BallPoint]:
+        """Real states that are certified, at generic configurations, of so many searches."""
+        for k in range(count):
             found = self.real(k)
             if found is not None and found.certified and found.consistent:
                 whole, moving, finite = self.ranks(found.point)
@@ -213,11 +209,11 @@ class States:
         )
 
 
-def state_relations(rows: Sequence[Row], hidden: Sequence[Expr]) -> list[Expr]:
-    """Finite relations, their rates, forms on velocities and nonlinear relations."""
+def state_relations(rows: Sequence[Row], hidden: Sequence[Expr]) -> tuple[list[Expr], list[Expr], list[Expr]]:
+    """Return the finite relations, those linear in the velocities (their rates, then forms), and the nonlinear ones."""
     finite = [*(r.piece.expr for r in rows if isinstance(r.piece, Finite)), *hidden]
     forms = [form_rate(r.piece) for r in rows if isinstance(r.piece, Pfaffian)]
-    return [*finite, *map(rate, finite), *forms, *(r.piece.expr for r in rows if isinstance(r.piece, Nonlinear))]
+    return finite, [*map(rate, finite), *forms], [r.piece.expr for r in rows if isinstance(r.piece, Nonlinear)]
 
 
 def rows_at(relations: Sequence[Expr], known: Mapping[Expr, Expr]) -> tuple[Row, ...]:

@@ -16,7 +16,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import GAP
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 
 
 @dataclass

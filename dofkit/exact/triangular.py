@@ -12,7 +12,6 @@ from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cache
-from typing import Any
 
 from dofkit.base.deadline import check
 from dofkit.exact.errors import NoPointError, NoValueError, raising_no_value
@@ -20,7 +19,6 @@ from dofkit.exact.points.field import FieldPoint, field_point
 from dofkit.exact.ring.program import ADD, MUL, POW, reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.unknowns import Unit, circle, is_linear, root_relations, roots_of, units_in, univariate, value_along
-from dofkit.exact.zero import independent_generators
 
 #: An elimination that makes the program longer than this is given up.
 MAX_CODE = 20_000
@@ -104,9 +102,6 @@ class Planner:
                 node, unit, remaining = eliminated
                 solved_last.append((node, unit))
                 continue
-            self._clash(remaining)
-            if self.plan.contradictory:
-                break
             self.plan.stuck = True
             break
         return solved_last
@@ -163,21 +158,6 @@ class Planner:
             elif not self.fixed:
                 self.plan.contradictory, self.plan.witness = True, node
         return kept
-
-    def _clash(self, remaining: list[int]) -> None:
-        """Notice two relations in the same one unknown that have no common root."""
-        probe = self.probe
-        if probe is None or self.fixed or not independent_generators(self.ring):
-            return
-        known: dict[Unit, Any] = {}
-        for node in remaining:
-            units = list(units_in(self.ring, node))
-            if len(units) != 1 or not self.degree(node, units[0]):
-                continue
-            polynomial = univariate(self.ring, node, units[0], probe)
-            known[units[0]] = known.get(units[0], polynomial).gcd(polynomial)
-            if known[units[0]].degree() == 0:
-                self.plan.contradictory, self.plan.witness = True, node
 
     def _parameters_only(self, node: int) -> bool:
         """Return whether the relation is one between named parameters alone (generic geometry is not named)."""

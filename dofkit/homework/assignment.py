@@ -38,8 +38,6 @@ from dofkit.scene.scene import Scene
 
 #: A scene of more constraints is refused: grading starts with working out all that may be asked of it.
 MOST_CONSTRAINTS = 5000
-#: Bytes of a scene's file that may have more of them: they are counted before they are read as a scene.
-LARGE = 100_000
 FeedbackLevel = Literal["hint", "full"]
 Visibility = Literal["visible", "after_due_date", "after_published", "hidden"]
 UnreadablePolicy = Literal["review", "zero"]
@@ -261,23 +259,17 @@ def _without_shortness(faults: Sequence[Fault]) -> tuple[Fault, ...]:
 
 
 def _scene(problem: Problem, base: Path) -> Scene:
-    """The scene of a problem. Raises SceneError, for one of too many constraints before it is read whole, too."""
+    """Return the scene of a problem. Raises SceneError, also for one of too many constraints."""
     if isinstance(problem.scene, dict):
-        _bounded(problem.scene.get("constraints"))
-        return load(problem.scene, name=problem.id)
-    path = base / problem.scene
-    if path.is_file() and path.stat().st_size > LARGE:
-        written = read_document(path.read_bytes(), str(path)).value
-        _bounded(written.get("constraints") if isinstance(written, Mapping) else None)
-    scene = load(path if path.is_file() else problem.scene)
-    _bounded(scene.constraints)
-    return scene
-
-
-def _bounded(constraints: object) -> None:
-    if isinstance(constraints, Sequence) and not isinstance(constraints, str) and len(constraints) > MOST_CONSTRAINTS:
-        message = f"the scene has {len(constraints)} constraints, more than an assignment takes ({MOST_CONSTRAINTS})"
+        scene = load(problem.scene, name=problem.id)
+    else:
+        path = base / problem.scene
+        scene = load(path if path.is_file() else problem.scene)
+    if len(scene.constraints) > MOST_CONSTRAINTS:
+        count = f"the scene has {len(scene.constraints)} constraints"
+        message = f"{count}, more than an assignment takes ({MOST_CONSTRAINTS})"
         raise SceneError((Fault(message, ("constraints",), hint="ask about a part of it; `dofkit classify` takes it"),))
+    return scene
 
 
 def _within(fault: Fault, i: int, problem: Problem, pick: Pick) -> Fault:

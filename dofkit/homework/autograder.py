@@ -212,7 +212,7 @@ def _result(one: Handed, prepared: Prepared, seconds: float, memory: int, studen
     if len(lines) != 1:
         why = f"{one.place}: it contains {len(lines)} submissions, not one"
         return Result(student="", score=None, max_score=orders.max_score, items=[], error=why)
-    return Result.model_validate_json(lines[0].text)
+    return Result.model_validate_json(lines[0])
 
 
 def _write(site: Site, result: Result, prepared: Prepared | None) -> None:

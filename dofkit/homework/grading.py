@@ -325,11 +325,12 @@ class EchoedAnswer(ReportModel):
 
 
 class Echo(ReportModel):
-    """One student's answers as they were understood. ``error``: why the submission could not be read."""
+    """One student's answers as they were understood. ``error`` and ``doubt``: as those of a result."""
 
     student: str
     items: list[EchoedAnswer]
     error: str | None = None
+    doubt: str | None = None
 
 
 def echo(prepared: Prepared, submission: Submission) -> Echo:

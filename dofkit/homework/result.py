@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar, Literal
 
-from pydantic import Field
+from pydantic import BaseModel, Field
 
 from dofkit.base.display import Displayed
 from dofkit.report import ReportModel
@@ -12,8 +12,9 @@ from dofkit.report import ReportModel
 Status = Literal["right", "partly", "wrong", "unreadable", "missing", "needs_review"]
 
 
-def one_line(text: str) -> str:
-    """Return JSON with the characters escaped that some readers take for the end of a line."""
+def json_line(model: BaseModel) -> str:
+    """Return a model as one line of JSON, also for readers that end a line at U+2028."""
+    text = model.model_dump_json()
     return text.replace("\u2028", "\\u2028").replace("\u2029", "\\u2029").replace("\x85", "\\u0085")
 
 
@@ -68,7 +69,3 @@ class Result(Displayed, ReportModel):
     needs_review: int = 0
     error: str | None = None
     doubt: str | None = None
-
-    def json_line(self) -> str:
-        """Return the result as one line of JSON, also for readers that end a line at U+2028."""
-        return one_line(self.model_dump_json())

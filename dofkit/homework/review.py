@@ -7,19 +7,19 @@ mistyped one.
 
 from __future__ import annotations
 
-import csv
 import hashlib
 import re
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from io import StringIO
 from pathlib import Path
 from typing import NamedTuple
 
 from dofkit.base.errors import DofkitError, Fault
 from dofkit.base.wording import nearest
+from dofkit.homework.answers.spreadsheet import SpreadsheetRow, decoded, spreadsheet
+from dofkit.homework.answers.submission import clean
 from dofkit.homework.result import Item, Result
 
 #: The columns of the table, in order; those that a person fills in come last.
@@ -110,17 +110,12 @@ MOST_NAMED = 20
 
 @dataclass
 class QueuedAnswer:
-    """A different answer: an ``item`` that it got, and how many gave it, of whom the first ones are named.
-
-    ``variant``: of the problem, where students have different ones, and what it says as far as that is known.
-    """
+    """A different answer: an ``item`` that it got, and how many gave it; the first of them have their pages."""
 
     id: str
     item: Item
     count: int = 0
-    students: list[str] = field(default_factory=list)
-    links: list[str] = field(default_factory=list)
-    variant: str = ""
+    given_by: list[tuple[str, str]] = field(default_factory=list)
 
     @property
     def open(self) -> bool:
@@ -130,9 +125,8 @@ class QueuedAnswer:
     def add(self, student: str, link: str) -> None:
         """One more student who gave it; ``link``: where the student's page is."""
         self.count += 1
-        if len(self.students) < MOST_NAMED:
-            self.students.append(student)
-            self.links.append(link)
+        if len(self.given_by) < MOST_NAMED:
+            self.given_by.append((student, link))
 
 
 class Queue:
@@ -147,7 +141,7 @@ class Queue:
         for item in result.items:
             if item.score is None or item.decided_by is not None:
                 identity = answer_id(item.problem, item.question, item.answer or "", item.variant or "")
-                queued = self.answers.setdefault(identity, QueuedAnswer(identity, item, variant=item.variant or ""))
+                queued = self.answers.setdefault(identity, QueuedAnswer(identity, item))
                 queued.add(result.student, link)
 
     def open_answers(self) -> list[QueuedAnswer]:
@@ -182,7 +176,7 @@ def cells_of(queued: QueuedAnswer) -> dict[str, str]:
         "id": queued.id,
         "problem": item.problem,
         "question": item.question,
-        "variant": queued.variant,
+        "variant": item.variant or "",
         "text": item.answer or "",
         "why": place + item.feedback,
         "readings": " | ".join(read_as for read_as, _ in ways),
@@ -193,8 +187,8 @@ def cells_of(queued: QueuedAnswer) -> dict[str, str]:
 
 
 def _who(queued: QueuedAnswer) -> dict[str, str]:
-    more = queued.count - len(queued.students)
-    named = "; ".join(queued.students) + (f"; and {more} more" if more else "")
+    more = queued.count - len(queued.given_by)
+    named = "; ".join(student for student, _ in queued.given_by) + (f"; and {more} more" if more else "")
     return {"students": str(queued.count), "given_by": named}
 
 
@@ -202,7 +196,6 @@ def _who(queued: QueuedAnswer) -> dict[str, str]:
 MOST_REMARKED, MOST_FAULTS, MOST_BYTES = 2000, 50, 200_000_000
 _NEEDED = ("id", "points")
 _POINTS = re.compile(r"\d{1,9}(?:[.,]\d{1,9})?|\d{1,9}/[1-9]\d{0,8}")
-_DELIMITERS = ",;\t|"
 
 #: The most points of every question of an assignment.
 Asked = Mapping[tuple[str, str], Fraction]
@@ -237,18 +230,10 @@ def read_table(path: Path, asked: Asked) -> FilledTable:
     """The rows of a table. Raises ReviewError with every fault at once, and OSError."""
     with path.open("rb") as file:
         data = file.read(MOST_BYTES)
-    reader = _TableReader(str(path), asked)
-    return reader.table(_decoded(data))
-
-
-def _decoded(data: bytes) -> str:
-    """A text in UTF-8, in UTF-16 where its first bytes say so, or in what Excel saves in western Europe."""
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return data.decode("utf-16", "replace")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return data.decode("cp1252", "replace")
+    text = decoded(data)
+    if clean(text) != text:  # what Excel saves in western Europe
+        text = data.decode("cp1252", "replace")
+    return _TableReader(str(path), asked).table(text)
 
 
 class _TableReader:
@@ -264,18 +249,13 @@ class _TableReader:
 
     def table(self, text: str) -> FilledTable:
         """All rows. Raises ReviewError."""
-        lines, skipped = text, 0
-        if text[:4].lower() == "sep=":
-            lines, skipped = text.partition("\n")[2], 1
-        delimiter = max(_DELIMITERS, key=lambda d: sum(name in COLUMNS for name in _names(lines, d)))
-        records = _records(lines, delimiter, skipped)
-        try:
-            columns = self._header(next(records, (1, [])))
-            for line, cells in records:
-                if columns and any(cell.strip() for cell in cells):
-                    self._row(line, columns, cells)
-        except csv.Error as error:
-            self._fault(f"the table cannot be read: {error}", 1 + skipped, 1, "save it as CSV again")
+        delimiter, rows = spreadsheet(text, lambda cells: any(name in COLUMNS for name in cells))
+        columns = self._header(next(rows, SpreadsheetRow(1, [])))
+        for row in rows if columns else ():
+            if row.error is None:
+                self._row(row.line, columns, row.cells)
+            else:
+                self._fault(row.error, row.line, 1, "save the table as CSV again")
         if not self.faults and self.rows and not any(self._known(identity) for identity in self.rows):
             hint = "name the review.csv that was written with this assignment's results"
             self._fault("no row of it is about a question of this assignment", 1, 1, hint)
@@ -289,9 +269,9 @@ class _TableReader:
     def _fault(self, message: str, line: int, column: int, hint: str | None = None) -> None:
         self.faults.append(Fault(message, (), line, column, hint))
 
-    def _header(self, record: tuple[int, list[str]]) -> dict[str, int]:
-        """Where each column stands; empty where one is missing."""
-        line, cells = record
+    def _header(self, row: SpreadsheetRow) -> dict[str, int]:
+        """Return where each column stands; nothing where one is missing."""
+        line, cells, _ = row
         names = [cell.strip().lower() for cell in cells]
         for name in _NEEDED:
             if name not in names:
@@ -339,20 +319,6 @@ class _TableReader:
         else:
             return Decision(points, remark, cells.get("decided_by") or SOMEONE)
         return None
-
-
-def _names(text: str, delimiter: str) -> list[str]:
-    return [cell.strip(' "\r').lower() for cell in text.partition("\n")[0].split(delimiter)]
-
-
-def _records(text: str, delimiter: str, skipped: int) -> Iterator[tuple[int, list[str]]]:
-    """The first line of every record, and its cells; blank lines are none."""
-    reader = csv.reader(StringIO(text, newline=""), delimiter=delimiter)
-    line = 1
-    for cells in reader:
-        if cells:
-            yield line + skipped, cells
-        line = reader.line_num + 1
 
 
 def _bare(cell: str) -> str:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections import Counter
-from collections.abc import Hashable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +22,11 @@ _OF_SCENE = ("dof", "velocity_dof", "k", "coordinates", "redundant")
 _OF_CONSTRAINT = ("label", "equation", "integral")
 _OF_MOTION = ("lagrangian", "motion")
 _OF_COORDINATE = ("momentum", "force")
+#: The kinds of questions, those most worth asking first.
+_KINDS = (
+    "dof", "motion", "velocity_dof", "lagrangian", "redundant", "integral", "label", "equation", "coordinates", "k",
+    "momentum", "force",
+)  # fmt: skip
 #: So many questions are asked of a scene; a constraint of fewer equations is one to write down.
 MOST, FEW = 5, 3
 _NOT_PLAIN = re.compile(r"[^\w-]+")
@@ -59,50 +63,38 @@ def template(prepared: Prepared, form: str) -> str:
 
 
 def best_questions(key: Key) -> Iterator[dict[str, Any]]:
-    """The questions most worth asking of a scene: those whose answer is not plain from how it is written."""
-    ranked = sorted(questions(key), key=QuestionWorth(key).of, reverse=True)[:MOST]
-    yield from (asked for asked in questions(key) if asked in ranked)
+    """Yield the questions most worth asking of a scene: one of each kind, first those whose answers are not plain."""
+    every = list(questions(key))
+    places = [every.index(max(asked, key=lambda one: _labels_that_fail(one, key))) for asked in _by_kind(every)]
+    places += [n for n in range(len(every)) if n not in places]
+    first = [n for n in places if not _is_plain(every[n], key)]
+    chosen = [*first, *(n for n in places if n not in first)][:MOST]
+    yield from (every[n] for n in sorted(chosen))
 
 
-class QuestionWorth:
-    """How much each question of a scene is worth asking; of questions of a kind the first counts most."""
+def _by_kind(every: Sequence[dict[str, Any]]) -> Iterator[list[dict[str, Any]]]:
+    for kind in _KINDS:
+        if asked := [one for one in every if one["ask"] == kind]:
+            yield asked
 
-    def __init__(self, key: Key) -> None:
-        self._key = key
-        self._asked: Counter[Hashable] = Counter()
 
-    def of(self, asked: Mapping[str, Any]) -> int:
-        """A number, the larger the better; it depends on what was asked about before."""
-        if "constraint" in asked:
-            return self._about_constraint(asked)
-        report = self._key.report
-        n, dof = len(self._key.coordinates), report.dof or 0
-        hidden = n - dof != len(report.constraints)
-        return {
-            "dof": 100,
-            "velocity_dof": 90 if report.velocity_dof != report.dof else 5,
-            "k": 40 if hidden else 20,
-            "coordinates": 60 if 0 < dof < n else 10,
-            "redundant": 85 if report.redundant else 15,
-            "motion": 92,
-            "lagrangian": 88,
-        }.get(asked["ask"], 30)
+def _labels_that_fail(asked: Mapping[str, Any], key: Key) -> int:
+    """Return how many labels of the constraint that is asked about do not hold."""
+    entry = key.constraints.get(asked.get("constraint", ""))
+    return 0 if entry is None else [entry.holonomic, entry.scleronomic, entry.bilateral].count(False)
 
-    def _about_constraint(self, asked: Mapping[str, Any]) -> int:
-        """A label is worth more where it is no plain one, an equation where it has to be found."""
-        entry = self._key.constraints[asked["constraint"]]
-        written = dict(zip(self._key.constraints, self._key.scene.constraints, strict=True))[entry.name].facts.written
-        labels: tuple[bool | None, ...] = (entry.holonomic, entry.scleronomic, entry.bilateral)
-        if asked["ask"] == "label":
-            worth = 66 + 4 * labels.count(False) + 3 * (entry.form == "pfaffian")
-        elif asked["ask"] == "integral":
-            worth, labels = 75, (entry.holonomic,)
-        else:
-            worth, labels = 8 if written else 70 if entry.equations < FEW else 30, ()
-        self._asked[asked["ask"], labels] += 1
-        self._asked[asked["ask"]] += 1
-        again = self._asked[asked["ask"], labels] > 1
-        return worth - (60 if again else 20 if self._asked[asked["ask"]] > 1 else 0)
+
+def _is_plain(asked: Mapping[str, Any], key: Key) -> bool:
+    """Return whether an answer is plain from how the scene is written."""
+    report, entry = key.report, key.constraints.get(asked.get("constraint", ""))
+    if asked["ask"] == "equation" and entry is not None:
+        facts = dict(zip(key.constraints, key.scene.constraints, strict=True))[entry.name].facts
+        return facts.written or entry.equations >= FEW
+    return {
+        "velocity_dof": report.velocity_dof == report.dof,
+        "redundant": not report.redundant,
+        "coordinates": not 0 < (report.dof or 0) < len(key.coordinates),
+    }.get(asked["ask"], False)
 
 
 def questions(key: Key) -> Iterator[dict[str, Any]]:

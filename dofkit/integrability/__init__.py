@@ -5,19 +5,18 @@ codistribution I, whose kernel D holds the admissible velocities. A constraint i
 last term of the derived flag of I [Frobenius1877].
 
 Types
-    A `Codistribution` (`pfaffian_system`) has the one-forms of a block; `Integrability` (`single_form`) is the proof
-    for one form on its own; a `HolonomyLabel` is the answer for a row in the system.
+    A `Codistribution` (`pfaffian_system`) has the one-forms of a block; `Traits` and `Integrability` (`traits`) are
+    what one form says on its own; a `HolonomyLabel` is the answer for a row in the system.
 
 Mechanisms, in the order in which they are tried
-    1. `single_form`: few variables, a closed form, w ^ dw = 0 by an identity, an integral that was found.
+    1. `traits` are the labels that a constraint has by its own text (scleronomic, catastatic, exact), and the proof
+       that one form integrates: few variables, a closed form, w ^ dw = 0 by an identity, an integral that was found.
     2. `lie_algebra` computes D and its brackets along one generic curve, over GF(p) or in balls [HermannNagano]; the
        dimension of the Lie algebra is the freedom, the dimensions on the way are the `growth_vector`.
-       `regular_reference` does so at the reference configuration itself.
-    3. `prolongation` finds hidden equations: where dt lies in the span of the rows, motion is confined to a locus.
-    4. `row_labels` labels every row of a block with either engine.
+    3. `pfaffian_system` finds hidden equations: where dt lies in the span of the rows, motion is confined to a locus.
+    4. `row_labels` labels every row of a block with either engine, at the reference configuration if it is regular.
     5. `nonlinear_velocities`: what is not linear in the velocities restricts them where the fibres are curved at a
-       certified state; `modulo_others` asks whether the others make it linear.
+       certified state; the others may make it linear.
     6. `integrals` has the potential and the integrating factor of one form, `first_integrals` those of several forms
        together; every result is proved by differentiation. `accelerations` integrates second derivatives once.
-    7. `traits` are the labels that a constraint has by its own text: scleronomic, catastatic, exact.
 """

@@ -27,8 +27,7 @@ from dofkit.expressions.calculus import (
 )
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.integrals.algebra import Algebra, GivenUpError
-from dofkit.integrability.integrals.potentials import potential
+from dofkit.integrability.integrals.potentials import Algebra, GivenUpError, potential
 from dofkit.relations.normal.normal_form import linear_form, normalise
 from dofkit.relations.normal.pieces import Normal, Piece
 from dofkit.relations.normal.zero_set import zero_set

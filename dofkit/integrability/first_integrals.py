@@ -30,7 +30,7 @@ from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.search import arranged, upright
 from dofkit.integrability.pfaffian_system import Codistribution
-from dofkit.relations.chart import free_point
+from dofkit.relations.blocks import free_point
 
 #: Products of up to so many functions, so many products, and so many functions in them at most.
 MAX_DEGREE, MAX_PRODUCTS, MAX_FUNCTIONS = 3, 170, 12

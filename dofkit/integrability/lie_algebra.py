@@ -29,7 +29,7 @@ from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import FormRows, Pivots, field_frame, kernel, rank_over
 from dofkit.exact.points.real_search import RealPoint
-from dofkit.exact.points.series import Series, SeriesPoint, series_values, zero_poly
+from dofkit.exact.points.series import Series, SeriesPoint, zero_poly
 from dofkit.exact.ring.program import Scalar, gradient, values
 from dofkit.expressions import tree as ex
 from dofkit.integrability.pfaffian_system import Codistribution
@@ -122,7 +122,7 @@ class AdmissibleCurve:
         polys = [Series(self.numbers.polynomial(c[:order]), order) for c in self.path]
         symbols = {c: polys[i] for i, c in enumerate(self.rows.columns) if c >= 0}
         self.point = SeriesPoint(self.base, symbols, order, self.like)
-        self.at = series_values(self.rows.ring, self.point)
+        self.at = values(self.rows.ring, self.point)
 
     @property
     def frame_rows(self) -> list[dict[int, int]]:

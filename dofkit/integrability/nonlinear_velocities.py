@@ -1,33 +1,49 @@
-"""Relations nonlinear in the velocities: the velocity freedom, and whether the allowed velocities bend.
+"""Relations nonlinear in the velocities: velocity freedom, whether the velocities bend, and what others make of them.
 
 At a configuration the allowed velocities are a set C inside the solutions D of the linear relations. What they
 generate by brackets is what the smallest affine space around C generates: where that is all of D, the Lie algebra of D
 tells what integrates, and no relation in use is linear in disguise, because C would then lie in less.
+
+Together with the others such a relation f(q, qdot, t) = 0 reads as a linear form, and may be integrable then; but it
+follows from finite relations only where it holds for all velocities that those leave. With I^(inf) the largest
+integrable part, f is holonomic in the system iff it vanishes on every velocity (dt = 1) in the kernel of I^(inf) at a
+generic configuration, which is the Lie algebra of the admissible velocities [HermannNagano]; for a linear f that says
+that its form lies in I^(inf).
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from flint import arb
 
-from dofkit.base.errors import NoValueError
-from dofkit.base.verdicts import weakest
+from dofkit.base.deadline import OutOfTimeError
+from dofkit.base.verdicts import VERDICTS, weakest
 from dofkit.configuration.local.manifold import Manifold
-from dofkit.configuration.states import States, rows_at, state_relations
-from dofkit.exact.errors import raising_no_value
+from dofkit.configuration.search import find
+from dofkit.configuration.states import States, moves, rows_at, state_relations, value_at, vanishes
+from dofkit.configuration.variety import Variety
+from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import Pivots, certified_rank, kernel
 from dofkit.exact.points.real_search import RealPoint
-from dofkit.exact.zero import is_zero
+from dofkit.exact.ring.program import VAR, Scalar, reachable, values
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero import independent_on_set, is_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
+from dofkit.expressions.tree import Expr
+from dofkit.integrability.lie_algebra import Span, ball_span, span_at
+from dofkit.integrability.pfaffian_system import Codistribution, codistribution
 from dofkit.relations.answer import Answer, HolonomyLabel
-from dofkit.relations.blocks import Block, Row
+from dofkit.relations.blocks import Block, Row, coordinates_of
 from dofkit.relations.normal.normal_form import velocities_of
+from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.setting import Setting
+from dofkit.relations.velocity_reductions import RewrittenRow
 
 #: Derivatives of curves are taken up to this order.
 MAX_ORDER = 8
@@ -98,7 +114,7 @@ def _rows_at_reference(block: Block, setting: Setting, result: Answer) -> tuple[
     Raises NoValueError.
     """
     known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
-    relations = state_relations(block.rows, result.hidden)
+    relations = [e for kind in state_relations(block.rows, result.hidden) for e in kind]
     if any(not is_zero(substitute(g, known), setting.positive) for g in relations if not velocities_of(g)):
         return None
     return rows_at(relations, known)
@@ -193,3 +209,182 @@ def _derivatives(states: States, rows: list[list[arb]], point: BallPoint, wanted
         path = manifold.line(direction, order).path
         found += [[s.coefficient(k) for s in path] for k in range(2, order)]
     return found
+
+
+#: Velocities of the Lie algebra that are tried at a point, and states at which a reduction is checked.
+VECTORS, CHECKED = 3, 2
+
+NOT_EQUIVALENT = (
+    "a velocity was eliminated by dividing by a term that vanishes on the geometric equations: "
+    "the remaining nonlinear constraint was not decided"
+)
+NO_VELOCITY = "no velocities were found at which it could be compared"
+
+
+def blocks_of(slot: RewrittenRow, blocks: Sequence[Block]) -> list[int]:
+    """The numbers of the blocks that a reduced relation has to do with."""
+    names = set(coordinates_of(slot.written.piece)).union(*(coordinates_of(r.piece) for r in slot.rows))
+    return [k for k, block in enumerate(blocks) if names & set(block.coordinates)]
+
+
+def _joint_block(slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[int]) -> Block:
+    names = dict.fromkeys(c for k in numbers for c in blocks[k].coordinates)
+    names |= dict.fromkeys(sorted(coordinates_of(slot.written.piece)))
+    rows = [r for k in numbers for r in blocks[k].rows]
+    finite = [r for r in rows if isinstance(r.piece, Finite)]
+    return Block(tuple(names), (*finite, *(r for r in rows if not isinstance(r.piece, Finite))))
+
+
+def with_reductions_checked(
+    slots: Sequence[RewrittenRow], blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
+) -> list[Answer]:
+    """The answers, but undecided where a relation as written does not hold at the states that its reduction leaves."""
+    found = list(answers)
+    for slot in slots:
+        numbers = blocks_of(slot, blocks)
+        if any(not found[k].consistent for k in numbers) or _holds(slot, blocks, numbers, found, setting):
+            continue
+        for k in numbers:
+            found[k] = Answer(None, verdict="undecided", reasons=[*found[k].reasons, NOT_EQUIVALENT])
+    return found
+
+
+def _holds(
+    slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[int], answers: Sequence[Answer], setting: Setting
+) -> bool:
+    joint, f = _joint_block(slot, blocks, numbers), slot.written.piece
+    if not isinstance(f, Nonlinear):
+        return True
+    hidden = [g for k in numbers for g in answers[k].hidden]
+    try:
+        states = States(joint.coordinates, joint.rows, hidden, setting, [f.expr])
+        node = states.extra[f.expr]
+        seen = [value_at(states.ring, p, node) for k in range(CHECKED) if (p := states.draw(k + 1)) is not None]
+        if not seen or not all(v is not None and vanishes(v) for v in seen):
+            seen = [value_at(states.ring, p, node) for p in states.certain(CHECKED)]
+    except (OutOfTimeError, ArithmeticError):
+        return False
+    return bool(seen) and all(v is not None and vanishes(v) for v in seen)
+
+
+def label_modulo_others(
+    slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
+) -> tuple[HolonomyLabel, Answer]:
+    """Whether a reduced relation is a consequence of finite relations, and the answer of the blocks it touches."""
+    numbers = blocks_of(slot, blocks)
+    own = [answers[k] for k in numbers]
+    weak = max(own, key=lambda a: VERDICTS.index(a.verdict), default=Answer(argument="nothing constrains"))
+    together = Answer(verdict=weak.verdict, about=weak.about, argument=weak.argument, bits=weak.bits, gap=weak.gap)
+    together.hidden = [g for a in own for g in a.hidden]
+    f = slot.written.piece
+    curved = all(answers[k].curved for k in numbers if blocks[k].nonlinear)
+    impossible = any(a.consistent is False for a in answers)
+    if not isinstance(f, Nonlinear) or not curved or impossible or any(a.dof is None for a in own):
+        return HolonomyLabel(None, "undecided"), together
+    try:
+        told = _on_the_kernel(f.expr, _joint_block(slot, blocks, numbers), together.hidden, setting)
+    except (OutOfTimeError, ArithmeticError):
+        return HolonomyLabel(None, "undecided"), together
+    labels = [x for a in own for x in a.labels.values()]
+    if told.holonomic and all(x.holonomic for x in labels):
+        told = replace(told, verdict=weakest(*(x.verdict for x in labels)))
+    elif told.holonomic is False:
+        told = replace(told, reason=_why(slot, blocks, answers))
+    return told, together
+
+
+def _why(slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer]) -> str:
+    """Why a relation that reads otherwise beside the others is none of positions."""
+    if not slot.rows:
+        return (
+            "It is implied by the other constraints, which are not integrable, and is not a consequence of "
+            "geometric equations"
+        )
+    if not any(isinstance(row.piece, (Pfaffian, Nonlinear)) for row in slot.rows):
+        return (
+            "Together with the other constraints it restricts the configuration, but on its own it relates "
+            "velocities, not positions"
+        )
+    rows = {id(row) for row in slot.rows}
+    labels = [
+        a.labels.get(i)
+        for block, a in zip(blocks, answers, strict=True)
+        for i, row in enumerate(r for r in block.rows if not isinstance(r.piece, Nonlinear))
+        if id(row) in rows
+    ]
+    if all(x is not None and x.holonomic for x in labels):
+        return (
+            "It is integrable modulo the others, which are not integrable, and is not a consequence of geometric "
+            "equations"
+        )
+    return "Together with the other constraints it is linear in the velocities, but not integrable"
+
+
+def _on_the_kernel(f: Expr, joint: Block, hidden: Sequence[Expr], setting: Setting) -> HolonomyLabel:
+    """Does f vanish on the kernel of the largest integrable part?"""
+    forms = codistribution(joint, setting, hidden, [f])
+    found = find(forms.chart, setting.pose)
+    ring = forms.chart.ring
+    node = ring.node(f)
+    good = [(p, s) for p in found.samples if (s := span_at(forms, p)) is not None]
+    seen = [v for p, s in good for v in _values_on_span(forms, s.span, p, node)]
+    if seen and all(v == 0 for v in seen):
+        return HolonomyLabel(True, "probable")
+    rank = len(good[0][1].frame.rows) if good else None
+    if any(not v.contains(0) for v in _real_values(forms, found, rank, node)):
+        return HolonomyLabel(False, "proved")
+    certain = _rational(ring, node) and independent_on_set(ring, forms.chart.nodes)
+    if not seen or not certain:
+        return HolonomyLabel(None, "undecided", NO_VELOCITY)
+    return HolonomyLabel(False, "probable" if forms.finite else "proved")
+
+
+def _real_values(forms: Codistribution, found: Variety, rank: int | None, node: int) -> Iterator[arb]:
+    """Values of f at a certified real point."""
+    real = found.real
+    if real is None or not real.certified or not real.consistent:
+        return
+    if rank is None:
+        matrix = forms.rows.matrix(values(forms.chart.ring, real.point), arb(0))
+        rank = ball_part(matrix).rank
+    span = ball_span(forms, rank, real.point)
+    if span is not None:
+        yield from _values_on_span(forms, span[0], real.point, node)
+
+
+def _values_on_span(forms: Codistribution, span: Span, point: FieldPoint | BallPoint, node: int) -> Iterator[Scalar]:
+    """Values of a node at random velocities of a span, with dt = 1 where time is a column."""
+    symbols, zero = forms.chart.symbols, point.number(ex.ZERO.args[0])
+    for _ in range(VECTORS):
+        weights = [point.number(ex.num(point.rng.randrange(1, 1 << 12)).args[0]) for _ in span.vectors]
+        vector = [sum((w * v[c] for w, v in zip(weights, span.vectors, strict=True)), zero)
+                  for c in range(len(symbols))]  # fmt: skip
+        if symbols[-1] == ex.TIME:
+            if vanishes(vector[-1]):
+                continue
+            vector = [v / vector[-1] for v in vector[:-1]]
+        moved = {ex.velocity(str(s.args[1])): v for s, v in zip(symbols, vector, strict=False)}
+        try:
+            yield values(forms.chart.ring, _moving(forms.chart.ring, point, moved), node + 1)[node]
+        except NoValueError:
+            continue
+
+
+def _moving(ring: Ring, point: FieldPoint | BallPoint, moved: dict[Expr, Scalar]) -> FieldPoint | BallPoint:
+    """The same configuration with other velocities."""
+    if isinstance(point, BallPoint):
+        return BallPoint({**point.symbols, **moved}, point.seed)
+    other = point.copy()
+    for var in ring.vars:
+        if moves(ring, var.index):
+            other.given.pop((var.kind, var.key), None)
+    for s, value in moved.items():
+        other.given["symbol", s] = value
+    return other
+
+
+def _rational(ring: Ring, node: int) -> bool:
+    """Do velocities stand in no root and no function?"""
+    code = ring.code
+    used = {code[i][1] for i in reachable(ring, [node]) if code[i][0] == VAR}
+    return all(ring.vars[i].kind == "symbol" or not moves(ring, i) for i in used)

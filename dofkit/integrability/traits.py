@@ -1,4 +1,4 @@
-"""Labels that one piece carries by itself: whether time occurs in it, catastatic, exact."""
+"""What one piece says by itself: whether time occurs in it, catastatic, exact, and a proof that a form integrates."""
 
 from __future__ import annotations
 
@@ -6,21 +6,25 @@ import random
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from itertools import combinations
+from typing import Any
 
 from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import VERDICTS, Verdict, weakest
 from dofkit.exact.analyticity import is_analytic
+from dofkit.exact.points.frames import FormRows
 from dofkit.exact.points.real_search import RealPoint, RealSearch, at_another_time
 from dofkit.exact.ring.canonical import Canon
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import Scalar, gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
-from dofkit.exact.zero import BOTH, Engines, independent_on_set, is_proved_zero, zero_and_verdict
+from dofkit.exact.zero import BOTH, Engines, independent_on_set, is_proved_zero, odd_constants, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
+from dofkit.integrability.integrals import search
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Clause, Inequality, Nonlinear, Pfaffian
@@ -47,15 +51,14 @@ class Traits:
     exact: TraitAnswer | None = None
 
 
-def traits(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH, opened: bool = False) -> Traits:
-    """Return all labels that a piece carries by itself; ``opened``: its differential is known not to be 0."""
+def traits(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) -> Traits:
+    """Return all labels that a piece carries by itself."""
     without_t = timeless(piece, positive, engines)
     if isinstance(piece, Nonlinear):
         return Traits(without_t, _is_cone(piece.expr, positive, engines))
     if not isinstance(piece, Pfaffian):
         return Traits(without_t)
-    closed: TraitAnswer = (False, "proved") if opened else exact(piece, positive, engines)
-    return Traits(without_t, zero_and_verdict(piece.dt, positive, engines), closed)
+    return Traits(without_t, zero_and_verdict(piece.dt, positive, engines), exact(piece, positive, engines))
 
 
 def timeless(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) -> TraitAnswer:
@@ -257,3 +260,89 @@ def exact(form: Pfaffian, positive: frozenset[Expr], engines: Engines = BOTH) ->
             return closed, verdict
         sure = weakest(sure, verdict)
     return True, sure
+
+
+@dataclass(frozen=True)
+class Integrability:
+    """``proved``: the form is integrable and why is in ``reason``; ``factor`` and ``integral`` as text where found."""
+
+    proved: bool
+    reason: str = ""
+    factor: str | None = None
+    integral: str | None = None
+
+
+def integrability(form: Pfaffian, positive: frozenset[Expr], alone: bool | None) -> Integrability:
+    """What can be proved of one form that is integrable alone as far as is known (``alone``)."""
+    if alone is False:
+        return Integrability(False)
+    reason = proof(form, positive)
+    plain = bool(form.coefficients) and not odd_constants(_ring(form, positive))
+    found = search.integrate(form, positive) if plain and (reason or alone) else None
+    if found is not None:
+        return Integrability(True, "an integral was found and checked", found.factor, found.integral)
+    return Integrability(reason is not None, reason or "")
+
+
+def _ring(form: Pfaffian, positive: frozenset[Expr]) -> Ring:
+    ring = Ring([e for _, e in form.items()], positive)
+    for _, e in form.items():
+        ring.node(e)
+    return ring
+
+
+def proof(form: Pfaffian, positive: frozenset[Expr]) -> str | None:
+    """Why the form integrates by itself, where that is proved; else None."""
+    if exact(form, positive) == (True, "proved"):  # [PoincareLemma]
+        return "it is closed, so locally it is the differential of a function"
+    items = list(form.items())
+    symbols = {s for s, _ in items} | {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")}
+    if len(symbols) <= 2:  # [Frobenius1877]
+        return "a form in two variables is always integrable"
+    if len(items) <= 5 and _frobenius(items):
+        return "d(omega) ^ omega = 0 identically"
+    return None
+
+
+def _frobenius(items: list[tuple[Expr, Expr]]) -> bool:
+    """d(omega) ^ omega = 0 for every three variables [Frobenius1877]."""
+    symbols = {s for _, e in items for s in e.symbols if s.args[0] in ("coordinate", "time")} - {s for s, _ in items}
+    everything = [*items, *((s, ex.ZERO) for s in sorted(symbols, key=repr))]
+    for (s, a), (u, b), (w, c) in combinations(everything, 3):
+        total = a * (diff(c, u) - diff(b, w))
+        total += b * (diff(a, w) - diff(c, s))
+        total += c * (diff(b, s) - diff(a, u))
+        if zero_and_verdict(total, frozenset()) != (True, "proved"):
+            return False
+    return True
+
+
+class CurlAtPoint:
+    """One form and its differential at a point: d(omega) has the components d_i a_j - d_j a_i."""
+
+    def __init__(self, rows: FormRows, row: int, at: Sequence[Scalar], point: Any) -> None:
+        one, entries = point.number(ex.ONE.args[0]), rows.entries[row]
+        self.columns, self.zero = rows.columns, one * 0
+        self.value = {c: at[node] for c, node in entries.items()}
+        self.slopes = {c: gradient(rows.ring, at, point, [(node, one)]) for c, node in entries.items()}
+
+    def curl(self, i: int, j: int) -> Scalar:
+        """A component of d(omega)."""
+        columns, zero = self.columns, self.zero
+        return self.slopes.get(j, {}).get(columns[i], zero) - self.slopes.get(i, {}).get(columns[j], zero)
+
+    @cached_property
+    def is_curved(self) -> bool:
+        """Is d(omega) ^ omega something else than 0? Then the form does not integrate by itself [Frobenius1877].
+
+        With a coefficient a_k that is not 0 that holds where a component (i, j, k) is not 0 for some i and j.
+        """
+        value, zero = self.value, self.zero
+        k = next((c for c, a in value.items() if a != 0), None)
+        if k is None:
+            return False
+        for i, j in combinations([c for c in range(len(self.columns)) if c != k], 2):
+            total = value[k] * self.curl(i, j) + value.get(i, zero) * self.curl(j, k)
+            if total + value.get(j, zero) * self.curl(k, i) != 0:
+                return True
+        return False

@@ -6,6 +6,7 @@ import json
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -17,8 +18,8 @@ from dofkit.base.workers import Json
 from dofkit.checker import CheckError, Verification
 from dofkit.checker import verify as verify_independently
 from dofkit.classification.undecided import sketch, undecided
-from dofkit.interface.jobs import STDIN, CertificateRequest, Cut, Request
-from dofkit.interface.output import FAILED, UNREADABLE
+from dofkit.interface.jobs import STDIN, Cut, Request
+from dofkit.interface.output import FAILED
 from dofkit.interface.show.decimals import as_the_scene
 from dofkit.interface.show.faults import complaint
 from dofkit.interface.show.motion import sheet_of_motion
@@ -132,7 +133,9 @@ def _report_text(report: Report, scene: Scene, request: Request, sections: Seque
 
 def _with_certificate(scene: Scene, report: Report, path: str) -> Report:
     """Return the report with its certificate, which is written to a path."""
-    from dofkit.methods.classify import with_certificate  # few runs ask for certificates, whose search is large
+    from dofkit.methods.certificates.lowering import (
+        with_certificate,  # few runs ask for certificates, whose search is large
+    )
 
     report = with_certificate(scene, report)
     _write_certificate(report.certificate, path)
@@ -216,45 +219,35 @@ def _faults_of_error(error: Exception) -> tuple[Fault, ...]:
 # certificates
 
 
-def verification_lines(request: CertificateRequest) -> Json:
-    """Return what is printed about a certificate, and the exit status."""
+def verification_lines(request: Request) -> Json:
+    """Return what is printed about a certificate, and the exit status as the outcome."""
     try:
         checked = _verified(request)
     except OSError as error:
-        return _unreadable(request, f"it cannot be read: {error.strerror or error}")
+        fault = Fault(f"it cannot be read: {error.strerror or error}")
     except (CheckError, DofkitError, ValueError) as error:
-        return _unreadable(request, " ".join(str(error).split()))
-    refused = bool(checked.failed) or (request.strict and bool(checked.uncovered))
-    out = (
-        json.dumps(checked._asdict(), ensure_ascii=request.ascii_only)
-        if request.as_json
-        else _verification_text(checked)
-    )
-    return {"out": out + "\n", "err": "", "status": FAILED if refused else 0}
+        fault = Fault(" ".join(str(error).split()))
+    else:
+        refused = bool(checked.failed) or (request.strict and bool(checked.uncovered))
+        out = _line(checked._asdict(), request) if request.output.as_json else _verification_text(checked)
+        return streams(out, outcome={"status": FAILED if refused else 0})
+    return _fault_streams(replace(request, file=str(request.certificate)), request.file, (fault,), None)
 
 
-def _verified(request: CertificateRequest) -> Verification:
+def _verified(request: Request) -> Verification:
     """Return the checker's own result; a scene that it cannot read may use synonyms, which are replaced first."""
-    certificate = Path(request.certificate).read_bytes()
-    if request.scene is None:
+    certificate = Path(str(request.certificate)).read_bytes()
+    if request.file == request.certificate:
         return verify_independently(None, certificate)
-    data = find(request.scene).data
+    data = find(request.file).data
     try:
         return verify_independently(data if isinstance(data, str) else data.decode("utf-8"), certificate)
     except (CheckError, UnicodeDecodeError):
-        return dofkit.verify(request.scene, certificate)
-
-
-def _unreadable(request: CertificateRequest, message: str) -> Json:
-    if request.as_json:
-        error: dict[str, Any] = {"message": message, "line": None, "column": None, "hint": None}
-        line = {"scene": request.scene or request.certificate, "error": error}
-        return {"out": json.dumps(line, ensure_ascii=request.ascii_only) + "\n", "err": "", "status": UNREADABLE}
-    return {"out": "", "err": f"{request.certificate}: error: {message}\n", "status": UNREADABLE}
+        return dofkit.verify(request.file, certificate)
 
 
 def _verification_text(checked: Verification) -> str:
     lines = [f"{checked.scene}: {checked.verified} of {checked.claims} claims verified"]
     lines += [f"  failed     {f['path']} by {f['rule']}: {f['why']}" for f in checked.failed]
     lines += [f"  uncovered  {path}" for path in checked.uncovered]
-    return "\n".join(lines)
+    return "\n".join(lines) + "\n"

@@ -132,27 +132,13 @@ def export_gradescope(
     out: Annotated[
         Path, typer.Option("--out", metavar="PATH", callback=options.file_of("zip"), help="The zip to upload.")
     ] = Path("autograder.zip"),
-    python: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--python",
-            metavar="VERSION",
-            help="A Python version on the platform; may be repeated. Default: 3.11 to 3.13.",
-        ),
-    ] = None,
-    wheels: Annotated[
-        bool, typer.Option(help="Include dofkit and its dependencies, so that no network is needed.")
-    ] = True,
     reviewed: options.ReviewTable = None,
 ) -> None:
     """Write a Gradescope autograder as one zip to upload."""
     from dofkit.homework import export
 
     with failures_of(assignment):
-        pythons = python or export.PYTHONS
-        notes = export.export_gradescope(assignment, out, pythons, wheels=wheels, reviewed=reviewed)
-    for note in notes:
-        typer.echo(f"{out}: {note}", err=True)
+        export.export_gradescope(assignment, out, reviewed)
 
 
 @export_app.command("grades")

@@ -10,15 +10,14 @@ from collections.abc import Generator, Iterator, Mapping, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import replace
 from heapq import nlargest
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import typer
 
 from dofkit.base.errors import ArgumentError
 from dofkit.base.verdicts import VERDICTS
 from dofkit.base.wording import many
-from dofkit.interface.jobs import Printed, Request, name_of_file, replies
+from dofkit.interface.jobs import Printed, Request, Run, name_of_file, replies
 from dofkit.interface.output import FAILED, FAILURES, UNREADABLE, Output, progress
 from dofkit.interface.show.faults import safe
 
@@ -30,15 +29,6 @@ _CLEARED = "\x1b[2J\x1b[H"
 _MOST_NAMED, _SLOWEST = 8, 3
 #: What a finding is called after a number of scenes, where its name alone would be misread.
 _FINDINGS = {"redundant": "with redundant constraints"}
-
-
-class Run(NamedTuple):
-    """The findings that a run fails on, who answers many scenes at once, and the folder for their reports."""
-
-    fail_on: tuple[str, ...] = ()
-    workers: int | None = None
-    scheduler: str | None = None
-    out: Path | None = None
 
 
 def echo(printed: Printed) -> None:
@@ -91,13 +81,12 @@ def _stream(files: Sequence[str], request: Request, run: Run) -> Generator[Print
     """Yield what is printed about each file: one after another, or many at once."""
     if run.workers is None and run.scheduler is None and run.out is None:
         return replies("report_lines", files, request)
-    from dofkit.interface.many import Helpers, kept_reports, many_reports  # which imports everything before it forks
+    from dofkit.interface.many import kept_reports, many_reports  # which imports everything before it forks
 
-    helpers = Helpers(run.workers, run.scheduler)
     if run.out is None:
-        return many_reports(files, request, helpers)
+        return many_reports(files, request, run)
     as_json = Output(True, only=request.output.only)
-    return kept_reports(files, replace(request, output=as_json), helpers, run.out)
+    return kept_reports(files, replace(request, output=as_json), run, run.out)
 
 
 def watch_files(files: Sequence[str], request: Request, run: Run) -> int:

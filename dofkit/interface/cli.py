@@ -82,8 +82,8 @@ def classify(
 
     Every answer carries a verdict: proved, probable, numeric or undecided.
     """
-    from dofkit.interface.classification import Run, classify_files, longest_name, watch_files
-    from dofkit.interface.jobs import Request
+    from dofkit.interface.classification import classify_files, longest_name, watch_files
+    from dofkit.interface.jobs import Request, Run
 
     if math.isnan(budget):
         raise typer.BadParameter("the budget is a number of seconds", param_hint="--budget")
@@ -223,15 +223,14 @@ def _titles(titles: Mapping[str, str], as_json: bool) -> None:
 @app.command(rich_help_panel=MORE)
 def verify(files: options.CertificateFiles, strict: options.Strict = False, as_json: options.AsJson = False) -> None:
     """Check a certificate with the independent checker."""
-    from dofkit.interface.jobs import CertificateRequest, verification
+    from dofkit.interface.classification import echo
+    from dofkit.interface.jobs import Request, verification
 
     if len(files) > 2:
         raise typer.BadParameter("a scene and its certificate, or a certificate alone", param_hint="[SCENE] CERT")
-    scene, ascii_only = files[0] if files[1:] else None, Output.here(as_json).ascii_only
-    out, err, status = verification(CertificateRequest(scene, files[-1], strict, as_json, ascii_only))
-    typer.echo(out, nl=False)
-    typer.echo(err, nl=False, err=True)
-    raise typer.Exit(status)
+    printed = verification(Request(files[0], Output.here(as_json), certificate=files[-1], strict=strict))
+    echo(printed)
+    raise typer.Exit(UNREADABLE if printed.outcome is None else printed.outcome["status"])
 
 
 @app.command(rich_help_panel=MORE)

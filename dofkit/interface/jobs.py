@@ -13,12 +13,13 @@ import sys
 from collections import Counter
 from collections.abc import Generator, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
 from dofkit.base.deadline import DEFAULT_SECONDS, limit
 from dofkit.base.documents import MOST_BYTES
 from dofkit.base.workers import Job, JobOutcome, Worker
-from dofkit.interface.output import UNREADABLE, Output
+from dofkit.interface.output import Output
 from dofkit.methods.table import MethodName
 
 STDIN = "stdin"
@@ -49,6 +50,7 @@ class Request:
     linearize: bool = False
     data: bytes | None = None
     certificate: str | None = None
+    strict: bool = False
     pictures: tuple[tuple[str, str], ...] = ()
     picture: tuple[str, str] | None = None
 
@@ -58,14 +60,16 @@ class Request:
         return name_of_file(self.file)
 
 
-class CertificateRequest(NamedTuple):
-    """A certificate's file and that of the scene (None: the certificate's own); ``strict``: nothing uncovered."""
+class Run(NamedTuple):
+    """The findings that a run fails on, who answers many scenes at once, and the folder for their reports.
 
-    scene: str | None
-    certificate: str
-    strict: bool
-    as_json: bool
-    ascii_only: bool = False
+    ``workers``: processes on this machine (None: one for each core); ``scheduler``: the address of a Dask cluster.
+    """
+
+    fail_on: tuple[str, ...] = ()
+    workers: int | None = None
+    scheduler: str | None = None
+    out: Path | None = None
 
 
 class Cut(NamedTuple):
@@ -79,7 +83,7 @@ class Cut(NamedTuple):
 class Printed(NamedTuple):
     """What is printed about a file on standard output and standard error, and how many errors it has.
 
-    ``outcome``: what a summary counts of a report.
+    ``outcome``: what a summary counts of a report; of a certificate the exit status.
     """
 
     out: str
@@ -151,17 +155,13 @@ def reply(runner: Runner, function: str, request: Request) -> Printed:
     return _without_worker(request.name, outcome.reason, request.output.as_json)
 
 
-def verification(request: CertificateRequest) -> tuple[str, str, int]:
-    """Return what is printed about a certificate on standard output and standard error, and the exit status."""
+def verification(request: Request) -> Printed:
+    """Return what is printed about a certificate and its scene, ``file`` (that of the certificate: its own)."""
     worker = Worker(modules=(ANSWERS,), fork=True)
     try:
-        outcome = worker.run(Job(f"{ANSWERS}:verification_lines", request, limit(DEFAULT_SECONDS)))
+        return reply(worker, "verification_lines", request)
     finally:
         worker.kill()
-    if outcome.finished:
-        return outcome.value["out"], outcome.value["err"], outcome.value["status"]
-    printed = _without_worker(name_of_file(request.certificate), outcome.reason, request.as_json)
-    return printed.out, printed.err, UNREADABLE
 
 
 def _without_worker(name: str, reason: str, as_json: bool) -> Printed:

@@ -8,15 +8,15 @@ import uuid
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
 from dofkit.base import __version__
-from dofkit.base.runs import Cluster, Journal, Pool, in_order
+from dofkit.base.runs import Cluster, Journal, Pool, in_order, shared
 from dofkit.base.workers import MEMORY
 from dofkit.interface import answers  # imported here already for workers that are forks of this process
-from dofkit.interface.jobs import Printed, Request, data_of, reply, requests
+from dofkit.interface.jobs import Printed, Request, Run, data_of, reply, requests
 from dofkit.models.formats import is_model
 
 MODULES = (answers.__name__,)
@@ -45,21 +45,14 @@ class QueuedScene(NamedTuple):
         return hashlib.blake2b(named + (b"-" if data is None else b"+" + data), digest_size=16).hexdigest()
 
 
-class Helpers(NamedTuple):
-    """The number of processes on this machine (None: one for each core), or the address of a Dask cluster."""
-
-    workers: int | None = None
-    scheduler: str | None = None
-
-
-def many_reports(files: Sequence[str], request: Request, helpers: Helpers) -> Generator[Printed]:
+def many_reports(files: Sequence[str], request: Request, run: Run) -> Generator[Printed]:
     """Yield what is printed of the report on each file, in order. Raises StoppedError."""
-    with _replies(helpers) as replies:
+    with _replies(run) as replies:
         for _, printed in replies(scene_files(files, request), None):
             yield printed
 
 
-def kept_reports(files: Sequence[str], request: Request, helpers: Helpers, folder: Path) -> Generator[Printed]:
+def kept_reports(files: Sequence[str], request: Request, run: Run, folder: Path) -> Generator[Printed]:
     """Write the reports to a folder, one line each, and yield the rest of what is printed.
 
     The journal beside the lines stays: a later run asks only about files that are new or have changed. Raises
@@ -69,7 +62,7 @@ def kept_reports(files: Sequence[str], request: Request, helpers: Helpers, folde
     ledger = path.with_name(path.name + ".ledger")
     if not path.exists():
         ledger.unlink(missing_ok=True)
-    with _replies(helpers) as replies, closing(Journal(ledger, _mark(request))) as journal:
+    with _replies(run) as replies, closing(Journal(ledger, _mark(request))) as journal:
         with path.open("wb") as reports:
             for _, result in replies(scene_files(files, request), journal):
                 printed = Printed(*result)
@@ -97,13 +90,13 @@ Replies: TypeAlias = Callable[[Iterator[QueuedScene], Journal | None], Iterator[
 
 
 @contextmanager
-def _replies(helpers: Helpers) -> Iterator[Replies]:
+def _replies(run: Run) -> Iterator[Replies]:
     """Start the workers of this machine, or of a cluster. Raises StoppedError."""
-    if helpers.scheduler is not None:
-        with Cluster(helpers.scheduler) as cluster:
+    if run.scheduler is not None:
+        with Cluster(run.scheduler) as cluster:
             yield partial(in_order, cluster, _answer_there)
         return
-    with Pool(helpers.workers, MEMORY, MODULES) as pool:
+    with Pool(run.workers, MEMORY, MODULES) as pool:
         pool.fork()
         yield partial(in_order, pool, partial(answer, pool))
 
@@ -115,9 +108,4 @@ def answer(pool: Pool, scene: QueuedScene) -> Printed:
 
 def _answer_there(scene: QueuedScene) -> Printed:
     """Return the same on a machine of a cluster, by killable workers of its own."""
-    return answer(_pool(), scene)
-
-
-@lru_cache(maxsize=1)
-def _pool() -> Pool:
-    return Pool(modules=MODULES)
+    return answer(shared(MODULES[0]), scene)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 from typing import overload
 
 from dofkit.base.deadline import DEFAULT_SECONDS, OutOfTimeError, limited
@@ -11,7 +10,7 @@ from dofkit.base.errors import ArgumentError, Fault, SceneError
 from dofkit.base.wording import require_one_of, seconds_of
 from dofkit.classification.study import study
 from dofkit.exact.points.balls import precise_for
-from dofkit.methods.certificates import lowering
+from dofkit.methods.certificates.lowering import with_certificate
 from dofkit.methods.stages import classified, report_from_worker
 from dofkit.methods.table import METHODS, MethodName
 from dofkit.report import Report
@@ -107,15 +106,6 @@ def _certified(given: Scene | System, budget: float | None, method: MethodName, 
         raise ArgumentError("a certificate needs a Scene: a System has no text that the checker could read")
     report = _classified(given, budget, method).beside(given)
     return with_certificate(given, report) if certificate and isinstance(given, Scene) else report
-
-
-def with_certificate(scene: Scene, report: Report) -> Report:
-    """The report with its certificate; what a second program finds otherwise is undecided.
-
-    It is probable where points over GF(p) alone say what the evidence does. What makes certificates is imported where
-    one is asked for.
-    """
-    return lowering.with_certificate(scene, report, partial(classified, scene, DEFAULT_SECONDS, "field"))
 
 
 def _classified(given: Scene | System, budget: float | None, method: MethodName) -> Report:

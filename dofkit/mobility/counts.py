@@ -13,6 +13,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+from flint import nmod_mat
+
 from dofkit.base.libraries import nx
 from dofkit.base.wording import many, verb
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows
@@ -174,33 +176,14 @@ def allowed(found: Located, dimension: int, p: int) -> list[SparseRow]:
     rows = rows_of(replace(found, members=members, points=points, driven=False))
     if rows is None:
         return [{c: 1} for c in range(size)]
-    return kernel([{c: v % p for c, v in row.items() if v % p} for row in rows], size, p)
+    return _kernel([{c: v % p for c, v in row.items() if v % p} for row in rows], size, p)
 
 
-def kernel(rows: Sequence[SparseRow], size: int, p: int) -> list[SparseRow]:
-    """A basis of the vectors that few rows modulo p vanish on."""
-    reduced: dict[int, SparseRow] = {}
-    for row in rows:
-        left = dict(row)
-        for pivot, other in reduced.items():
-            left = _less(left, other, left.get(pivot, 0), p)
-        if not left:
-            continue
-        column = min(left)
-        inverse = pow(left[column], -1, p)
-        left = {c: v * inverse % p for c, v in left.items()}
-        reduced = {c: _less(other, left, other.get(column, 0), p) for c, other in reduced.items()} | {column: left}
-    free = [c for c in range(size) if c not in reduced]
-    return [{f: 1} | {c: -row[f] % p for c, row in reduced.items() if f in row} for f in free]
-
-
-def _less(row: SparseRow, other: SparseRow, factor: int, p: int) -> SparseRow:
-    if not factor:
-        return row
-    found = dict(row)
-    for c, v in other.items():
-        found[c] = (found.get(c, 0) - factor * v) % p
-    return {c: v for c, v in found.items() if v}
+def _kernel(rows: Sequence[SparseRow], size: int, p: int) -> list[SparseRow]:
+    """Return a basis of the vectors on which few rows modulo p vanish."""
+    matrix = nmod_mat([[row.get(c, 0) for c in range(size)] for row in rows] or [[0] * size], p)
+    columns, nullity = matrix.nullspace()
+    return [{c: v for c in range(size) if (v := int(columns[c, k]))} for k in range(nullity)]
 
 
 def _loops(joints: Sequence[CountedJoint]) -> list[list[CountedJoint]]:

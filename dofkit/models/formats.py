@@ -44,7 +44,7 @@ def is_model(data: bytes | str) -> bool:
 
 def is_known_model(data: bytes | str) -> bool:
     """Return whether a file begins as one of the `FORMATS`."""
-    return is_model(data) and _first_tag(data) in {known.tag for known in FORMATS}
+    return is_model(data) and _first_tag(data) in {form.tag for form in FORMATS}
 
 
 def format_of(data: bytes | str) -> ModelFormat | None:
@@ -52,27 +52,27 @@ def format_of(data: bytes | str) -> ModelFormat | None:
     if not is_model(data):
         return None
     tag = _first_tag(data)
-    known = next((known for known in FORMATS if known.tag == tag), None)
-    if known is None and tag:
+    form = next((form for form in FORMATS if form.tag == tag), None)
+    if form is None and tag:
         message = f"an XML file that begins with <{tag}> is not a model that dofkit reads"
         hint = "models begin with <mujoco> (MJCF) or <robot> (URDF)"
         if tag in _PARTS:
             hint = "this is a part of a model: give the file that includes it"
         raise SceneError((Fault(message, line=1, column=1, hint=hint),))
-    return known
+    return form
 
 
 def read_model(file: ModelFile) -> ModelDocument:
     """Return the scene of a model's file. Raises SceneError with all its faults, each in its line."""
-    known = format_of(file.data)
-    if known is None:
-        titles = ", ".join(known.title for known in FORMATS)
+    form = format_of(file.data)
+    if form is None:
+        titles = ", ".join(form.title for form in FORMATS)
         raise SceneError((Fault("this is not a model", hint=f"the formats that are read: {titles}"),), file.name)
-    missing = [name for name in known.needs if find_spec(name) is None]
+    missing = [name for name in form.needs if find_spec(name) is None]
     if missing:
-        message = f"{known.title} is read with {' and '.join(missing)}, which is not installed"
+        message = f"{form.title} is read with {' and '.join(missing)}, which is not installed"
         raise SceneError((Fault(message, hint="install it: pip install 'dofkit[models]'"),), file.name)
-    document: ModelDocument = import_module(known.module).read(file)
+    document: ModelDocument = import_module(form.module).read(file)
     return document
 
 

@@ -202,8 +202,8 @@ class _RobotReader:
         dynamics = [part.first("dynamics") for part in self.root.all("joint")]
         if any((part.get("damping") + part.get("friction")).strip(" 0.") for part in dynamics if part is not None):
             unread.append("damping and friction of joints: they are forces, not constraints")
-        known = {"link", "joint", "material", "loop_joint", "ball_constraint", *_OTHERS}
-        undefined = dict.fromkeys(f"<{part.tag}>" for part in self.root.below if part.tag not in known)
+        read_tags = {"link", "joint", "material", "loop_joint", "ball_constraint", *_OTHERS}
+        undefined = dict.fromkeys(f"<{part.tag}>" for part in self.root.below if part.tag not in read_tags)
         if undefined:
             unread.append(f"{listed(undefined)}: elements that URDF does not define")
         return Robot(self.root.get("name"), self.root, links, joints, tuple(loops), tuple(unread))
@@ -248,24 +248,24 @@ class _RobotReader:
 
     def _check_joints(self, joints: tuple[RobotJoint, ...]) -> None:
         """Record joints with one name, and what cannot be mimicked."""
-        known: dict[str, RobotJoint] = {}
+        by_name: dict[str, RobotJoint] = {}
         lines = {part.get("name"): part for part in self.root.all("joint")}
         for joint, part in zip(joints, self.root.all("joint"), strict=True):
-            if joint.name in known:
+            if joint.name in by_name:
                 self._fault(part, f"the joint '{joint.name}' is defined twice", "rename one of them")
-            known[joint.name] = joint
+            by_name[joint.name] = joint
         for joint in joints:
             if joint.mimic is None:
                 continue
-            other, kinds = known.get(joint.mimic.joint), (*SCALAR, FIXED)
+            other, kinds = by_name.get(joint.mimic.joint), (*SCALAR, FIXED)
             if other is None or other is joint or other.kind not in kinds or joint.kind not in kinds:
-                near = nearest(joint.mimic.joint, tuple(known)) if other is None else None
+                near = nearest(joint.mimic.joint, tuple(by_name)) if other is None else None
                 hint = f"did you mean '{near}'?" if near else f"joints that can be mimicked are {', '.join(SCALAR)}"
                 self._fault(lines[joint.name], f"'{joint.name}' mimics '{joint.mimic.joint}', which it cannot", hint)
-        for name, joint in known.items():
+        for name, joint in by_name.items():
             seen, leader = {name}, joint
-            while leader.mimic is not None and leader.mimic.joint in known and leader.mimic.joint not in seen:
-                leader = known[leader.mimic.joint]
+            while leader.mimic is not None and leader.mimic.joint in by_name and leader.mimic.joint not in seen:
+                leader = by_name[leader.mimic.joint]
                 seen.add(leader.name)
             if leader.mimic is not None and leader.mimic.joint == name:
                 self._fault(lines[name], f"'{name}' mimics itself through other joints", "remove one `mimic` element")

@@ -11,7 +11,7 @@ import numpy as np
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import TIME, Expr, coordinate
 from dofkit.pictures.arrangement import Arrangement, is_linear, velocity_rows
-from dofkit.pictures.evaluation import kernel
+from dofkit.pictures.evaluation import by_pivots, kernel
 from dofkit.pictures.mechanism import notes_of
 from dofkit.pictures.shapes import AT_REST, Array, Role, Shape, Sketch, circle, fixed, place
 from dofkit.pictures.stage import StagedScene
@@ -55,7 +55,8 @@ class Distribution:
         self.start = np.array([arrangement.numbers.get(s, 0.0) for s in self.symbols])
         self.timed = TIME in velocity_rows(arrangement.system, arrangement.numbers)[1]
         basis = self.basis(self.start)
-        self.pivots = _pivots(basis)
+        largest = np.argsort(-np.round(np.linalg.norm(basis, axis=0), 6), kind="stable")
+        self.pivots = sorted(by_pivots(basis, [int(column) for column in largest])[1])
         self.fields = len(basis)
 
     def values(self, q: Array) -> Mapping[Expr, float]:
@@ -72,19 +73,6 @@ class Distribution:
         """Return the vector fields at q: each moves one of the pivots at unit speed and no other pivot."""
         basis = self.basis(q)[: self.fields]
         return np.asarray(np.linalg.lstsq(basis[:, self.pivots], basis, rcond=1e-6)[0])
-
-
-def _pivots(basis: Array) -> list[int]:
-    """Return columns on which a basis clearly has full rank: each the largest less what those before span."""
-    pivots: list[int] = []
-    remainder = basis.copy()
-    for _ in range(len(basis)):
-        sizes = np.linalg.norm(remainder, axis=0)
-        column = int(np.argmax(np.round(sizes, 6)))
-        way = remainder[:, column] / max(float(sizes[column]), 1e-12)
-        remainder = remainder - np.outer(way, way @ remainder)
-        pivots.append(column)
-    return sorted(pivots)
 
 
 def element(q: Iterable[float], directions: Array, size: float, role: Role = "field") -> Iterator[Shape]:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from flint import arb
@@ -143,3 +143,47 @@ class Answer:
             return OPEN
         sure: Verdict = "numeric" if self.verdict == "numeric" else "proved" if self.first_order_sure else "probable"
         return Claim(sure, "rank at the reference", self.bits, self.gap, "reference")
+
+
+@dataclass(frozen=True)
+class Redundancies:
+    """Which constraints of some that share coordinates depend on which, by their numbers.
+
+    ``independent``: how many equations of each are independent of those before; ``redundant``: what can be dropped
+    together; ``groups``: (nullity, members); ``circuits``: what a redundant one depends on; ``undecided``: of which it
+    is not known whether they can be dropped.
+    ``equations``: which scalar equations of a constraint follow from those before them, where that is known.
+    ``uncounted``: constraints of which it is not known how many of their equations do; ``seen``: of which some were
+    seen in numbers to do. ``about``: the points for which this is valid; ``verdict``: of what is redundant, at best.
+    """
+
+    independent: dict[int, int]
+    redundant: list[int] = field(default_factory=list)
+    groups: list[tuple[int, list[int]]] = field(default_factory=list)
+    circuits: dict[int, list[int]] = field(default_factory=dict)
+    undecided: tuple[int, ...] = ()
+    equations: Mapping[int, tuple[int, ...]] = field(default_factory=dict)
+    uncounted: tuple[int, ...] = ()
+    seen: tuple[int, ...] = ()
+    about: About = "everywhere"
+    verdict: Verdict = "proved"
+
+    @property
+    def needed(self) -> set[int]:
+        """The constraints that were examined and are not redundant, as far as is known."""
+        return {*self.independent, *self.undecided, *self.uncounted} - {*self.redundant}
+
+    def has_dependent_equations(self, sizes: Sequence[int]) -> bool:
+        """Return whether an equation is known to follow from others; ``sizes``: the equations of each constraint."""
+        return bool(self.uncounted) or any(count < sizes[i] for i, count in self.independent.items())
+
+    def without(self, needed: set[int]) -> Redundancies:
+        """Return the same where some constraints are needed because of other equations of theirs."""
+        redundant = [i for i in self.redundant if i not in needed]
+        circuits = {i: c for i, c in self.circuits.items() if i not in needed}
+        return replace(self, redundant=redundant, circuits=circuits)
+
+
+def undecided_dependence(constraints: Iterable[int]) -> Redundancies:
+    """Return that nothing is known of these constraints."""
+    return Redundancies({}, undecided=tuple(sorted(set(constraints))))

@@ -1,24 +1,31 @@
-"""Model no more than a scene needs: relations that share no coordinate are answered apart."""
+"""Relations that share coordinates in blocks, and a block as the engines see it: its program, relations, columns."""
 
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import combinations
 from typing import NamedTuple
 
 from flint import fmpq, fmpq_mat
 
+from dofkit.base.deadline import check
 from dofkit.base.libraries import components
+from dofkit.exact.errors import NoValueError
+from dofkit.exact.points.field import FieldPoint, field_point
+from dofkit.exact.ring.program import values
+from dofkit.exact.ring.ring import Ring
+from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.normal_form import linear_form
 from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Pfaffian
-from dofkit.relations.setting import Reductions
+from dofkit.relations.setting import ALL, ReductionName, Reductions, Setting
+from dofkit.system import Coordinate
 
 #: Entries of a matrix that is looked at; past that the relations are taken as they are.
 MAX_ENTRIES = 4_000_000
@@ -61,13 +68,11 @@ def presolve(relations: Sequence[Expr]) -> Presolved:
     Unknowns that occur in linear relations only are solved for first.
     """
     result = {i: t for i, e in enumerate(relations) if (t := linear(e)) is not None}
-    if len(result) < 2:
-        return Presolved((), frozenset(), frozenset(), False)
     elsewhere = frozenset().union(*(e.symbols for i, e in enumerate(relations) if i not in result))
     symbols = sorted({s for t in result.values() for s in t}, key=lambda s: (_place(s), s in elsewhere, repr(s)))
-    if len(result) * len(symbols) > MAX_ENTRIES:
+    if len(result) < 2 or len(result) * len(symbols) > MAX_ENTRIES:
         return Presolved((), frozenset(), frozenset(), False)
-    rows = [[_fmpq(t.get(s, Fraction(0))) for s in symbols] for t in result.values()]
+    rows = [[fmpq(*t.get(s, Fraction(0)).as_integer_ratio()) for s in symbols] for t in result.values()]
     reduced, rank = fmpq_mat(rows).rref()
     unknown = sum(_place(s) < 2 for s in symbols)
     pivots = [next(c for c in range(len(symbols)) if reduced[r, c] != 0) for r in range(rank)]
@@ -88,10 +93,6 @@ def _place(symbol: Expr) -> int:
 def _expression(matrix: fmpq_mat, r: int, symbols: Sequence[Expr]) -> Expr:
     entries = ((s, matrix[r, c]) for c, s in enumerate(symbols) if matrix[r, c] != 0)
     return ex.add(*(ex.mul(ex.num(Fraction(int(v.p), int(v.q))), s) for s, v in entries))
-
-
-def _fmpq(value: Fraction) -> fmpq:
-    return fmpq(value.numerator, value.denominator)
 
 
 def _pivots(matrix: fmpq_mat) -> list[int]:
@@ -143,24 +144,6 @@ def coordinates_of(piece: Clause) -> frozenset[str]:
     if isinstance(piece, Pfaffian):
         return frozenset(piece.coefficients).union(*map(coordinates_in, (*piece.coefficients.values(), piece.dt)))
     return coordinates_in(piece.expr)
-
-
-def with_boundaries(rows: Sequence[Row]) -> list[Row]:
-    """The rows with u = 0 in place of the conditions u >= 0 and -u >= 0, as the later one's."""
-    kept: dict[int, Row] = {}
-    sides: dict[frozenset[tuple[Expr, Fraction]], int] = {}
-    for place, row in enumerate(rows):
-        kept[place] = row
-        if not isinstance(row.piece, DomainCondition) or row.piece.sense != ">=":
-            continue
-        form, terms = linear_form(row.piece.expr), linear_terms(row.piece.expr).items()
-        pair = sides.pop(frozenset((term, -c) for term, c in terms), None)
-        if pair is None or form is None:
-            sides[frozenset(terms)] = place
-            continue
-        del kept[pair]
-        kept[place] = Row(row.constraint, form if form.coefficients else Finite(row.piece.expr))
-    return list(kept.values())
 
 
 def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block], list[str]]:
@@ -250,19 +233,164 @@ def about_constants(g: Expr, constants: Sequence[str]) -> bool:
     return all(s.args[0] == "parameter" or s.args[1] in constants for s in g.symbols)
 
 
-def fixed_constants(hidden: Sequence[Expr], constants: Sequence[str]) -> dict[str, Expr]:
-    """The constants that linear relations among them give in terms of parameters and the other constants."""
-    result: dict[str, Expr] = {}
-    for g in hidden if constants else ():
-        if not about_constants(g, constants):
-            continue
-        remaining = substitute(g, {ex.coordinate(c): value for c, value in result.items()})
-        terms = linear_terms(remaining)
-        for c in reversed(constants):
-            s = ex.coordinate(c)
-            if s in terms and not any(s in u.symbols for u in terms if u != s):
-                value = ex.ZERO - (remaining - ex.mul(ex.num(terms[s]), s)) / ex.num(terms[s])
-                result = {k: substitute(v, {s: value}) for k, v in result.items()} | {c: value}
+def given_by(relations: Iterable[Expr], wanted: Sequence[Expr] | None = None) -> dict[Expr, Expr]:
+    """Return the coordinates that relations give explicitly, as functions of others, each free of those solved for.
+
+    Such a coordinate stands in its relation once, with a number as coefficient; ``wanted``: those that are solved for,
+    the first that can be, by default any.
+    """
+    result: dict[Expr, Expr] = {}
+    for g in relations:
+        terms = linear_terms(substitute(g, result))
+        for s in terms if wanted is None else wanted:
+            if s.op != "sym" or s.args[0] != "coordinate" or any(s in u.symbols for u in terms if u != s):
+                continue
+            if s in terms:
+                value = ex.add(*(ex.mul(ex.num(-k / terms[s]), u) for u, k in terms.items() if u != s))
+                result = {k: substitute(v, {s: value}) for k, v in result.items()} | {s: value}
                 break
-    named = {ex.coordinate(c): ex.parameter(c) for c in constants}
-    return {c: substitute(value, named) for c, value in result.items()}
+    return result
+
+
+@dataclass(frozen=True)
+class Chart:
+    """A block's ring, its finite relations and its columns: coordinates, then time where it occurs.
+
+    ``columns`` are generator indices (-1: the symbol occurs nowhere); ``unknowns`` are the symbols that a
+    real search moves: coordinates and generic geometry. ``relations`` are what the nodes compute; ``engines`` those
+    that may look at it; ``size`` is the scale of lengths; ``reductions``: those in
+    use, and ``kinds`` which of them may use each relation. ``within``: they hang by joints on other bodies.
+    """
+
+    ring: Ring
+    nodes: tuple[int, ...]
+    symbols: tuple[Expr, ...]
+    columns: tuple[int, ...]
+    unknowns: tuple[Expr, ...]
+    positive: frozenset[Expr]
+    roles: tuple[Coordinate, ...] = ()
+    relations: tuple[Expr, ...] = ()
+    engines: Engines = BOTH
+    size: float = 1.0
+    reductions: Reductions = ALL
+    kinds: tuple[ReductionName, ...] = ()
+    within: bool = False
+
+    @property
+    def coordinates(self) -> int:
+        """The number of columns that are coordinates."""
+        return sum(s.args[0] == "coordinate" for s in self.symbols)
+
+    @property
+    def time(self) -> int | None:
+        """The number of the column that is time."""
+        return self.symbols.index(ex.TIME) if ex.TIME in self.symbols else None
+
+    @property
+    def scales(self) -> list[float]:
+        """The size by which each column is measured: places by the scale of lengths."""
+        places = {c.name for c in self.roles if c.role in ("x", "y", "z")}
+        return [self.size if s.args[-1] in places else 1.0 for s in self.symbols]
+
+
+Displacement = dict[int, list[tuple[int, int | None]]]
+
+
+def displacement_fields(chart: Chart) -> list[Displacement]:
+    """Translations and rotations: for a column, the sum of factor * (the value of another column, or 1).
+
+    Only where every coordinate of the block is a place or the angle of a planar body.
+    """
+    place = {str(s.args[1]): i for i, s in enumerate(chart.symbols) if s != ex.TIME}
+    here = [c for c in chart.roles if c.name in place]
+    if len(here) != len(place) or any(c.role not in ("x", "y", "z", "angle") for c in here):
+        return []
+    by_owner: dict[str, dict[str, int]] = {}
+    for c in here:
+        by_owner.setdefault(str(c.owner), {})[c.role] = place[c.name]
+    axes = sorted({r for roles_of in by_owner.values() for r in roles_of if r != "angle"})
+    result: list[Displacement] = [{o[a]: [(1, None)] for o in by_owner.values() if a in o} for a in axes]
+    for a, b in combinations(axes, 2):
+        turn: Displacement = {}
+        for o in by_owner.values():
+            if a in o and b in o:
+                turn[o[a]] = [(-1, o[b])]
+                turn[o[b]] = [(1, o[a])]
+            if "angle" in o:
+                turn[o["angle"]] = [(1, None)]
+        result.append(turn)
+    return result
+
+
+def free_point(chart: Chart, seed: int) -> FieldPoint | None:
+    """A random point of the ambient space at which the program runs."""
+    for attempt in range(60):
+        point = field_point([chart.ring], 1000 * seed + attempt)
+        try:
+            values(chart.ring, point)
+        except NoValueError:
+            continue
+        return point
+    return None
+
+
+def aliases(block: Block, finite: Sequence[Expr]) -> dict[Expr, Expr]:
+    """Return the coordinates that finite relations give explicitly (theta = w t), if they stand inside functions."""
+    if not finite:
+        return {}
+    inside = {s for e in (*expressions(block), *finite) for s in _inside_functions(e)}
+    return given_by(finite, sorted(inside, key=repr))
+
+
+def _inside_functions(e: Expr) -> frozenset[Expr]:
+    result: frozenset[Expr] = frozenset()
+    for node in ex.nodes(e):
+        if node.op == "fn" or (node.op == "pow" and node.args[1].op != "num"):
+            result |= node.symbols
+    return result
+
+
+def make_chart(block: Block, setting: Setting, extra: Sequence[Expr] = (), more: Sequence[Expr] = ()) -> Chart:
+    """The ring of a block with its finite relations and ``extra`` ones; ``more`` is evaluated too."""
+    finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(extra)
+    everything = [*expressions(block), *extra, *more]
+    alias = aliases(block, finite) if block.forms or block.nonlinear else {}
+    ring = Ring(everything, setting.positive, alias)
+    nodes = tuple(ring.node(g) for g in finite)
+    for e in everything:
+        check()
+        ring.node(e)
+    symbols = tuple(ex.coordinate(c) for c in block.coordinates)
+    if uses_time(block) or any(ex.TIME in e.symbols for e in extra):
+        symbols = (*symbols, ex.TIME)
+    columns = tuple(-1 if (i := ring.var_index(s)) is None else i for s in symbols)
+    unknowns = (*(s for s in symbols if s != ex.TIME), *setting.generic)
+    return Chart(
+        ring,
+        nodes,
+        symbols,
+        columns,
+        unknowns,
+        setting.positive,
+        setting.roles,
+        tuple(finite),
+        setting.engines,
+        setting.size,
+        setting.reductions,
+        _kinds(block, setting, len(extra)),
+        setting.within,
+    )
+
+
+def _kinds(block: Block, setting: Setting, more: int) -> tuple[ReductionName, ...]:
+    """Which reduction may use each finite relation of the block, and so many more."""
+    angles = {ex.coordinate(c.name) for c in setting.roles if c.role in ("angle", "phi", "theta", "psi")}
+    other: ReductionName = "eliminations"
+    return (*(_kind(row, setting, angles) for row in block.finite), *(other,) * more)
+
+
+def _kind(row: Row, setting: Setting, angles: set[Expr]) -> ReductionName:
+    if row.constraint in setting.welds:
+        return "welds"
+    symbols = row.piece.expr.symbols if isinstance(row.piece, Finite) else frozenset[Expr]()
+    return "still" if symbols <= angles else "eliminations"

@@ -1,9 +1,10 @@
-"""Relations nonlinear in the velocities, in the presence of linear ones."""
+"""Relations in the presence of others: nonlinear in the velocities beside linear ones, and two sides of a boundary."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import islice
 from itertools import product as cartesian
 from typing import NamedTuple
@@ -16,9 +17,9 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Row, coordinates_of
+from dofkit.relations.blocks import Row, coordinates_of, given_by
 from dofkit.relations.normal.domain import DomainCondition, conditions_of
-from dofkit.relations.normal.normal_form import normalise, velocities_of
+from dofkit.relations.normal.normal_form import linear_form, normalise, velocities_of
 from dofkit.relations.normal.pieces import Finite, Nonlinear, Pfaffian
 from dofkit.relations.normal.zero_set import never_vanishes
 
@@ -36,6 +37,24 @@ def rate(g: Expr) -> Expr:
 def form_rate(form: Pfaffian) -> Expr:
     """The form with velocities in place of differentials."""
     return ex.add(*(e * ex.velocity(name) for name, e in form.coefficients.items()), form.dt)
+
+
+def with_boundaries(rows: Sequence[Row]) -> list[Row]:
+    """The rows with u = 0 in place of the conditions u >= 0 and -u >= 0, as the later one's."""
+    kept: dict[int, Row] = {}
+    sides: dict[frozenset[tuple[Expr, Fraction]], int] = {}
+    for place, row in enumerate(rows):
+        kept[place] = row
+        if not isinstance(row.piece, DomainCondition) or row.piece.sense != ">=":
+            continue
+        form, terms = linear_form(row.piece.expr), linear_terms(row.piece.expr).items()
+        pair = sides.pop(frozenset((term, -c) for term, c in terms), None)
+        if pair is None or form is None:
+            sides[frozenset(terms)] = place
+            continue
+        del kept[pair]
+        kept[place] = Row(row.constraint, form if form.coefficients else Finite(row.piece.expr))
+    return list(kept.values())
 
 
 @dataclass(frozen=True)
@@ -230,27 +249,6 @@ def eliminated(e: Expr, linear: Sequence[Expr]) -> tuple[Expr, list[Expr]]:
         remaining = [substitute(other, {v: value}) for other in remaining]
         e = substitute(e, {v: value})
     return e, divisors
-
-
-def given_by(relations: Iterable[Expr]) -> Mapping[Expr, Expr]:
-    """Return the coordinates that relations determine, as functions of others, each free of those solved for."""
-    result: dict[Expr, Expr] = {}
-    for g in relations:
-        own = substitute(g, result)
-        pivot = next(_coordinate_pivots(own), None)
-        if pivot is not None:
-            s, value = pivot
-            result = {k: substitute(v, {s: value}) for k, v in result.items()} | {s: value}
-    return result
-
-
-def _coordinate_pivots(g: Expr) -> Iterator[tuple[Expr, Expr]]:
-    """Yield the coordinates that stand in a relation once, with a number as coefficient, and their values."""
-    terms = linear_terms(g)
-    for s, c in terms.items():
-        if s.op == "sym" and s.args[0] == "coordinate" and not any(s in u.symbols for u in terms if u != s):
-            remainder = ex.add(*(ex.mul(ex.num(-k / c), u) for u, k in terms.items() if u != s))
-            yield s, remainder
 
 
 def _pivot(relation: Expr) -> tuple[Expr, Expr] | None:

@@ -181,9 +181,9 @@ def likely_types(word: object, entry: Mapping[str, Any]) -> list[str]:
 def meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
     """Return the constraint type that a word most likely means, by the keys that stand beside it; None for no idea."""
     words = {kind: (kind, *cls.synonyms, *cls.understood) for kind, cls in TYPES.items()}
-    known = {name for names in words.values() for name in names}
+    every_word = {name for names in words.values() for name in names}
     text = word.lower() if isinstance(word, str) else ""
-    near = next((part for part in re.split(r"\W+", text) if part in known), None) or nearest(text, known)
+    near = next((part for part in re.split(r"\W+", text) if part in every_word), None) or nearest(text, every_word)
     fields = {kind: TYPES[kind].model_fields for kind, names in words.items() if near in names}
     return max(fields, key=lambda kind: sum(key in fields[kind] for key in entry), default=None)
 

@@ -98,14 +98,14 @@ def check(scene: Scene) -> tuple[Fault, ...]:
 def survey_of(scene: Scene) -> Survey:
     """Return the survey of a scene, which is kept while the scene's mappings hold what they held."""
     mappings = [dict(part) for part in (scene.parameters, scene.functions, scene.configuration, scene.expect)]
-    known: Survey
+    survey_kept: Survey
     if scene._kept.about is not None:
-        owner, written, known = scene._kept.about
+        owner, written, survey_kept = scene._kept.about
         if owner() is scene and written == mappings:
-            return known
-    found = survey(scene)
-    scene._kept = Companion((weakref.ref(scene), mappings, found))
-    return found
+            return survey_kept
+    new_survey = survey(scene)
+    scene._kept = Companion((weakref.ref(scene), mappings, new_survey))
+    return new_survey
 
 
 @gc_rarely()
@@ -142,17 +142,17 @@ def survey(scene: Scene, euler: bool = False) -> Survey:
     return Survey(world, tuple(constraints), tuple(connections), drawn, size, tuple(faults))
 
 
-def _repeat_faults(key: str, letter: str, given: Sequence[str | None]) -> Iterator[Fault]:
+def _repeat_faults(key: str, letter: str, written_names: Sequence[str | None]) -> Iterator[Fault]:
     """Yield a fault for each entry of ``key`` whose name, given or by position, is that of an entry before it."""
-    names = names_by_position(letter, given)
+    names = names_by_position(letter, written_names)
     repeated = {name for name, times in Counter(names).items() if times > 1}
     first: dict[str, int] = {}
     for i, name in enumerate(names):
         if name in repeated and first.setdefault(name, i) != i:
             message = f"the name '{name}' is given twice"
-            if given[i] is None or given[first[name]] is None:
-                message += f": it is the default name of entry {(i if given[i] is None else first[name]) + 1}"
-            where = (key, i) if given[i] is None else (key, i, "name")
+            if written_names[i] is None or written_names[first[name]] is None:
+                message += f": it is the default name of entry {(i if written_names[i] is None else first[name]) + 1}"
+            where = (key, i) if written_names[i] is None else (key, i, "name")
             yield Fault(message, where, hint=f"rename one of them: `name: {name}_2`")
 
 
@@ -251,23 +251,23 @@ def _expect_faults(scene: Scene) -> Iterator[Fault]:
 
 def lower(scene: Scene) -> System:
     """Return the coordinates and exact relations of a scene. Raises SceneError with all its faults if it has any."""
-    found = survey_of(scene)
-    if found.faults:
-        raise SceneError(found.faults)
-    return system_of(scene, found)
+    surveyed = survey_of(scene)
+    if surveyed.faults:
+        raise SceneError(surveyed.faults)
+    return system_of(scene, surveyed)
 
 
-def system_of(scene: Scene, found: Survey) -> System:
+def system_of(scene: Scene, surveyed: Survey) -> System:
     """Return the mathematics of a scene that was surveyed without faults."""
-    drawing, world = found.drawing, found.world
+    drawing, world = surveyed.drawing, surveyed.world
     vocabulary, pose = drawing.vocabulary, pose_of(drawing)
-    reference, singular, warning = _reference(found, pose)
+    reference, singular, warning = _reference(surveyed, pose)
     names = names_by_position("f", [force.name for force in scene.forces])
     return System(
         name=scene.name,
         dimension=scene.dimension,
         coordinates=vocabulary.table.coordinates,
-        constraints=found.constraints,
+        constraints=surveyed.constraints,
         parameters={n: sign for n, sign in vocabulary.signs.items() if vocabulary.parameters[n] == parameter(n)},
         generic=tuple(world.generic),
         functions={name: len(arguments) for name, arguments in scene.functions.items()},
@@ -278,30 +278,30 @@ def system_of(scene: Scene, found: Survey) -> System:
         bodies=tuple(vocabulary.table.bodies),
         forces=tuple(ListedForce(name, force.reason) for name, force in zip(names, scene.forces, strict=True)),
         links=tuple(world.links),
-        distances={} if reference is not None else {i: tuple(parts) for i, parts in world.distances.items()},
-        connections=found.connections,
+        distances={} if reference is not None else {i: tuple(pairs) for i, pairs in world.distances.items()},
+        connections=surveyed.connections,
         starts={name: frame.start for name, frame in drawing.frames.items()},
         arms=_arms(drawing, centre_of(world.points) if drawing.tolerance else None),
         tolerance=scene.tolerance or None,
-        size=found.size,
-        warnings=(*world.warnings, *_joint_warnings(found.constraints, found.connections), *warning),
+        size=surveyed.size,
+        warnings=(*world.warnings, *_joint_warnings(surveyed.constraints, surveyed.connections), *warning),
         left_out=scene.left_out,
         drawn=singular,
     )
 
 
-def _reference(found: Survey, pose: Pose) -> tuple[Pose | None, Pose | None, list[str]]:
+def _reference(surveyed: Survey, pose: Pose) -> tuple[Pose | None, Pose | None, list[str]]:
     """Return the reference configuration, one that is singular for Euler angles in texts, and why there is none."""
-    special = found.world.special or not found.drawn.isdisjoint(found.world.special_of)
-    if special or found.world.generic:
+    special = surveyed.world.special or not surveyed.drawn.isdisjoint(surveyed.world.special_of)
+    if special or surveyed.world.generic:
         return None, None, [SPECIAL] if special else []
-    drawing = found.drawing
-    touched = cache(lambda: frozenset[str]().union(*(c.mentioned for c in found.constraints)))
-    reference = reference_of(drawing, found.drawn, pose, touched)
+    drawing = surveyed.drawing
+    touched = cache(lambda: frozenset[str]().union(*(c.mentioned for c in surveyed.constraints)))
+    reference = reference_of(drawing, surveyed.drawn, pose, touched)
     if reference is not None:
         level = _level(drawing, touched)
         return (None, reference, [LEVEL.format(", ".join(level))]) if level else (reference, None, [])
-    missing = undrawn(drawing, found.drawn, pose, touched()) if found.drawn else ()
+    missing = undrawn(drawing, surveyed.drawn, pose, touched()) if surveyed.drawn else ()
     listed = ", ".join(missing[:8]) + (", ..." if len(missing) > 8 else "")
     message = f"There is no reference configuration: the position of {listed} is not given."
     return None, None, [message] if missing else []
@@ -370,9 +370,9 @@ def _joint_warnings(constraints: Sequence[Constraint], connections: Sequence[Con
 
 def _repeats(motor: Connection, joint: Connection) -> bool:
     """Return whether two joints of one type connect the same bodies in the same geometry, which is given."""
-    given = None not in (*motor.places, *motor.directions) and bool(motor.places)
+    is_given = None not in (*motor.places, *motor.directions) and bool(motor.places)
     geometry = (motor.facts, {*motor.members}, motor.places, motor.directions)
-    return given and geometry == (joint.facts, {*joint.members}, joint.places, joint.directions)
+    return is_given and geometry == (joint.facts, {*joint.members}, joint.places, joint.directions)
 
 
 def _at_rest(connections: Sequence[Connection]) -> set[str]:

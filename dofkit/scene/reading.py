@@ -89,10 +89,10 @@ def load(source: SceneLike, *, name: str | None = None, limits: bool = False) ->
         return SceneFile(Document(name or "", "", source, ()), located=False).scene()
     if not isinstance(source, str | os.PathLike):
         raise ArgumentError(f"a scene is given as {_TAKEN}, not {description_of(source)}")
-    found = find(source)
-    if found.path is None:
-        return SceneFile(read_document(found.data, name or found.name)).scene()
-    return SceneFile.read(found.data, name or found.name, found.path, limits).scene()
+    file = find(source)
+    if file.path is None:
+        return SceneFile(read_document(file.data, name or file.name)).scene()
+    return SceneFile.read(file.data, name or file.name, file.path, limits).scene()
 
 
 @gc_rarely()
@@ -131,9 +131,9 @@ def loads(data: bytes | str, name: str = "scene") -> Scene:
     return SceneFile.read(data, name).scene()
 
 
-def scene_or_system(given: SceneLike | System) -> Scene | System:
+def scene_or_system(source: SceneLike | System) -> Scene | System:
     """Return a System unchanged, and the Scene that anything else stands for. Raises as `load` does."""
-    return given if isinstance(given, System) else load(given)
+    return source if isinstance(source, System) else load(source)
 
 
 @dataclass(frozen=True)
@@ -275,17 +275,17 @@ def _faults_of_sound_part(value: Mapping[str, Any], faults: Sequence[Fault]) -> 
     for key, indices in kept.items():
         sound[key] = [_as_entry(sound, key, i) for i in indices]
     try:
-        found = check(Scene.model_validate(standard_words(sound).value if sections else sound))
+        remaining = check(Scene.model_validate(standard_words(sound).value if sections else sound))
     except ValidationError:
         return
     functions = [f"`{fault.where[1]}`" for fault in faults if fault.where[:1] == ("functions",) and fault.where[1:]]
     missing_joints = {f"there is no joint '{name}'" for name in names}
-    for fault in found:
+    for fault in remaining:
         if fault.message not in missing_joints and not any(function in fault.message for function in functions):
-            first, *rest = fault.where or ("",)
-            if first in kept and rest and isinstance(rest[0], int):
-                rest[0] = kept[str(first)][rest[0]]
-            yield replace(fault, where=(sections.get(str(first), first), *rest) if fault.where else ())
+            first, *inner = fault.where or ("",)
+            if first in kept and inner and isinstance(inner[0], int):
+                inner[0] = kept[str(first)][inner[0]]
+            yield replace(fault, where=(sections.get(str(first), first), *inner) if fault.where else ())
 
 
 def _path_of_no_text(fault: Fault, scene: Mapping[str, Any]) -> tuple[str | int, ...] | None:

@@ -239,15 +239,3 @@ def closed(rng: random.Random, size: int) -> KnownScene:
     text = f"{dx}*({applied(outer, one)})*xdot + ({x})*({applied(derived, other)})*{slope}*ydot = 0"
     known = truths(1, holonomic=True, scleronomic=True, **{"c1.exact": True, "c1.holonomic": True})
     return KnownScene(scene_of("x y", text, functions=UNKNOWN), known)
-
-
-FAMILY = {
-    "followed": followed,
-    "formed": formed,
-    "added": added,
-    "beads": beads,
-    "cam": cam,
-    "logarithms": logarithms,
-    "remaining": remaining,
-    "closed": closed,
-}

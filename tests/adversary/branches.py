@@ -74,11 +74,3 @@ def at_reference(rng: random.Random, size: int) -> KnownScene:
     rng.shuffle(factors)
     scene = scene_of(letters, f"{'*'.join(factors)} = 0", configuration=at(place))
     return KnownScene(scene, truths(4 - len(some), holonomic=True))
-
-
-FAMILY = {
-    "hidden": hidden,
-    "of-forms": of_forms,
-    "spaces": spaces,
-    "at-reference": at_reference,
-}

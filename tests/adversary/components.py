@@ -91,12 +91,3 @@ def form_on_the_larger(rng: random.Random, size: int) -> KnownScene:
     chart = {"x": str(a), "y": "0", "z": "3"} | free(["u", *v, "q"])
     scene = scene_of(["x", "y", "u", *v, "z", "q"], *relations, f"zdot = {s}*qdot")
     return KnownScene(scene, truths(k + 2), {"dof": [4], "velocity_dof": [3]}, chart)
-
-
-FAMILY = {
-    "ladder": ladder,
-    "unions": unions,
-    "minors": minors,
-    "empty-part": empty_part,
-    "form-on-the-larger": form_on_the_larger,
-}

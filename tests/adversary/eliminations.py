@@ -73,6 +73,3 @@ def forced(rng: random.Random, size: int) -> KnownScene:
     rng.shuffle(relations)
     chart = {"x": str(a), "e": "0", "y": "0"} | free([*u, *v, *w])
     return KnownScene(scene_of([*chart], *relations), truths(3 * k), chart=chart)
-
-
-FAMILY = {"bipartite": bipartite, "across": across, "coinciding": coinciding, "forced": forced}

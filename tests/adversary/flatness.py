@@ -79,6 +79,3 @@ def passing(rng: random.Random, size: int) -> KnownScene:
     base = polynomial(rng, ["u", "w", *q]) if rng.random() < 0.4 else "0"
     case = _case(["u", "w", *q], base, flat, 1 + len(q), {})
     return KnownScene(case.scene, case.truth)
-
-
-FAMILY = {"touching": touching, "definite": definite, "passing": passing}

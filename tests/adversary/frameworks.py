@@ -4,9 +4,8 @@ tolerance; and with other relations attached. Their first-order freedom is the e
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from fractions import Fraction
-from functools import wraps
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -33,7 +32,7 @@ class Special(NamedTuple):
         return KnownScene(self.framework.scene(), {**self.truth, "instantaneous_dof": self.framework.by_rank()})
 
 
-def parallel_cranks(rng: random.Random, size: int) -> Special:
+def _parallel_cranks(rng: random.Random, size: int) -> Special:
     """Three equal parallel cranks on the ground, their ends D_0, D_1, D_2 linked each to each. To first order a D_i
     moves by m_i across its crank, and the links make the m_i equal: 1, and the parallel motion is that. The last link
     is implied by all the others together: without a crank or a link its two ends turn on their own."""
@@ -48,7 +47,7 @@ def parallel_cranks(rng: random.Random, size: int) -> Special:
     return Special(framework, known | {"bar5.circuit": [f"bar{k}" for k in range(5)]})
 
 
-def in_line(rng: random.Random, size: int) -> Special:
+def _in_line(rng: random.Random, size: int) -> Special:
     """k points on a line, each linked to each, in the plane or in space: since each length between is the sum of
     its parts they stay on a line, a rigid segment of 2 d - 1 freedoms; to first order they leave it."""
     k, d = 3 + min(size, 2), rng.choice((2, 3))
@@ -61,7 +60,7 @@ def in_line(rng: random.Random, size: int) -> Special:
     return Special(framework, truths(dof, singular=framework.by_rank() != dof, redundant_equations=extra))
 
 
-def dixon(rng: random.Random, size: int) -> Special:
+def _dixon(rng: random.Random, size: int) -> Special:
     """K(m, n) on two perpendicular lines, away from where they cross: a -> sqrt(a^2 + c), b -> sqrt(b^2 - c) keeps all
     lengths a^2 + b^2, and with the 3 motions of the plane that is 4; where the first-order freedom is 4 it is no
     more."""
@@ -71,7 +70,7 @@ def dixon(rng: random.Random, size: int) -> Special:
     return _at_least(Framework(joints, (), tuple((f"A{i}", f"B{j}") for i in range(m) for j in range(n))), 4)
 
 
-def bricard(rng: random.Random, size: int) -> Special:
+def _bricard(rng: random.Random, size: int) -> Special:
     """Bricard's octahedra, A X, B Y, C Z not linked. Symmetric about a line: 9 numbers for A, B, C, 6 lengths, and
     the 2 motions along the line leave 1. Symmetric about a plane that holds C and Z: 3 + 3 + 2 + 2 numbers, 6
     lengths, and 3 motions of the plane leave 1. With the 6 motions of space the freedom is 7 at least, and no more
@@ -84,7 +83,7 @@ def bricard(rng: random.Random, size: int) -> Special:
         joints = {"A": a, "X": (-a[0], *a[1:]), "B": b, "Y": (-b[0], *b[1:])}
         joints |= {"C": (Fraction(0), *c[1:]), "Z": (Fraction(0), *_place(rng)[1:])}
     if len(set(joints.values())) < len(joints):
-        return bricard(rng, size)
+        return _bricard(rng, size)
     apart = {("A", "X"), ("B", "Y"), ("C", "Z")}
     bars = tuple((p, q) for p, q in combinations("ABCXYZ", 2) if (p, q) not in apart)
     return _at_least(Framework(joints, (), bars), 7)
@@ -107,9 +106,14 @@ def _at_least(framework: Framework, dof: int) -> Special:
 COUNTED = ("consistent", "dof", "velocity_dof", "redundant_equations")
 
 
+def special(rng: random.Random, size: int) -> KnownScene:
+    """One of them as it is drawn."""
+    return rng.choice((_parallel_cranks, _in_line, _dixon, _bricard))(rng, size).known()
+
+
 def _moving(rng: random.Random, size: int) -> Special:
     """One whose freedom is known."""
-    special = rng.choice((parallel_cranks, dixon, bricard))(rng, size)
+    special = rng.choice((_parallel_cranks, _dixon, _bricard))(rng, size)
     return special if "dof" in special.truth else _moving(rng, size)
 
 
@@ -152,21 +156,3 @@ def _freedoms(moving: int, formed: bool) -> dict[str, Any]:
     if formed and moving:
         return {"dof": moving + 2, "velocity_dof": moving + 1, "holonomic": False}
     return {"dof": moving + 1, "velocity_dof": moving + 1, "holonomic": True}
-
-
-def _exact(draw: Callable[[random.Random, int], Special]) -> Callable[[random.Random, int], KnownScene]:
-    @wraps(draw)
-    def exact(rng: random.Random, size: int) -> KnownScene:
-        return draw(rng, size).known()
-
-    return exact
-
-
-FAMILY = {
-    "parallel-cranks": _exact(parallel_cranks),
-    "in-line": _exact(in_line),
-    "dixon": _exact(dixon),
-    "bricard": _exact(bricard),
-    "measured": measured,
-    "attached": attached,
-}

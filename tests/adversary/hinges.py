@@ -97,9 +97,3 @@ def planar_loop(rng: random.Random, size: int) -> KnownScene:
     first = k - 2 if line else k - 3
     known = truths(dof, instantaneous_dof=first, singular=line, redundant_equations=5 * k - (6 * (k - 1) - dof))
     return KnownScene(scene, known)
-
-
-FAMILY = {
-    "flat-vertex": flat_vertex,
-    "planar-loop": planar_loop,
-}

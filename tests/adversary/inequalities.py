@@ -74,6 +74,3 @@ def together(rng: random.Random, size: int) -> KnownScene:
     coordinates, relations, feasible, dof = rng.choice(TOGETHER)
     velocities = dof - any(relation.startswith("dz") for relation in relations)
     return KnownScene(scene_of(coordinates, *relations), truths(dof, velocities, feasible=feasible, holonomic=False))
-
-
-FAMILY = {"alone": alone, "together": together}

@@ -41,19 +41,6 @@ def _dependent(rows: Sequence[Row]) -> list[str]:
     return [f"c{k + 1}" for k in range(len(rows)) if exact_rank(rows[:k]) == exact_rank(rows[: k + 1])]
 
 
-def positions(rng: random.Random, size: int) -> KnownScene:
-    """a q = b: consistent where b adds nothing to the rank, then of dimension n - rank; dependent rows are
-    redundant."""
-    n = rng.randint(1, 3 + 2 * size)
-    rows = _drawn(rng, n, rng.randint(1, n + 2)) or [[Fraction(1)] * (n + 1)]
-    scene = scene_of(names("q", n), *([_text(row, names("q", n)) for row in rows]))
-    rank = exact_rank([row[:-1] for row in rows])
-    if exact_rank(rows) > rank:
-        return KnownScene(scene, IMPOSSIBLE)
-    extra = len(rows) - rank
-    return KnownScene(scene, truths(n - rank, redundant=_dependent(rows), redundant_equations=extra, holonomic=True))
-
-
 def speeds(rng: random.Random, size: int) -> KnownScene:
     """a dq = 0 with constant coefficients, beside finite relations written before: all integrate, and the rank
     counts."""
@@ -88,6 +75,3 @@ def driven(rng: random.Random, size: int) -> KnownScene:
         return KnownScene(scene, IMPOSSIBLE)
     known = truths(n - rank, redundant=_dependent(rows), redundant_equations=len(rows) - rank, holonomic=True)
     return KnownScene(scene, known | {"scleronomic": not any(row[-1] for row in rows)})
-
-
-FAMILY = {"positions": positions, "speeds": speeds, "driven": driven}

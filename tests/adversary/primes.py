@@ -70,6 +70,3 @@ def solved(rng: random.Random, size: int) -> KnownScene:
     if chart is None:
         return KnownScene(scene_of(coordinates, *relations), IMPOSSIBLE)
     return KnownScene(scene_of(coordinates, *relations), truths(1, redundant=[], redundant_equations=0), chart=chart)
-
-
-FAMILY = {"growth": growth, "twisted": twisted, "closed": closed, "solved": solved}

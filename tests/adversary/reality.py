@@ -46,16 +46,6 @@ def disguised(rng: random.Random, size: int) -> KnownScene:
     return KnownScene(scene, truths(len(free), holonomic=True), chart=chart)
 
 
-def squares(rng: random.Random, size: int) -> KnownScene:
-    """A sum of even powers of x_i - P_i is 0: all x_i = P_i(w)."""
-    m, w = rng.randint(2, 2 + size), names("w", 2)
-    x, p = names("x", m), [polynomial(rng, w) for _ in range(m)]
-    terms = [f"{rng.randint(1, 5)}*({a} - ({b}))^{rng.choice((2, 2, 4))}" for a, b in zip(x, p, strict=True)]
-    chart = {"w1": "p0", "w2": "p1"} | dict(zip(x, p, strict=True))
-    more = f"{positive(rng, w)}*" if rng.random() < 0.4 else ""
-    return KnownScene(scene_of([*w, *x], f"{more}({' + '.join(terms)}) = 0"), truths(2, holonomic=True), chart=chart)
-
-
 def squared_forms(rng: random.Random, size: int) -> KnownScene:
     """A sum of squares of forms is 0: all of them. dx - y dz and dw - c dz: the first is non-holonomic, the second not.
     On dw = c dz the freedom is 3 of 4 coordinates, with 2 velocities."""
@@ -84,12 +74,3 @@ def handles(rng: random.Random, size: int) -> KnownScene:
     chart = {"x": "0", "y": "0", "z": "-1 - p0", **({"w": "0", "u": "p1"} if formed else {})}
     known = truths(1 + formed, holonomic=True)
     return KnownScene(scene_of([*values], *relations, configuration=at(values)), known, chart=chart)
-
-
-FAMILY = {
-    "disguised": disguised,
-    "squares": squares,
-    "squared-forms": squared_forms,
-    "isolated-points": isolated_points,
-    "handles": handles,
-}

@@ -149,12 +149,3 @@ def turned_cranks(rng: random.Random, size: int) -> KnownScene:
     known = truths(2, holonomic=True, instantaneous_dof=2, singular=False)
     chart = {"a": "p0", "b": "p0", "z": "1", "u": "p1"}
     return KnownScene(scene_of("a b z u", relation, form, configuration=at(values)), known, chart=chart)
-
-
-FAMILY = {
-    "on-the-larger": on_the_larger,
-    "on-the-smaller": on_the_smaller,
-    "crossed": crossed,
-    "parallelogram": parallelogram,
-    "turned-cranks": turned_cranks,
-}

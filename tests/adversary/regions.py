@@ -97,6 +97,3 @@ def forced(rng: random.Random, size: int) -> KnownScene:
     chart = {"u": "p0", "x": value, "w": "p1", "y": "p2", "z": "1"}
     scene = scene_of("u x y z w", f"x = {value}", f"zdot = {kink}*y*wdot")
     return KnownScene(scene, truths(3, holonomic=True), chart=chart)
-
-
-FAMILY = {"empty-words": empty_words, "kinks": kinks, "repeated": repeated, "sided": sided, "forced": forced}

@@ -4,55 +4,20 @@ from __future__ import annotations
 
 import json
 import random
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from typing import NamedTuple
 
 from dofkit.benchmark.trials import HEADINGS, KNOWN_SCENES
 from dofkit.benchmark.trials.construction import KnownScene
 
-from . import (
-    agreements,
-    branches,
-    components,
-    eliminations,
-    flatness,
-    frameworks,
-    hinges,
-    inequalities,
-    linear,
-    primes,
-    reality,
-    references,
-    regions,
-    rounding,
-    times,
-    vanishing,
-)
 from .disguises import DISGUISES
 
 #: A family: a scene of a size (0 is the smallest) from random choices.
 Generator = Callable[[random.Random, int], KnownScene]
 
-_FAMILIES = (
-    agreements,
-    branches,
-    components,
-    eliminations,
-    flatness,
-    frameworks,
-    hinges,
-    inequalities,
-    linear,
-    primes,
-    reality,
-    references,
-    regions,
-    rounding,
-    times,
-    vanishing,
-)
 #: Of a family of the charts, scenes up to so many times the size that is asked for.
 SMALL = 4
 #: Families of the charts that tell of answers beside a constraint, or are lectures.
@@ -73,11 +38,25 @@ def _drawn_from(family: str) -> Generator:
     return drawn
 
 
+#: What the functions of a family take and return.
+_SIGNATURE = {"rng": "random.Random", "size": "int", "return": "KnownScene"}
+
+
+def _kinds() -> Iterator[tuple[str, Generator]]:
+    """Yield the public functions of this folder's files that draw a scene, and the families of the charts."""
+    for path in sorted(Path(__file__).parent.glob("[a-z]*.py")):
+        module = import_module(f"{__package__}.{path.stem}") if path != Path(__file__) else None
+        for name, function in vars(module).items() if module is not None else ():
+            own = getattr(function, "__module__", "") == f"{__package__}.{path.stem}" and not name.startswith("_")
+            if own and getattr(function, "__annotations__", None) == _SIGNATURE:
+                yield f"{path.stem}/{name.replace('_', '-')}", function
+    for name, heading in HEADINGS.items():
+        if heading != _LECTURES:
+            yield f"charts/{name}", _drawn_from(name)
+
+
 #: ``family/function``, the function's name with hyphens; ``charts/family``.
-KINDS: Mapping[str, Generator] = {
-    **{f"{one.__name__.rpartition('.')[2]}/{name}": made for one in _FAMILIES for name, made in one.FAMILY.items()},
-    **{f"charts/{name}": _drawn_from(name) for name, heading in HEADINGS.items() if heading != _LECTURES},
-}
+KINDS: Mapping[str, Generator] = dict(_kinds())
 
 #: Kinds, and files of `found/`, whose answers are known to be wrong, with why: the short run leaves them out.
 OPEN: Mapping[str, str] = {}

@@ -33,16 +33,6 @@ def reciprocal(rng: random.Random, size: int) -> KnownScene:
     return KnownScene(scene_of("u w z s", *relations), within(share, 1))
 
 
-def oval(rng: random.Random, size: int) -> KnownScene:
-    """A positive combination of even powers is a tiny number: a sphere, a point, or nothing."""
-    many, e = 2 + rng.randint(0, size), f"{rng.randint(1, 9)}/10^{rng.randint(5, 20 + 10 * size)}"
-    sign = rng.choice((-1, 0, 1))
-    letters = "xyzuvw"[:many]
-    left = " + ".join(f"{rng.randint(1, 5)}*{c}^{2 * rng.randint(1, 1 + size)}" for c in letters)
-    known = IMPOSSIBLE if sign < 0 else truths(many - 1 if sign else 0, holonomic=True)
-    return KnownScene(scene_of([*letters], f"{left} = ({sign})*{e}"), known)
-
-
 #: A function of x, and whether a number is more than its least value.
 LEAST: tuple[tuple[str, Fraction, Callable[[Fraction], bool]], ...] = (
     ("x^4 - x", Fraction(-47247039371, 10**11), lambda c: c > 0 or (-c) ** 3 * 256 < 27),
@@ -87,12 +77,3 @@ def decimals(rng: random.Random, size: int) -> KnownScene:
     relations = [f"x = {decimal(a)}", f"y = {decimal(b)}", f"x{operation}y = {decimal(c)}"]
     known = IMPOSSIBLE if wrong else truths(0, redundant=["c3"], redundant_equations=1)
     return KnownScene(scene_of("x y", *relations), known, chart=None if wrong else {"x": str(a), "y": str(b)})
-
-
-FAMILY = {
-    "reciprocal": reciprocal,
-    "oval": oval,
-    "least": least,
-    "motzkin": motzkin,
-    "decimals": decimals,
-}

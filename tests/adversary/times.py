@@ -93,11 +93,3 @@ def cancelled(rng: random.Random, size: int) -> KnownScene:
         text, known = f"{factor}*(x^2*{one} - y) = 0", truths(2, holonomic=True, scleronomic=True)
         chart = {"x": "p0", "z": "p1", "y": "x^2"}
     return KnownScene(scene_of("x y z", text), known, chart=chart)
-
-
-FAMILY = {
-    "kept-factor": kept_factor,
-    "homogeneous": homogeneous,
-    "inhomogeneous": inhomogeneous,
-    "cancelled": cancelled,
-}

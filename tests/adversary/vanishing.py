@@ -87,14 +87,3 @@ def halved(rng: random.Random, size: int) -> KnownScene:
     known = truths(2, redundant=[], redundant_equations=0, holonomic=True, **{"c2.holonomic": True})
     chart = {"v": "p0", "z": "p1", "x": "v + 3", "y": y[1]}
     return KnownScene(scene, known, chart=chart)
-
-
-FAMILY = {
-    "powers": powers,
-    "rates": rates,
-    "ended": ended,
-    "inside": inside,
-    "followed": followed,
-    "on-a-curve": on_a_curve,
-    "halved": halved,
-}

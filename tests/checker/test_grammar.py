@@ -412,14 +412,7 @@ def test_what_both_readings_take_they_take_alike(seed: int) -> None:
 
 
 def test_what_the_engines_print_is_read_back() -> None:
-    for text in (
-        "h''(x + y)",
-        "diff(w(x, t), x)",
-        "1/sqrt(x)",
-        "-3*x*y/2",
-        "R*x/(2*y)",
-        "x^(2/3)",
-    ):
+    for text in ("h''(x + y)", "diff(w(x, t), x)", "1/sqrt(x)", "-3*x*y/2", "R*x/(2*y)", "x^(2/3)"):
         values = {"x": 0.7, "y": 0.4, "R": 1.3, "t": 0.2}
         theirs = {(kind, name): values[name] for kind in ("coordinate", "parameter", "time") for name in values}
         assert of_tree(parse(text, NAMES), values) == pytest.approx(of_engine(parse_expression(text, ENGINES), theirs))

@@ -10,7 +10,7 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
-from checker.certified import certificate
+from checker.certified import certificate, faults
 from shared.known_scenes import CATALOG, few, report_of, scene_of, stem, swept
 from shared.tampering import put
 
@@ -265,3 +265,61 @@ def test_an_odd_value_in_any_place_is_a_fault_and_no_crash(path: Any) -> None:
         except CheckError:
             continue
         fate(changed, {**given, "scene": {"sha256": mark}})
+
+
+#: A circle and a line that do not meet: 3 + x^2 - (x^2 + y^2 - 1) + (y + 2) (y - 2) = 0.
+APART: dict[str, Any] = {"coordinates": ["x", "y"], "constraints": ["x^2 + y^2 = 1", "y = 2"]}
+NEVER: dict[str, Any] = {"path": "/consistent", "value": False, "rule": "nullstellensatz", "number": "3"}
+NEVER |= {"c": {"c1": "-1", "c2": "y+2"}, "sos": [["1", "x"]]}
+
+
+@pytest.mark.parametrize(
+    "claim",
+    [
+        {"c": {"c1": "(x+y+1)^200", "c2": "(x-y)^200"}},
+        {"c": {"c1": "1+" * 5000 + "1"}},
+        {"c": {"c1": "(" * 5000 + "1" + ")" * 5000}},
+        {"c": {"c1": "sin(" * 500 + "x" + ")" * 500}},
+        {"c": {"c1": "((((x+1)^9)^9)^9)^9"}},
+        {"c": {"c1": "+".join(f"sin(x/{i})" for i in range(1, 400))}},
+        {"c": {"c1": "*".join(f"(x+y+{i})" for i in range(1, 1000))}},
+        {"c": [["c1", "1"]]},
+        {"c": {"c1": 1}},
+        {"c": {"c1": None}},
+        {"c": "c1"},
+        {"sos": [[]]},
+        {"sos": [["1", ["x"]]]},
+        {"number": "1e99999"},
+        {"number": "1/0"},
+        {"number": "x"},
+        {"rule": ["nullstellensatz"]},
+        {"rule": None},
+        {"path": ["/consistent"]},
+        {"path": None},
+    ],
+)
+def test_hostile_claims_fail_in_good_time(claim: dict[str, Any]):
+    assert len(faults(APART, [{**NEVER, **claim}])) == 1
+
+
+@pytest.mark.sweep
+def test_a_certificate_of_an_edited_scene_is_refused():
+    good = certificate(APART, [NEVER])
+    assert verify(APART, good).verified == 1
+    with pytest.raises(CheckError):
+        verify({**APART, "constraints": ["x^2 + y^2 = 1", "y = 1"]}, good)
+    for broken in (
+        {**good, "certificate": 2},
+        {**good, "more": 1},
+        {**good, "claims": {}},
+        {**good, "scene": {}},
+        "[",
+        "[" * 10**6,
+        "1",
+    ):
+        with pytest.raises(CheckError):
+            verify(APART, broken)
+    with pytest.raises(CheckError):
+        verify(APART, {**good, "claims": [NEVER] * 10**6})
+    with pytest.raises(CheckError):
+        verify({**APART, "tolerance": "1e-3"}, certificate({**APART, "tolerance": "1e-3"}, [NEVER]))

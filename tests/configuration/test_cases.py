@@ -1,23 +1,8 @@
-"""Relations are put into each other while they stay short."""
+"""What is found of a case is a part of the set."""
 
 from __future__ import annotations
 
 import dofkit
-from dofkit.configuration.cases import MAX_NODES, _linear
-from dofkit.expressions.text import Names, parse_expression
-from dofkit.expressions.tree import coordinate
-
-X, Y = coordinate("x"), coordinate("y")
-
-
-def test_a_coordinate_is_not_put_into_a_long_relation() -> None:
-    names = Names(coordinates=frozenset("xy"))
-    short = parse_expression("y - x", names)
-    other = parse_expression("y^2 x^2 - 1", names)
-    long = parse_expression(" + ".join(f"(x^2 + {k}*y^2)^3" for k in range(1, MAX_NODES // 3)), names)
-    moving = frozenset({X, Y})
-    assert {(g, s) for _, g, s, _ in _linear([short, other], moving)} == {(short, X), (short, Y)}
-    assert list(_linear([short, long], moving)) == []
 
 
 def test_a_case_is_a_part_of_the_set_and_says_nothing_of_what_passes_through_its_point() -> None:

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
 
 import pytest
 
 import dofkit
-from dofkit.exact import zero
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import doubt, independent_generators, is_proved_zero, zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import Names, parse_expression
-from dofkit.expressions.tree import coordinate
 
 #: Sums of arcs that are 0.
 ARCS = ["asin(3/5 + {e}) + asin(4/5) - pi/2", "2*asin(3/5 + {e}) - asin(24/25)", "atan(1/2 + {e}) + atan(1/3) - pi/4"]
@@ -25,16 +22,6 @@ def test_arcs_that_nearly_close_do_not(arcs: str) -> None:
     for e, consistent in (("0", True), ("1/(10^60*10^60)", False), ("-1/(10^60*10^60)", False)):
         report = dofkit.classify({"coordinates": ["x"], "constraints": ["x = 0", f"x + {arcs.format(e=e)} = 0"]})
         assert report.consistent in (consistent, None), e
-
-
-def test_three_points_make_a_zero_probable(monkeypatch: pytest.MonkeyPatch) -> None:
-    drawn: list[Any] = []
-    point = zero.field_point
-    monkeypatch.setattr(zero, "field_point", lambda rings, seed: drawn.append(seed) or point(rings, seed))
-    x = coordinate("x")
-    ring = Ring([x])
-    assert zero._zero_at_points(ring, ring.node(x - x)) is True
-    assert len(drawn) == 3
 
 
 @pytest.mark.parametrize("arcs", ARCS)

@@ -7,7 +7,9 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+import sympy as sp
 
 import dofkit
 from dofkit.homework import hand_in
@@ -72,6 +74,23 @@ def test_the_same_submission_twice_counts_once(tmp_path: Path) -> None:
     assert results == [("ada@x", 1.0, False, False), ("ada@x", None, False, True)]
 
 
+@pytest.mark.parametrize(
+    ("name", "roster", "doubts"),
+    [
+        ("\u0430da@x", True, [False, True]),  # a Cyrillic letter
+        ("ada@x\u200b", True, [False, True]),
+        ("\u0430da@x", False, [True, True]),
+        ("eda@x", True, [False, False]),
+    ],
+)
+def test_a_name_that_looks_like_anothers_is_a_doubt(
+    name: str, roster: bool, doubts: list[bool], tmp_path: Path
+) -> None:
+    found = graded(tmp_path, {"ada@x.yaml": RIGHT, f"{name}.yaml": WRONG}, roster)
+    assert [one["doubt"] is not None for one in found] == doubts
+    assert [one["score"] for one in found] == [1.0, 0.0]
+
+
 #: Answers of one shape, of which only the first is right: a constant under another name, and two readings.
 ORACLES = [
     ("eq", "x^2 + y^2 = r^2", "x^2 + y^2 = 2 r^2"),
@@ -111,6 +130,9 @@ def test_a_line_of_json_holds_no_end_of_line(tmp_path: Path) -> None:
 
 
 def test_a_notebook_only_writes_its_answers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path = hand_in({"p": {"f": 1, "g": ..., "h": {"x", "y"}}}, tmp_path / "answers.json", "ada@x")
-    assert json.loads(path.read_text()) == {"student": "ada@x", "answers": {"p": {"f": 1, "h": ["x", "y"]}}}
+    x = sp.Symbol("x")
+    given = {"f": 1, "g": ..., "h": {"x", "y"}, "e": sp.Eq(x, 2), "n": np.int64(3), "m": sp.Matrix([x, 1])}
+    path = hand_in({"p": given}, tmp_path / "answers.json", "ada@x")
+    written = {"f": 1, "h": ["x", "y"], "e": "Eq(x, 2)", "n": 3, "m": [["x"], ["1"]]}
+    assert json.loads(path.read_text()) == {"student": "ada@x", "answers": {"p": written}}
     assert "submit this file" in capsys.readouterr().out

@@ -252,6 +252,19 @@ def test_what_a_person_decides_holds_for_all_and_for_later_ones(course: Course) 
     assert rows[3]["remark"] == "The particle is A."
 
 
+def test_points_that_the_page_saves_are_taken(course: Course) -> None:
+    course.grade()
+    rows = {row["text"]: row["id"] for row in course.table()}
+    page = (course.out / "review.html").read_text()
+    assert all(f'data-id="{one}"' in page for one in rows.values())
+    saved = course.folder / "points.csv"
+    saved.write_text(f'\ufeff"id","points","remark","decided_by"\r\n"{rows[UNREAD]}","3","so, so","Ng"\r\n')
+    assert course.grade("--reviewed", str(saved))[0] == 0
+    assert course.results()["bo"]["score"] == 5.0
+    (row,) = (row for row in course.table() if row["points"])
+    assert (row["text"], row["points"], row["remark"], row["decided_by"]) == (UNREAD, "3", "so, so", "Ng")
+
+
 @pytest.mark.sweep
 def test_the_function_takes_a_review_too(course: Course) -> None:
     course.grade()
@@ -423,19 +436,6 @@ def test_points_decided_by_hand_are_in_every_format(form: str, course: Course) -
         assert given[form] in shown.replace("\r\n", "\n"), shown
     stream = course.grade("--format", form, "--reviewed", str(table), out="-")
     assert form == "html" or given[form] in stream[1].replace("\r\n", "\n")
-
-
-@pytest.mark.sweep
-def test_any_number_of_workers_decides_the_same(course: Course) -> None:
-    course.grade()
-    table = course.fill({UNREAD: "3"})
-    one = course.grade("--reviewed", str(table), out="-")[1]
-    two = called(
-        course.capsys, "grade", str(course.sheet), str(course.folder / "class.jsonl"), "--workers", "2",
-        "--reviewed", str(table),
-    )[1]  # fmt: skip
-    assert one == two
-    assert '"decided_by":"review"' in one
 
 
 @pytest.mark.sweep

@@ -9,7 +9,7 @@ from dofkit.classification.freedom import block
 from dofkit.classification.freedom.preparation import prepared
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.prolongation import MAX_TOGETHER, prolong
+from dofkit.integrability.pfaffian_system import MAX_TOGETHER, prolong
 from dofkit.relations.setting import Setting
 from dofkit.scene.lowering import lower
 

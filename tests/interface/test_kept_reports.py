@@ -18,8 +18,8 @@ import dofkit
 from dofkit.base.runs import Journal, Pool
 from dofkit.base.workers import Job, JobOutcome
 from dofkit.interface.answers import streams
-from dofkit.interface.jobs import Cut, Printed, Request
-from dofkit.interface.many import Helpers, QueuedScene, answer, kept_reports
+from dofkit.interface.jobs import Cut, Printed, Request, Run
+from dofkit.interface.many import QueuedScene, answer, kept_reports
 from dofkit.interface.named_files import named_files
 from dofkit.interface.output import Output
 
@@ -123,7 +123,7 @@ class Counting:
     def run(self, out: Path, files: list[Path], stop: int | None = None, budget: float = 60.0) -> list[str]:
         """Which files are asked about by a run that is stopped after so many."""
         self.files = []
-        stream = kept_reports([str(file) for file in files], request(budget), Helpers(1), out)
+        stream = kept_reports([str(file) for file in files], request(budget), Run(workers=1), out)
         for _, _ in zip(range(len(files) if stop is None else stop), stream, strict=False):
             pass
         if stop is None:

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 import dofkit
 from dofkit.base.verdicts import VERDICTS
-from dofkit.benchmark.trials.chains import car
+from dofkit.benchmark.trials.forms import car
 from dofkit.exact.zero import BOTH
 from dofkit.interface.cli import app
 from dofkit.methods.table import METHODS, MethodName

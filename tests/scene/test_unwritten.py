@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pickle
 from typing import Any
 
 import networkx as nx
@@ -81,17 +80,3 @@ def test_hinges_of_the_plane_are_not_written_but_where_they_fall_into_parts() ->
     assert isinstance(flat(pin, x_b=1).relations, Unwritten)
     assert not isinstance(flat(pin, x_b=1, theta_b="pi/6").relations, Unwritten)
     assert not isinstance(flat({**pin, "drive": "t"}, x_b=1).relations, Unwritten)
-
-
-def test_hinges_between_bodies_are_not_written_and_come_out_of_a_pickle_written() -> None:
-    told = lowered(joint("revolute", ["a", "b"], [1, 2, 3], [0, 0, 1])).relations
-    assert isinstance(told, Unwritten)
-    assert "written" not in vars(told)
-    again = pickle.loads(pickle.dumps(told))
-    assert again == tuple(told) == told
-    assert len(again) == 5
-
-
-def test_what_is_driven_is_written() -> None:
-    driven = joint("revolute", ["a", "b"], [1, 2, 3], [0, 0, 1]) | {"drive": "t"}
-    assert not isinstance(lowered(driven).relations, Unwritten)

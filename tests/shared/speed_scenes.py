@@ -23,17 +23,6 @@ Scene = Mapping[str, Any]
 Links = list[tuple[int, int]]
 
 
-def car(n: int) -> Scene:
-    """A car that steers, with n trailers hitched at the axles: n + 2 forms in n + 4 coordinates."""
-    angles = [f"th{i}" for i in range(n + 1)]
-    forms = ["sin(th0 + phi) dx - cos(th0 + phi) dy - l cos(phi) dth0 = 0"]
-    for i, angle in enumerate(angles):
-        arms = "".join(f" + l{j} cos({angle} - th{j}) dth{j}" for j in range(1, i + 1))
-        forms.append(f"sin({angle}) dx - cos({angle}) dy{arms} = 0")
-    lengths = {"l": "positive"} | {f"l{j}": "positive" for j in range(1, n + 1)}
-    return {"parameters": lengths, "coordinates": ["x", "y", "phi", *angles], "constraints": forms}
-
-
 def sympy_car(n: int) -> list[bool]:
     """The rival on the car."""
     import sympy

@@ -21,7 +21,7 @@ from dofkit.base.verdicts import weakest
 from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints.base import Equation
 from dofkit.scene.lowering import lower
-from dofkit.scene.names import Owners
+from dofkit.scene.names import owner_kinds
 from dofkit.scene.scene import Scene
 
 Document = dict[str, Any]
@@ -124,25 +124,21 @@ def test_a_factor_that_never_vanishes_changes_nothing(path: Path, factor: str) -
 OWNER_KEYS = ("between", "members", "point", "body", "on", "along", "carrier")
 PLAIN_KEYS = ("type", "name", *STORY)
 WORD = re.compile(r"[^\W\d]\w*")
-ROLES = {
-    1: (("x",), ("x",)),
-    2: (("x", "y"), ("x", "y", "theta")),
-    3: (("x", "y", "z"), ("x", "y", "z", "phi", "theta", "psi")),
-}
 
 
 class Renaming:
     """New names for all that a scene declares: of owners, and of symbols in texts."""
 
     def __init__(self, scene: Scene, new: Callable[[str], str]) -> None:
-        owners: Owners = (*scene.particles, *scene.bodies)
-        self.owners = {part.name: new(part.name) for part in owners}
+        kinds = owner_kinds(scene)
+        self.owners = {part.name: new(part.name) for kind in kinds for part in kind.owners}
         self.symbols = {name: new(name) for name in (*scene.coordinates, *scene.parameters, *scene.functions)}
-        both: tuple[Owners, Owners] = (scene.particles, scene.bodies)
-        for parts, roles in zip(both, ROLES[scene.dimension], strict=True):
-            for part in parts:
-                own = part.coordinates or tuple(f"{role}_{part.name}" for role in roles)
-                renamed = [f"{role}_{new(part.name)}" for role in roles] if part.coordinates is None else map(new, own)
+        for kind in kinds:
+            for part in kind.owners:
+                own = part.coordinates or tuple(f"{role}_{part.name}" for role in kind.roles)
+                renamed = (
+                    [f"{role}_{new(part.name)}" for role in kind.roles] if part.coordinates is None else map(new, own)
+                )
                 self.symbols |= dict(zip(own, renamed, strict=True))
 
     def word(self, word: str) -> str:

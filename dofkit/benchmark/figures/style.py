@@ -43,10 +43,10 @@ class Look(NamedTuple):
 
 def looks(methods: Iterable[str]) -> dict[str, Look]:
     """Return a look for each method: black and heavy for ``auto``."""
-    found = {AUTO: Look("#000000", "*", 2.4)}
+    by_method = {AUTO: Look("#000000", "*", 2.4)}
     for i, method in enumerate(m for m in methods if m != AUTO):
-        found[method] = Look(_COLOURS[i % len(_COLOURS)], _MARKS[i % len(_MARKS)], 1.4)
-    return found
+        by_method[method] = Look(_COLOURS[i % len(_COLOURS)], _MARKS[i % len(_MARKS)], 1.4)
+    return by_method
 
 
 @contextmanager

@@ -12,7 +12,6 @@ from types import ModuleType
 
 from dofkit.benchmark.trials import (
     bodies,
-    chains,
     equations,
     forms,
     graphs,
@@ -29,7 +28,7 @@ _HEADINGS: Mapping[str, tuple[ModuleType, ...]] = {
     "Lectures and homework": (lectures,),
     "Linkages and mechanisms": (graphs, bodies),
     "Drawings: nearly singular, rounded, far away": (poses,),
-    "Differential constraints, time, long chains": (forms, chains),
+    "Differential constraints and time": (forms,),
     "Equations between coordinates": (equations, identities),
 }
 #: The heading that each family stands under.
@@ -48,7 +47,7 @@ GLOSSES: Mapping[str, str] = {
 
 def _family(name: str) -> Family:
     def trials(quick: bool) -> Iterator[Trial]:
-        every = (trial for known in KNOWN_SCENES[name](quick) for trial in known.trials(name))
+        every = (trial for scene in KNOWN_SCENES[name](quick) for trial in scene.trials(name))
         return few(every) if quick else every
 
     return trials

@@ -1,4 +1,4 @@
-"""Bodies with joints: overconstrained ones that move or are locked, trees and loops at random, rolling."""
+"""Bodies with joints, and chains: overconstrained ones that move or are locked, trees and loops at random, rolling."""
 
 from __future__ import annotations
 
@@ -130,6 +130,56 @@ def rolling(quick: bool) -> Iterator[KnownScene]:
             yield known_scene(f"{n} {name}", made, because, traits, n, dof=dof, integrability=labels)
 
 
+# Long chains
+
+
+def pendulums(quick: bool) -> Iterator[KnownScene]:
+    """Links one after the other from the ground; closed on the ground; and with links written twice."""
+    because = "each link takes one; a chain that is not straight is regular; a link written again adds nothing"
+    for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16, 32, 64, 128)) for d in (2, 3)):
+        places = [[k, k * k % 3, k % 2][:d] for k in range(n + 1)]
+        ends: list[Any] = [places[0], *(f"P{k}" for k in range(1, n + 1))]
+        particles = [{"name": name, "at": at} for name, at in zip(ends[1:], places[1:], strict=True)]
+        links = [_link(f"l{k}", ends[k], ends[k + 1]) for k in range(n)]
+        twice = [_link(f"again{k}", ends[k], ends[k + 1]) for k in range(0, n, 2)]
+        closed = [*links[:-1], _link(f"l{n - 1}", ends[n - 1], places[n])]
+        for name, members, constraints, over in (
+            ("open", particles, links, []),
+            ("written twice", particles, [*links, *twice], [t["name"] for t in twice]),
+            ("closed", particles[:-1], closed, []),
+        ):
+            dof = d * len(members) - n
+            made = {"dimension": d, "particles": members, "constraints": constraints}
+            about = f"{n} links in dimension {d}, {name}", made, because, ("redundant",) if over else ("long-chain",), n
+            if dof >= 0:
+                yield known_scene(*about, dof=dof, redundancy=over)
+
+
+def _link(name: str, a: Any, b: Any) -> dict[str, Any]:
+    return {"name": name, "type": "link", "between": [a, b]}
+
+
+def chained_bodies(quick: bool) -> Iterator[KnownScene]:
+    """Bodies hinged one to the next, in the plane and in space; every third hinge welded too."""
+    because = "an open chain: the freedoms of the joints add up; a hinge between welded bodies says nothing new"
+    for d, n in ((d, n) for n in ((2, 4) if quick else (2, 4, 8, 16, 32)) for d in (2, 3)):
+        names = ["ground", *(f"b{k}" for k in range(n))]
+        hinges: list[dict[str, Any]] = []
+        for k in range(n):
+            hinge = {"name": f"h{k}", "type": "revolute", "between": names[k : k + 2], "at": [k, k % 2, 0][:d]}
+            hinges.append(hinge | ({"axis": [k % 3, 1, k % 2]} if d == 3 else {}))
+        welds = [{"name": f"w{k}", "type": "weld", "between": names[k : k + 2]} for k in range(0, n, 3)]
+        for name, joints, dof, over in (
+            ("hinged", hinges, n, []),
+            ("every third welded first", [*welds, *hinges], n - len(welds), [f"h{k}" for k in range(0, n, 3)]),
+        ):
+            made = {"dimension": d, "bodies": names[1:], "constraints": joints}
+            traits = ("redundant",) if over else ("long-chain", "joints")
+            yield known_scene(
+                f"{n} bodies in dimension {d}, {name}", made, because, traits, n, dof=dof, redundancy=over
+            )
+
+
 FAMILIES = {
     "doors": doors,
     "cranks": cranks,
@@ -138,4 +188,6 @@ FAMILIES = {
     "trees of bodies": trees,
     "loops of bodies": random_loops,
     "rolling": rolling,
+    "chains of links": pendulums,
+    "chains of bodies": chained_bodies,
 }

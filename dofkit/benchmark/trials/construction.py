@@ -182,8 +182,8 @@ Row = Mapping[str, Any]
 def tables(file: str) -> Mapping[str, Sequence[Row]]:
     """Return the tables of a YAML file of this folder, by name."""
     text = (resources.files(__package__) / file).read_text(encoding="utf-8")
-    found: Mapping[str, Sequence[Row]] = yaml.safe_load(text)
-    return found
+    rows_by_table: Mapping[str, Sequence[Row]] = yaml.safe_load(text)
+    return rows_by_table
 
 
 def tabled(row: Row) -> KnownScene:

@@ -1,4 +1,4 @@
-"""Configuration-level equations: dependent functions, combinations of rows, gaps, scales, powers, branches."""
+"""Configuration-level equations: dependent functions, rows, gaps, scales, powers, branches, chains."""
 
 from __future__ import annotations
 
@@ -215,6 +215,26 @@ def _sum(n: int, text: str, first: int = 0) -> str:
     return " + ".join(text.format(k=k, next=(k + 1) % n) for k in range(first, n))
 
 
+# Long chains
+
+
+def chained_equations(quick: bool) -> Iterator[KnownScene]:
+    """Relations each between neighbours: x_i+1 = f(x_i), and the ends tied once more, rightly or not."""
+    for n in (3, 6) if quick else (3, 6, 12, 24):
+        names = [f"x{k}" for k in range(n)]
+        sums = [f"x{k + 1} = 2 x{k} + 1" for k in range(n - 1)]
+        factor = 2 ** (n - 1)
+        rows: Sequence[tuple[str, str, int, list[str], tuple[str, ...]]] = (
+            ("tied rightly", f"x{n - 1} = {factor} x0 + {factor - 1}", 1, [f"c{n}"], ("redundant", "long-chain")),
+            ("tied to another place", f"x{n - 1} = {factor} x0 + {factor}", -1, [], ("contradiction", "long-chain")),
+            ("tied by another slope", f"x{n - 1} = {factor + 1} x0", 0, [], ("plain", "long-chain")),
+        )
+        for name, last, dof, over, traits in rows:
+            because = f"x_n-1 = {factor} x_0 + {factor - 1} by the chain"
+            about = f"{n} coordinates, {name}", scene_of(names, *sums, last), because, traits, n
+            yield known_scene(*about, dof=dof, redundancy=over)
+
+
 FAMILIES = {
     "hidden relations": hidden_relations,
     "rotation matrices": rotations,
@@ -225,4 +245,5 @@ FAMILIES = {
     "high powers": high_powers,
     "powers in forms": power_forms,
     "sums of squares": sums_of_squares,
+    "chains of equations": chained_equations,
 }

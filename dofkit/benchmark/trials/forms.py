@@ -1,9 +1,10 @@
-"""Differential constraints: forms that integrate, that do not, and that do so only together; time; many blocks."""
+"""Differential constraints: forms that integrate, that do not, and that do so only together; time; blocks; chains."""
 
 from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 from dofkit.benchmark.trials.construction import (
     KnownScene,
@@ -133,27 +134,85 @@ def hidden_by_time(quick: bool) -> Iterator[KnownScene]:
 
 def many_blocks(quick: bool) -> Iterator[KnownScene]:
     """Copies of one part, each in its own coordinates: what is true of one holds of each."""
-    parts = tables("forms.yaml")["blocks"]
-    for part in parts:
+    blocks = tables("forms.yaml")["blocks"]
+    for part in blocks:
         for n in (1, 2) if quick else (1, 4, 8, 16, 64):
             if n <= part["most"]:
                 traits = (*part["traits"], "many-blocks")
                 yield _blocks(f"{n} times {part['name']}", [part] * n, part["because"], traits)
     for n in (1,) if quick else (1, 2, 4):
-        yield _blocks(f"{n} of each", [*parts] * n, "freedoms of separate parts add up", ("many-blocks",))
+        yield _blocks(f"{n} of each", [*blocks] * n, "freedoms of separate parts add up", ("many-blocks",))
 
 
-def _blocks(name: str, parts: Sequence[Row], because: str, traits: tuple[str, ...]) -> KnownScene:
-    names = [f"{q}{k}" for k, part in enumerate(parts) for q in part["coordinates"].split()]
+def _blocks(name: str, blocks: Sequence[Row], because: str, traits: tuple[str, ...]) -> KnownScene:
+    names = [f"{q}{k}" for k, part in enumerate(blocks) for q in part["coordinates"].split()]
     rows = [
         {"name": f"part{k}_{i}", "type": "equation", "text": row.replace("{k}", str(k))}
-        for k, part in enumerate(parts)
+        for k, part in enumerate(blocks)
         for i, row in enumerate(part["rows"])
     ]
-    labels = {f"part{k}_{i}": value for k, part in enumerate(parts) for i, value in enumerate(part["holonomic"])}
-    over = [f"part{k}_{i}" for k, part in enumerate(parts) for i in part["redundant"]]
-    about = name, scene_of(names, *rows, parameters={"R": "positive"}), because, traits, len(parts)
-    return known_scene(*about, dof=sum(part["dof"] for part in parts), integrability=labels, redundancy=over)
+    labels = {f"part{k}_{i}": value for k, part in enumerate(blocks) for i, value in enumerate(part["holonomic"])}
+    over = [f"part{k}_{i}" for k, part in enumerate(blocks) for i in part["redundant"]]
+    about = name, scene_of(names, *rows, parameters={"R": "positive"}), because, traits, len(blocks)
+    return known_scene(*about, dof=sum(part["dof"] for part in blocks), integrability=labels, redundancy=over)
+
+
+# Long chains
+
+
+def chained_forms(quick: bool) -> Iterator[KnownScene]:
+    """dq_i = q_i+1 dq_0: nothing integrates while the end is open, everything once it closes (Goursat's normal form).
+
+    Closed: the last form reads dq_n = q_0 dq_0, so that q_n, then q_n-1, and so on are functions of q_0.
+    """
+    for n in (2, 3) if quick else (2, 3, 4, 6, 8):
+        names = [f"q{k}" for k in range(n + 1)]
+        forms = [f"dq{k} - q{k + 1} dq0 = 0" for k in range(1, n)]
+        half = n // 2
+        broken = [*forms[: half - 1], f"dq{half} - q0^2 dq0 = 0", *forms[half:]] if half else forms
+        closing = "as many forms as coordinates but one leave one direction: all integrate together"
+        # name, the forms, dof, which integrate (None: not asked), because, trait
+        members: list[tuple[str, list[str], int, dict[str, bool] | None, str, str]] = [
+            (f"{n - 1} forms, open", forms, n + 1, every(numbered(n - 1), False),
+             "Goursat's normal form: each derived system loses one form, down to none", "non-holonomic"),
+            (f"{n} forms, closed", [*forms, f"dq{n} - q0 dq0 = 0"], 1, every(numbered(n), True), closing, "together"),
+            (f"{n} forms, closed by a Riccati equation", [*forms, f"dq{n} - (q0 + q{n}^2) dq0 = 0"], 1,
+             every(numbered(n), True), closing, "together"),
+            (f"{n - 1} forms, one of them closed", broken, n + 1 - half,
+             {f"c{k}": k <= half for k in range(1, n)} if half < n - 1 or n > 2 else None,
+             "what comes before a form in q0 alone integrates with it; what comes after is a chain of its own",
+             "together"),
+        ]  # fmt: skip
+        for name, rows, dof, labels, because, trait in members:
+            traits = (trait, "long-chain")
+            yield known_scene(name, scene_of(names, *rows), because, traits, n, dof=dof, integrability=labels)
+
+
+def trailers(quick: bool) -> Iterator[KnownScene]:
+    """A car that steers with trailers: every configuration is reached [Laumond1993]; on a straight rail it is not."""
+    controllable = "controllable: the derived system of n + 2 forms goes down to none (Laumond 1993)"
+    straight = "its heading stays, so the axle runs straight and one direction is left: all integrate"
+    for n in (0, 1) if quick else (0, 1, 2, 4, 8, 16, 24):
+        made = car(n)
+        about = f"a car with {n} trailers", made, controllable, ("non-holonomic", "long-chain"), n + 2
+        labels = every(numbered(n + 2), False)
+        yield known_scene(*about, swept={"member": "steers"}, dof=n + 4, integrability=labels)
+        if n <= 3:
+            held = {**made, "constraints": ["phi = 0", *made["constraints"]]}
+            about = f"a car with {n} trailers that does not steer", held, straight, ("together", "long-chain"), n + 2
+            labels = every(numbered(n + 3), True)
+            yield known_scene(*about, swept={"member": "does not steer"}, dof=1, integrability=labels)
+
+
+def car(n: int) -> dict[str, Any]:
+    """Return n + 2 forms in n + 4 coordinates, the trailers hitched at the axles."""
+    angles = [f"th{i}" for i in range(n + 1)]
+    forms = ["sin(th0 + phi) dx - cos(th0 + phi) dy - l cos(phi) dth0 = 0"]
+    for i, angle in enumerate(angles):
+        arms = "".join(f" + l{j} cos({angle} - th{j}) dth{j}" for j in range(1, i + 1))
+        forms.append(f"sin({angle}) dx - cos({angle}) dy{arms} = 0")
+    lengths = {"l": "positive"} | {f"l{j}": "positive" for j in range(1, n + 1)}
+    return scene_of(["x", "y", "phi", *angles], *forms, parameters=lengths)
 
 
 FAMILIES = {
@@ -162,4 +221,6 @@ FAMILIES = {
     "time": rheonomic,
     "rates of rates": hidden_by_time,
     "many blocks": many_blocks,
+    "chained forms": chained_forms,
+    "trailers": trailers,
 }

@@ -195,9 +195,9 @@ def loop(rng: random.Random, dimension: int, bodies: int) -> RandomBodies:
     names = ["ground", *(f"b{i}" for i in range(bodies)), "ground"]
     joints, screws = [], []
     for i in range(bodies + 1):
-        joint, own = _joint(rng, rng.choice(kinds), dimension, f"j{i}", names[i], names[i + 1])
+        joint, allowed = _joint(rng, rng.choice(kinds), dimension, f"j{i}", names[i], names[i + 1])
         joints.append(joint)
-        screws += own
+        screws += allowed
     each = dimension * (dimension + 1) // 2
     rank = exact_rank(screws)
     first = len(screws) - rank

@@ -105,12 +105,12 @@ def _in_text(rows: Sequence[str], zero_truth: Mapping[str, Any], other_truth: Ma
         }
         if finite and not trap.everywhere:  # the equation also states that T has a value
             truth.pop("redundant", None)
-        return _known(trap, t, [row.replace("{T}", t) for row in rows], truth)
+        return _scene_of_trap(trap, t, [row.replace("{T}", t) for row in rows], truth)
 
     return context
 
 
-def _known(trap: Trap, t: str, texts: Sequence[str], truth: Mapping[str, Any]) -> KnownScene:
+def _scene_of_trap(trap: Trap, t: str, texts: Sequence[str], truth: Mapping[str, Any]) -> KnownScene:
     parameters = dict.fromkeys(trap.parameters, "positive") or None
     made = scene_of(["x", "y", "z", *trap.coordinates], *texts, parameters=parameters)
     return KnownScene(made, truth, name=f"{t} in {'; '.join(texts)}", group=trap.name)
@@ -121,7 +121,7 @@ def with_time(trap: Trap, t: str, zero: bool) -> KnownScene | None:
     if trap.coordinates:
         return None
     truth = {"dof": 2, "velocity_dof": 2, "scleronomic": zero, "c1.scleronomic": zero, "c1.catastatic": zero}
-    return _known(trap, t, [f"dx + ({t})*dt = 0"], truth)
+    return _scene_of_trap(trap, t, [f"dx + ({t})*dt = 0"], truth)
 
 
 def triangle(trap: Trap, t: str, zero: bool) -> KnownScene | None:
@@ -186,11 +186,11 @@ def identities(quick: bool) -> Iterator[KnownScene]:
     """Zero by an identity, or missed by a constant that floating point does not see, or by a sign."""
     names = set()
     for trap, text, zero, trait, number in _traps(9 if quick else 1):
-        known = _in_context(trap, text, zero, number)
-        if known is not None and known.name not in names:
-            names.add(known.name)
+        scene = _in_context(trap, text, zero, number)
+        if scene is not None and scene.name not in names:
+            names.add(scene.name)
             because = "zero by an identity" if zero else "an identity missed by a constant, or by a sign"
-            yield replace(known, because=because, traits=(trait,))
+            yield replace(scene, because=because, traits=(trait,))
 
 
 def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, str, int]]:
@@ -209,17 +209,17 @@ def _traps(stride: int) -> Iterator[tuple[Trap, str, bool, str, int]]:
 def _in_context(trap: Trap, text: str, zero: bool, number: int) -> KnownScene | None:
     """Return the trap in the first context from this number on in which it can stand."""
     scenes = (CONTEXTS[(number + turn) % len(CONTEXTS)](trap, text, zero) for turn in range(len(CONTEXTS)))
-    return next((known for known in scenes if known is not None), None)
+    return next((scene for scene in scenes if scene is not None), None)
 
 
 def steps(quick: bool) -> Iterator[KnownScene]:
     """Forms and relations a tiny exact step away from integrable, dependent or consistent ones."""
-    for number, known in enumerate(tiny_steps()):
-        if number % 23 if quick else not known.name.endswith(TAKEN):
+    for number, scene in enumerate(tiny_steps()):
+        if number % 23 if quick else not scene.name.endswith(TAKEN):
             continue
-        contradictory = known.truth.get("consistent") is False
-        trait = "tiny-gap" if contradictory or any(word in known.group for word in FINITE) else "near-integrable"
-        yield replace(known, because="a step is exact, however small", traits=(trait,))
+        contradictory = scene.truth.get("consistent") is False
+        trait = "tiny-gap" if contradictory or any(word in scene.group for word in FINITE) else "near-integrable"
+        yield replace(scene, because="a step is exact, however small", traits=(trait,))
 
 
 def bases(quick: bool) -> Iterator[KnownScene]:
@@ -228,10 +228,10 @@ def bases(quick: bool) -> Iterator[KnownScene]:
         zero = row["zero"]
         trap = Trap(row["name"], zero, None, "w")
         for turn, (text, is_zero) in enumerate(((zero, True), (f"{zero} + 1e-12", False), (f"{zero} + 1", False))):
-            known = _in_context(trap, text, is_zero, 2 * number + turn)
-            if known is not None:
+            scene = _in_context(trap, text, is_zero, 2 * number + turn)
+            if scene is not None:
                 because = "one function, written to two bases" if is_zero else "off by a constant"
-                yield replace(known, because=because, traits=("mixed-bases" if is_zero else "near-identity",))
+                yield replace(scene, because=because, traits=("mixed-bases" if is_zero else "near-identity",))
     for power in (2,) if quick else (2, 3, 5, 8, 12):
         for name, second, dof, because in (
             (f"a factor 2^({power} x)", "dy", 2, "dz + dy"),

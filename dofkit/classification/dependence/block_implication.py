@@ -17,8 +17,7 @@ from dofkit.classification.dependence.implication import follows
 from dofkit.configuration.implied_relations import ImpliedRelations
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Row, coordinates_of, linear, presolve
-from dofkit.relations.chart import make_chart
+from dofkit.relations.blocks import Block, Row, coordinates_of, linear, make_chart, presolve
 from dofkit.relations.normal.pieces import Finite, Normal
 from dofkit.relations.setting import Setting
 

@@ -8,62 +8,19 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from itertools import combinations
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import components
-from dofkit.base.verdicts import About, Verdict
 from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets
 from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing
+from dofkit.relations.answer import Redundancies
 
 #: Sets of constraints are searched exhaustively up to this many members of a group.
 SEARCHED = 12
 #: Up to this many are removed one after the other; then so many are given back, one at a time.
 REMOVED, EXCHANGES = 60, 200
-
-
-@dataclass(frozen=True)
-class Redundancies:
-    """What was found, constraints by their numbers; of those in ``undecided`` it is not known whether they can go.
-
-    ``equations``: which scalar equations of a constraint follow from those before them, where that is known.
-    ``uncounted``: constraints of which it is not known how many of their equations do; ``seen``: of which some were
-    seen in numbers to do. ``about``: of which points this speaks: those near the ``reference``, near the point that was
-    found (its ``component``), or ``everywhere``.
-    ``verdict``: how sure it is that what is redundant is, at the best.
-    """
-
-    independent: dict[int, int]
-    redundant: list[int]
-    groups: list[tuple[int, list[int]]]
-    circuits: dict[int, list[int]]
-    undecided: tuple[int, ...] = ()
-    equations: Mapping[int, tuple[int, ...]] = field(default_factory=dict)
-    uncounted: tuple[int, ...] = ()
-    seen: tuple[int, ...] = ()
-    about: About = "everywhere"
-    verdict: Verdict = "proved"
-
-    @property
-    def needed(self) -> set[int]:
-        """The constraints that were looked at and cannot go, as far as is known."""
-        return {*self.independent, *self.undecided, *self.uncounted} - {*self.redundant}
-
-    def has_dependent_equations(self, sizes: Sequence[int]) -> bool:
-        """Return whether an equation is known to follow from others; ``sizes``: the equations of each constraint."""
-        return bool(self.uncounted) or any(count < sizes[i] for i, count in self.independent.items())
-
-    def without(self, needed: set[int]) -> Redundancies:
-        """The same where some constraints cannot go, because of other equations of theirs."""
-        redundant = [i for i in self.redundant if i not in needed]
-        circuits = {i: c for i, c in self.circuits.items() if i not in needed}
-        return replace(self, redundant=redundant, circuits=circuits)
-
-
-def undecided_dependence(constraints: Iterable[int]) -> Redundancies:
-    """Nothing is known of these constraints."""
-    return Redundancies({}, [], [], {}, tuple(sorted(set(constraints))))
 
 
 @dataclass(frozen=True)
@@ -99,7 +56,7 @@ def analyse(parts: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redunda
     kept = Counter(b.owners[i] for b in bases for i in b.pivots)
     independent = {owner: kept[owner] for owner in order}
     if not any(b.supports for b in bases):
-        return Redundancies(independent, [], [], {}, equations=dict.fromkeys(order, ()))
+        return Redundancies(independent, equations=dict.fromkeys(order, ()))
     groups = _groups(bases)
     redundant: list[int] = []
     for _, members in groups:

@@ -1,9 +1,9 @@
-"""Comparisons of an answer with what was asked for: multiples and powers, gradients on the same set, inequalities.
+"""Comparisons of an answer with what was asked for: multiples, gradients on the same set, inequalities.
 
-Two equations state the same where one is a number times the other, or a polynomial in it with one real root. What is no
-polynomial in coordinates, parameters, sines, cosines and exponentials is not compared so: a root or a quotient may have
-no value where its multiple has one. a sqrt(P) + b = 0 is one branch of b^2 = a^2 P, on which a b <= 0; where the other
-constraints state that, the root loses nothing.
+Two equations state the same where one is a number times the other. What is no polynomial in coordinates, parameters,
+sines, cosines and exponentials is not compared so: a root or a quotient may have no value where its multiple has one.
+a sqrt(P) + b = 0 is one branch of b^2 = a^2 P, on which a b <= 0; where the other constraints state that, the root
+loses nothing.
 """
 
 from __future__ import annotations
@@ -13,9 +13,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from itertools import product as cartesian
-from typing import Any
 
-from flint import arb, fmpq, fmpq_poly
+from flint import arb
 
 from dofkit.classification.dependence.implication import follows
 from dofkit.configuration.generic_points import field_jacobian
@@ -25,15 +24,14 @@ from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.balls import BallPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
-from dofkit.exact.ring.canonical import Canon, Poly
+from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.program import POW, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, in_velocities, replace_nodes, substitute
 from dofkit.expressions.tree import HALF, MINUS_ONE, ZERO, Expr
-from dofkit.relations.blocks import Block, Row, split
-from dofkit.relations.chart import make_chart
+from dofkit.relations.blocks import Block, Row, make_chart, split
 from dofkit.relations.normal.normal_form import velocities_of
 from dofkit.relations.normal.pieces import Finite, Inequality, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.normal.polynomial_zeros import EXPONENT_NOTE, POWER_NOTE, SQUARES_NOTE
@@ -55,49 +53,6 @@ def same_up_to_numbers(given: Sequence[Reduced], wanted: Sequence[Reduced], posi
         return False
     table = [[_proportional(one, other, positive) for other in asked] for one in answer]
     return all(map(any, table)) and all(any(row[k] for row in table) for k in range(len(asked)))
-
-
-def power_of(given: Sequence[Reduced], wanted: Sequence[Reduced], positive: frozenset[Expr]) -> int | None:
-    """m where the one equation given is P(g) = 0 for the one g = 0 wanted, and 0 is P's only real root, m times.
-
-    They have the same zeros then, and are as regular where m = 1: u^3 + u = 0 says u = 0, and u^3 = 0 does so worse.
-    A number is a proof; None says nothing.
-    """
-    asked = [n for r in wanted for n in r.normals]
-    answer = [relation.expr for r in given for relation in r.constraint.relations]
-    terms = _terms(asked[0]) if len(asked) == len(answer) == 1 else []
-    if not terms or terms[0][0]:
-        return None
-    ring = Ring([answer[0], terms[0][1]], positive)
-    nodes = ring.node(answer[0]), ring.node(terms[0][1])
-    if not _entire(ring):
-        return None
-    canon = Canon(ring)
-    try:
-        (h, over), (g, under) = canon.quotient(nodes[0]), canon.quotient(nodes[1])
-    except NoValueError:
-        return None
-    digits = _digits(h, g) if over.is_constant() and under.is_constant() and not g.is_constant() else None
-    return None if digits is None else _only_root(fmpq_poly(digits))
-
-
-def _digits(h: Poly, g: Poly) -> list[fmpq] | None:
-    """The c_k of h = c_0 + c_1 g + c_2 g^2 + ..., where there are such numbers."""
-    digits: list[fmpq] = []
-    while h != 0:
-        h, remainder = divmod(h, g)
-        if not remainder.is_constant():
-            return None
-        digits.append(remainder.leading_coefficient() if remainder != 0 else fmpq(0))
-    return digits
-
-
-def _only_root(p: fmpq_poly) -> int | None:
-    """How often 0 is a root of p; None where it is none, or not the only real one."""
-    low = next((k for k in range(p.degree() + 1) if p[k] != 0), 0)
-    remainder = fmpq_poly([p[k] for k in range(low, p.degree() + 1)])
-    roots: Any = remainder.numer().complex_roots()
-    return low if low and not any(z.imag == 0 for z, _ in roots) else None
 
 
 def _entire(ring: Ring) -> bool:

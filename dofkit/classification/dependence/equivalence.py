@@ -17,7 +17,6 @@ from dofkit.classification.dependence.comparison import (
     Regularity,
     bounds,
     loses_nothing,
-    power_of,
     same_side,
     same_up_to_numbers,
     unsound,
@@ -131,9 +130,6 @@ class Equivalence:
             return self._unilateral()
         if same_up_to_numbers(self._given, self._wanted, self.setting.positive):
             return Compared(Sameness.SAME, tuple(True for _ in self._wanted))
-        times = power_of(self._given, self._wanted, self.setting.positive)
-        if times:
-            return Compared(Sameness.SAME if times == 1 else Sameness.IRREGULAR, tuple(True for _ in self._wanted))
         sound = self._sound
         kept = [g for g, s in zip(self._answer, sound, strict=True) if s is True]
         met = [self._follow(r.normals, kept) for r in self._wanted]

@@ -11,12 +11,12 @@ from typing import NamedTuple
 
 from dofkit.base.deadline import unless_late
 from dofkit.base.verdicts import About
-from dofkit.classification.dependence.circuits import Redundancies, undecided_dependence
 from dofkit.classification.dependence.implication import follows
 from dofkit.classification.freedom.branches import Outcome, solve
 from dofkit.classification.freedom.preparation import all_of
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
+from dofkit.relations.answer import Redundancies, undecided_dependence
 from dofkit.relations.blocks import linear, presolve
 from dofkit.relations.normal.pieces import Finite, Normal, Reduced
 from dofkit.relations.setting import Setting

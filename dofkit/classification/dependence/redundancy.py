@@ -12,7 +12,7 @@ from dofkit.base.deadline import unless_late
 from dofkit.base.libraries import components
 from dofkit.base.verdicts import About
 from dofkit.classification.dependence import block_implication, removal
-from dofkit.classification.dependence.circuits import OwnedRows, Redundancies, analyse, undecided_dependence
+from dofkit.classification.dependence.circuits import OwnedRows, analyse
 from dofkit.classification.dependence.implication import SLACK
 from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
 from dofkit.classification.freedom.branches import Outcome
@@ -23,7 +23,7 @@ from dofkit.exact.matrices.sparse import SparseRow
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
-from dofkit.relations.answer import Answer
+from dofkit.relations.answer import Answer, Redundancies, undecided_dependence
 from dofkit.relations.blocks import Block, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.pieces import Finite, Inequality, Nonlinear, Normal, Reduced
@@ -110,7 +110,7 @@ def _of_part(
         return _of_relations(reduced, setting, blocks, numbers)
     others = [i for i in numbers if i not in regions]
     by_others = _of_relations(reduced, setting, blocks, others) if others else []
-    undecided = [Redundancies({i: 0}, [], [(reduced[i].equations, [i])], {}, (i,)) for i in regions]
+    undecided = [Redundancies({i: 0}, groups=[(reduced[i].equations, [i])], undecided=(i,)) for i in regions]
     return [*by_others, *undecided]
 
 
@@ -147,7 +147,7 @@ def _of_relations(
 def _undecided_redundancy(r: Redundancies) -> Redundancies:
     """Return what remains where constraints are redundant by rank at one point, and may be needed elsewhere."""
     independent = {i: k for i, k in r.independent.items() if i not in r.redundant}
-    return Redundancies(independent, [], [], {}, tuple(r.redundant))
+    return Redundancies(independent, undecided=tuple(r.redundant))
 
 
 def _scope(
@@ -225,7 +225,7 @@ def _as_free(found: Redundancies, reduced: Sequence[Reduced], blocks: Sequence[t
         return found
     parts = [OwnedRows(a.matrix, removal.owners_of(b), _finite_rows(b), a.modulus) for b, a in blocks]
     known = all(len(part.matrix) == len(part.owners) for part in parts)
-    by_rank = analyse(parts) if known else Redundancies({}, [], [], {})
+    by_rank = analyse(parts) if known else Redundancies({})
     with_rows = {owner for part in parts for owner in part.owners}
     idle = [(reduced[i].equations, [i]) for i in found.independent if i not in with_rows]
     independent = {i: by_rank.independent.get(i, 0) for i in found.independent}
@@ -299,7 +299,7 @@ def _without_hidden(block: Block, a: Answer) -> list[SparseRow]:
 
 def _independent(counted: Mapping[int, int]) -> Redundancies:
     """So many equations of each constraint, all independent."""
-    return Redundancies(dict(counted), [], [], {}, equations=dict.fromkeys(counted, ()))
+    return Redundancies(dict(counted), equations=dict.fromkeys(counted, ()))
 
 
 def _numbered(reduced: Iterable[Reduced]) -> dict[int, int]:

@@ -27,12 +27,11 @@ from dofkit.base.deadline import OutOfTimeError, check, limited
 from dofkit.base.libraries import components
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets, is_drawn
-from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.preparation import all_of
 from dofkit.exact.matrices.sparse import echelon
-from dofkit.relations.answer import Answer
+from dofkit.relations.answer import Answer, Redundancies
 from dofkit.relations.blocks import Block, Row, split
 from dofkit.relations.setting import Setting
 
@@ -85,7 +84,7 @@ def _largest_redundant_set(removal: Removal, order: Sequence[int]) -> Redundanci
             gone = list(better)
     except OutOfTimeError:
         open_ += [o for o in order if o not in gone]
-    return Redundancies({}, sorted(gone), [], {}, tuple(sorted(set(open_) - set(gone))))
+    return Redundancies({}, sorted(gone), undecided=tuple(sorted(set(open_) - set(gone))))
 
 
 def _circuits(removal: Removal, order: Sequence[int], redundant: Sequence[int]) -> dict[int, list[int]]:

@@ -26,11 +26,11 @@ from dofkit.integrability.nonlinear_velocities import first_order_beside_bends, 
 from dofkit.integrability.pfaffian_system import (
     Codistribution,
     codistribution,
+    confinements,
     first_order_freedom,
+    prolong,
 )
-from dofkit.integrability.prolongation import confinements, prolong
-from dofkit.integrability.regular_reference import reference_points, regular_reference
-from dofkit.integrability.row_labels import ball_labels, field_labels
+from dofkit.integrability.row_labels import ball_labels, field_labels, reference_points, regular_reference
 from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
 from dofkit.relations.blocks import Block, Row, split
@@ -201,10 +201,8 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
     if setting.reference is None or alike:
         result = find(forms.chart, setting.pose)
         return result if alike else replace(result, about="component")
-    if "field" not in forms.chart.engines:
-        return Variety(None, None, "undecided", reasons=[IRREGULAR])
     undecided = Variety(None, None, "undecided", reasons=[IRREGULAR])
-    points = reference_points(forms, setting.reference)
+    points = reference_points(forms, setting.reference) if "field" in forms.chart.engines else None
     if points is None:
         return undecided
     if not points:
@@ -242,11 +240,13 @@ def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list
                     return replace(result, consistent=None, verdict="undecided", reasons=[*found.reasons, APART])
                 found.real, result.witness = real, of_real_point(forms.chart, real)
             field_labels(block, forms, found, good, result, setting)
-            set_velocity_freedom(block, setting, result)
+            if block.nonlinear:
+                set_velocity_freedom(block, setting, result)
             return result
     if found.real is not None and found.real.certified:
         ball_labels(block, forms, found.real, result)
-        set_velocity_freedom(block, setting, result)
+        if block.nonlinear:
+            set_velocity_freedom(block, setting, result)
         return result
     result.verdict, result.consistent = "undecided", None
     result.reasons.append("no regular point was found at which the differential constraints could be analysed")

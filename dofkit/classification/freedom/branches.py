@@ -20,14 +20,14 @@ from dofkit.classification.freedom.preparation import (
 )
 from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.modulo_others import NOT_EQUIVALENT, with_reductions_checked
+from dofkit.integrability.nonlinear_velocities import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.relations.answer import Answer, AnsweredPart
-from dofkit.relations.blocks import Block, Row, blocks_of, names_in, with_boundaries, with_rows
+from dofkit.relations.blocks import Block, Row, blocks_of, names_in, with_rows
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import holds_somewhere
 from dofkit.relations.normal.pieces import JointEquation, Reduced, Still
 from dofkit.relations.setting import Setting
-from dofkit.relations.velocity_reductions import MAX_WAYS, RewrittenRow, ways_of
+from dofkit.relations.velocity_reductions import MAX_WAYS, RewrittenRow, ways_of, with_boundaries
 from dofkit.system import System
 
 #: Choices of branches that are looked at.
@@ -194,7 +194,8 @@ def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> 
         best.answers = [Answer(None, verdict="undecided", reasons=[why or OUT_OF_TIME]) for _ in best.answers]
     elif best.consistent is not False:
         best.answers = _of_its_part(best, [o for o in remaining if o is not best])
-        best.answers = with_reductions_checked(best.reduced, best.blocks, best.answers, setting)
+        if best.reduced:
+            best.answers = with_reductions_checked(best.reduced, best.blocks, best.answers, setting)
     elif not best.impossible and any(o.divided for o in outcomes):
         best.answers = [Answer(None, verdict="undecided", reasons=[NOT_EQUIVALENT]) for _ in best.answers]
     return best

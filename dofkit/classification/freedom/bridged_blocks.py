@@ -13,8 +13,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.vectors import difference
 from dofkit.relations.answer import Answer, AnsweredPart, FollowedClasses, Size
-from dofkit.relations.blocks import Block, Row, coordinates_of, split, uses_time
-from dofkit.relations.chart import make_chart
+from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart, split, uses_time
 from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import Setting
 

@@ -6,7 +6,7 @@ some time each, and at no time together. And what was cancelled keeps its domain
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from types import MappingProxyType
@@ -17,15 +17,9 @@ from flint import arb
 from dofkit.base.errors import TextError
 from dofkit.base.libraries import components
 from dofkit.base.verdicts import weakest
-from dofkit.classification.freedom.block import answer
-from dofkit.configuration.components import explicit_relations
-from dofkit.configuration.finite_blocks import OFF_REFERENCE
-from dofkit.configuration.generic_dimension import BALL_COLUMNS
 from dofkit.configuration.variety import Witness, of_real_point
-from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealPoint, RealSearch
-from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
@@ -33,13 +27,11 @@ from dofkit.expressions.renaming import coordinates_in
 from dofkit.expressions.text import Names, parse_expression, to_text
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, Row, expressions, uses_time
-from dofkit.relations.chart import Chart, make_chart
+from dofkit.relations.blocks import Block, Chart, Row, expressions, given_by, make_chart, uses_time
 from dofkit.relations.normal.domain import DomainCondition, holds_at
 from dofkit.relations.normal.no_solution import hold_nowhere
 from dofkit.relations.normal.pieces import Finite, JointEquation
 from dofkit.relations.setting import Setting
-from dofkit.relations.velocity_reductions import given_by
 
 #: Searches for a point, each from other starts and, but for the first, at a time later or earlier by such a factor.
 SEEDS, LATER = 6, 4.0
@@ -49,29 +41,17 @@ def restricted_to_domain(block: Block, result: Answer, setting: Setting) -> Answ
     """Return the answer where the conditions of a block are satisfied.
 
     It is inconsistent where they are satisfied nowhere, and undecided where that is not known, or where the reference
-    configuration lies on the boundary.
+    configuration is not inside.
     """
     block = _without_satisfied_conditions(block)
     if not block.conditions or result.consistent is False:
         return result
     if result.consistent is None:
         return _nowhere(block, result) if _is_empty(block, result, setting) else result
-    if setting.reference is not None:
+    if setting.reference is not None and result.instantaneous is not None:
         here = {**setting.reference, ex.TIME: ex.ZERO}
-        drawn = result.instantaneous is not None
-        inside = [holds_at(c, here, setting.positive, strictly=drawn) for c in block.conditions]
-        if drawn and all(inside):
-            return result
-        outside = False in [holds_at(c, here, setting.positive) for c in block.conditions]
-        if drawn and not outside:
-            return _undecided(block, result)
-        if drawn:
-            elsewhere = replace(setting, reference=None, pose={})
-            result = restricted_to_domain(block, answer(block, elsewhere), elsewhere)
-        if outside:
-            result.reasons.append(OFF_REFERENCE)
-        if drawn:
-            return result
+        inside = all(holds_at(c, here, setting.positive, strictly=True) for c in block.conditions)
+        return result if inside else _undecided(block, result)
     return _at_a_point(block, result, setting)
 
 
@@ -120,7 +100,7 @@ def _point_within(chart: Chart, conditions: Sequence[DomainCondition], dof: int 
         if point is not None and point.certified and point.consistent:
             points.append(point)
     wanted = max((p.rank for p in points), default=0) if dof is None else chart.coordinates - dof
-    return next((p for p in points if p.rank == wanted and _is_strict_at(chart, p, conditions)), None)
+    return next((p for p in points if p.rank == wanted and _hold_strictly(conditions, p.point.symbols)), None)
 
 
 def _is_same_component(block: Block, result: Answer) -> bool:
@@ -136,17 +116,13 @@ def _is_strict_at_witness(block: Block, result: Answer) -> bool:
         configuration = {s: Fraction(text) for s, text in (result.witness or {}).items()}
     except ValueError:
         return False
-    balls = [(c, interval_of(c.expr, configuration)) for c in block.conditions] if configuration else []
+    return not configuration or _hold_strictly(block.conditions, configuration)
+
+
+def _hold_strictly(conditions: Iterable[DomainCondition], point: Mapping[Expr, arb | Fraction]) -> bool:
+    """Return whether conditions are proved to be satisfied at a point, and not as equations."""
+    balls = [(c, interval_of(c.expr, point)) for c in conditions]
     return all(v is not None and not v.contains(0) and (c.sense == "!=" or bool(v > 0)) for c, v in balls)
-
-
-def _is_strict_at(chart: Chart, point: RealPoint, conditions: Sequence[DomainCondition]) -> bool:
-    try:
-        at = values(chart.ring, point.point)
-    except NoValueError:
-        return False
-    balls = [arb(at[chart.ring.node(c.expr)]) for c in conditions]
-    return all(v > 0 if c.sense != "!=" else not v.contains(0) for v, c in zip(balls, conditions, strict=True))
 
 
 def _text(block: Block) -> str:
@@ -198,11 +174,11 @@ def at_one_point(
     put beside the rows that share a coordinate with it, and these are ``answered`` again.
     """
     written = _with_conditions(blocks, domain)
-    kept, result = list(blocks), simultaneous(written, answers, setting, answered)
+    kept, result = list(blocks), simultaneous(written, answers)
     if any(a.consistent is not True for a in result):
         return CommonPoint(kept, result)
     point = _point(result, setting)
-    outside = [(i, c) for i, c in domain if not _holds_strictly(c, point)]
+    outside = [(i, c) for i, c in domain if not _hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})]
     names = [*(_names(block) for block in written), *(_names_of(c, i) for i, c in outside)]
     own: dict[Expr, str] = {}
     failed: dict[bool | None, list[int]] = {False: [], None: []}
@@ -227,7 +203,7 @@ def at_one_point(
             failed[consistent] += [i for i, _ in added]
         for i in members:
             kept[i], result[i] = written[i], _not_consistent(result[i], values_of, OUTSIDE)
-    together = simultaneous(written, result, setting, answered)
+    together = simultaneous(written, result)
     return CommonPoint(kept, together, own, tuple(failed[False]), tuple(failed[None]))
 
 
@@ -271,19 +247,8 @@ def _ball(text: str, exact: Expr | None) -> arb:
     return value + arb(0, 1) * (1 + abs(value)) * DIGITS_BALL if {".", "e"} & {*text} else value
 
 
-def _holds_strictly(c: DomainCondition, point: Mapping[Expr, arb]) -> bool:
-    """Return whether a condition is proved to be satisfied at a point, and not as an equation; other symbols are 0."""
-    value = interval_of(c.expr, {s: point.get(s, arb(0)) for s in c.expr.symbols})
-    return value is not None and not value.contains(0) and (c.sense == "!=" or bool(value > 0))
-
-
-def simultaneous(
-    blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting, answered: Callable[[Block], Answer]
-) -> list[Answer]:
-    """Return the answers with witnesses that have the time and the parameters in common.
-
-    Where none are found, blocks are ``answered`` as one: the answers are inconsistent, or undecided, where that is.
-    """
+def simultaneous(blocks: Sequence[Block], answers: Sequence[Answer]) -> list[Answer]:
+    """Return the answers, undecided where the witnesses do not have the time and the parameters in common."""
     result = list(answers)
     if any(a.consistent is not True for a in answers):
         return result
@@ -292,12 +257,8 @@ def simultaneous(
         group = [i for i in numbers if shared[i]]
         if len(group) < 2 or _is_common([result[i].witness for i in group], [shared[i] for i in group]):
             continue
-        group = [i for i in group if _restricts(blocks[i], result[i])]
-        if len(group) < 2:
-            continue
-        together = _as_one([blocks[i] for i in group], [result[i] for i in group], setting, answered)
-        for i, a in zip(group, together, strict=True):
-            result[i] = a
+        for i in group:
+            result[i] = Answer(None, verdict="undecided", reasons=[APART], method=result[i].method)
     return result
 
 
@@ -319,33 +280,6 @@ def _is_common(witnesses: Sequence[Witness | None], shared: Sequence[frozenset[E
         if witness is None or any(known.setdefault(s, witness[s]) != witness[s] for s in symbols & witness.keys()):
             return False
     return not any(s.args[1].endswith("(...)") for symbols in shared for s in symbols)
-
-
-def _restricts(block: Block, a: Answer) -> bool:
-    """Return whether a block may be satisfied at some times, or for some parameters, only."""
-    if a.linear or not (block.finite or a.hidden or block.nonlinear or block.conditions):
-        return False
-    relations = _relations(block, a)
-    if block.nonlinear or block.conditions or len(relations) > BALL_COLUMNS:
-        return True
-    smooth = all(is_analytic(g, g.symbols, poles=False) for g in relations)
-    return not smooth or bool(explicit_relations(relations).left)
-
-
-def _relations(block: Block, a: Answer) -> list[Expr]:
-    return [*(row.piece.expr for row in block.finite if isinstance(row.piece, Finite)), *a.hidden]
-
-
-def _as_one(
-    blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting, answered: Callable[[Block], Answer]
-) -> list[Answer]:
-    """Return the answers where the blocks are consistent as one block, with as much freedom; else that they are not."""
-    merged = _merged(blocks, (), setting)
-    together = answered(merged) if len(merged.coordinates) <= BALL_COLUMNS else Answer(None)
-    if together.consistent and together.dof == sum(a.dof or 0 for a in answers):
-        sure = together.verdict
-        return [replace(a, witness=together.witness, verdict=weakest(a.verdict, sure)) for a in answers]
-    return [_not_consistent(a, together, APART) for a in answers]
 
 
 def _not_consistent(a: Answer, together: Answer, why: str) -> Answer:

@@ -10,7 +10,7 @@ from dofkit.expressions.renaming import Renaming
 from dofkit.expressions.tree import Expr
 from dofkit.relations.answer import Answer, AnsweredPart, Size
 from dofkit.relations.blocks import Block
-from dofkit.relations.piece_shapes import piece_shape
+from dofkit.relations.normal.pieces import piece_shape
 from dofkit.relations.setting import Setting
 
 #: Owner and role of what is no coordinate of the system.

@@ -24,8 +24,7 @@ from dofkit.expressions.tree import Expr
 from dofkit.integrability import accelerations
 from dofkit.mobility.joint_tree import Bridges, bridges
 from dofkit.mobility.placement import RowsAtReference
-from dofkit.relations.blocks import Block, Row, coordinates_of
-from dofkit.relations.chart import make_chart
+from dofkit.relations.blocks import Block, Row, coordinates_of, make_chart
 from dofkit.relations.normal.domain import DomainCondition, arguments_of, holds_at
 from dofkit.relations.normal.normal_form import normalise
 from dofkit.relations.normal.pieces import (
@@ -34,13 +33,13 @@ from dofkit.relations.normal.pieces import (
     Inequality,
     JointEquation,
     Normal,
+    NormalTemplate,
     Pfaffian,
     Piece,
     Reduced,
     unwritten,
 )
 from dofkit.relations.normal.polynomial_zeros import PRODUCT_NOTE
-from dofkit.relations.piece_shapes import NormalTemplate
 from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.relations.velocity_reductions import Way
 from dofkit.system import System

@@ -14,6 +14,7 @@ from dofkit.classification.freedom.branches import MAX_CHOICES, Outcome
 from dofkit.classification.freedom.common_point import restricted_to_domain
 from dofkit.classification.freedom.preparation import branches_at_reference
 from dofkit.classification.labels.entry import LabelledRow
+from dofkit.classification.labels.reasons import Others
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import TIME, Expr
@@ -146,20 +147,6 @@ MAX_CONSTRAINTS, MAX_COORDINATES = 10, 12
 
 
 @dataclass(frozen=True)
-class Together:
-    """``companions``: a minimal set of other constraints with which a form integrates; None where it was not sought.
-
-    ``integral``: what it then says, as text; ``identically`` tells that this was proved in the canonical ring, and
-    ``timed`` that t occurs in it.
-    """
-
-    companions: tuple[int, ...] | None = None
-    integral: str | None = None
-    identically: bool = True
-    timed: bool | None = None
-
-
-@dataclass(frozen=True)
 class CompanionIntegrals:
     """Integrals by the numbers of the rows they can stand for, and all of them."""
 
@@ -169,16 +156,20 @@ class CompanionIntegrals:
 
 @dataclass
 class Companionship:
-    """The blocks of a system, asked one constraint at a time; what was found for a block is kept."""
+    """The blocks of a system, asked one constraint at a time; what was found for a block is kept.
+
+    ``names``: those of the constraints, by number.
+    """
 
     parts: AnsweredParts
+    names: Sequence[str]
     _integrals: dict[tuple[int, ...], CompanionIntegrals] = field(default_factory=dict)
 
-    def of(self, constraint: int, block: Block, a: Answer) -> Together:
+    def of(self, constraint: int, block: Block, a: Answer) -> Others:
         """For a constraint that is holonomic in its block: what it needs there, and its integral."""
         owners = list(dict.fromkeys(r.constraint for r in block.rows))
         if len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES or block.nonlinear:
-            return Together()
+            return Others()
         try:
             kept = self._needed(constraint, block, owners)
             integral = self._integral(constraint, block, kept)
@@ -186,23 +177,23 @@ class Companionship:
                 kept = self._needed(constraint, block, owners, a)
                 integral = self._integral(constraint, block, owners)
         except (OutOfTimeError, ArithmeticError):
-            return Together()
-        companions = tuple(o for o in kept if o != constraint)
+            return Others()
+        companions = tuple(f"'{self.names[o]}'" for o in kept if o != constraint)
         if integral is None:
-            return Together(companions)
+            return Others(companions)
         timed = _timed(integral, constraint, block, a)
-        return Together(companions, equation(integral, block), integral.identically, timed)
+        return Others(companions, equation(integral, block), integral.identically, timed)
 
-    def modulo(self, constraint: int, block: Block, a: Answer) -> Together:
+    def modulo(self, constraint: int, block: Block, a: Answer) -> Others:
         """For a constraint that is not: a finite relation that it says in the presence of all the others."""
         owners = list(dict.fromkeys(r.constraint for r in block.rows))
         if a.dof is None or len(owners) > MAX_CONSTRAINTS or len(block.coordinates) > MAX_COORDINATES:
-            return Together()
+            return Others()
         try:
             integral = self._integral(constraint, block, owners)
         except (OutOfTimeError, ArithmeticError):
-            return Together()
-        return Together() if integral is None else Together((), equation(integral, block), integral.identically)
+            return Others()
+        return Others() if integral is None else Others((), equation(integral, block), integral.identically)
 
     def _needed(self, constraint: int, block: Block, owners: Sequence[int], a: Answer | None = None) -> list[int]:
         """A minimal set of constraints, ``constraint`` among them, in which it is holonomic; later ones go first.

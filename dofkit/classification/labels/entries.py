@@ -11,18 +11,18 @@ from dofkit.base.deadline import OutOfTimeError, check
 from dofkit.base.verdicts import OPEN as UNDECIDED
 from dofkit.base.verdicts import Claim, Verdict, weakest
 from dofkit.base.wording import verb
-from dofkit.classification.dependence.circuits import Redundancies
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.labels.companions import Companionship, by_itself
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.reasons import Others, in_words
-from dofkit.expressions.tree import TIME
-from dofkit.integrability.modulo_others import label_modulo_others
+from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import substitute
+from dofkit.expressions.tree import TIME, Expr
+from dofkit.integrability.nonlinear_velocities import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
-from dofkit.relations.answer import GAP
-from dofkit.relations.blocks import Row, coordinates_of, fixed_constants
-from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Pfaffian, Reduced
-from dofkit.relations.piece_shapes import piece_shape
+from dofkit.relations.answer import GAP, Redundancies
+from dofkit.relations.blocks import Row, about_constants, coordinates_of, given_by
+from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Pfaffian, Reduced, piece_shape
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict
 
@@ -39,20 +39,19 @@ def entries_of(
     setting: Setting,
     outcome: Outcome,
     dependent: Sequence[Redundancies],
-    names: Sequence[str],
     company: Companionship,
 ) -> list[ConstraintEntry]:
     """An entry for every constraint, in order; one that there is no time for says so."""
     known = _dependence(dependent, outcome)
     answer = _labelled_rows(len(reduced), outcome, setting)
-    constants = fixed_constants(
+    constants = _fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
     )
     entries, by_kind = list[ConstraintEntry](), dict[Hashable, ConstraintEntry]()
     traits_of, consistent = partial(_traits_of, setting), outcome.consistent
     for i, r in enumerate(reduced):
         number = known.independent.get(i, None if answer[i] else 0)
-        circuit = None if i not in known.circuits else [names[j] for j in known.circuits[i]]
+        circuit = None if i not in known.circuits else [company.names[j] for j in known.circuits[i]]
         try:
             check()
             copied = i in outcome.copies
@@ -62,7 +61,7 @@ def entries_of(
                 named = {"name": r.constraint.name, "text": r.constraint.text}
                 entries.append(by_kind[kind].model_copy(update=named))
                 continue
-            beside = partial(_with_others, i, answer[i], company, names)
+            beside = partial(_with_others, i, answer[i], company)
             alone = by_itself(i, r, answer[i], company.parts)
             evidence = Evidence(answer[i], alone, number, circuit, constants, traits_of, beside, copied)
             entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, known))
@@ -71,6 +70,14 @@ def entries_of(
         except OutOfTimeError as error:
             entries.append(unfinished(r, str(error)))
     return entries
+
+
+def _fixed_constants(hidden: Sequence[Expr], constants: Sequence[str]) -> dict[str, Expr]:
+    """Return the constants that linear relations among them give in terms of parameters and the other constants."""
+    among = [g for g in hidden if about_constants(g, constants)] if constants else []
+    values = given_by(among, [ex.coordinate(c) for c in reversed(constants)])
+    named = {ex.coordinate(c): ex.parameter(c) for c in constants}
+    return {str(s.args[1]): substitute(value, named) for s, value in values.items()}
 
 
 def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hashable:
@@ -119,7 +126,7 @@ def _traits_of(setting: Setting, piece: Clause) -> Traits:
     """Return the labels that a piece carries on its own; the equations of a joint that is not driven hold no time."""
     if isinstance(piece, JointEquation):
         return Traits((True, "proved"))
-    return traits(piece, setting.positive, setting.engines, False)
+    return traits(piece, setting.positive, setting.engines)
 
 
 class _Dependence(NamedTuple):
@@ -215,17 +222,13 @@ def _unmeasured(outcome: Outcome) -> set[int]:
     return {r.constraint for block, a in outcome.parts if a.velocity_dof is None for r in block.rows}
 
 
-def _with_others(
-    i: int, told: Sequence[LabelledRow], company: Companionship, names: Sequence[str], in_system: bool
-) -> Others:
+def _with_others(i: int, rows: Sequence[LabelledRow], company: Companionship, in_system: bool) -> Others:
     """What the constraints of its block do for a form; nothing where it stands alone there or in several blocks."""
-    blocks = {id(t.block): t for t in told if t.block is not None}
+    blocks = {id(t.block): t for t in rows if t.block is not None}
     only = next(iter(blocks.values())) if len(blocks) == 1 else None
-    if only is None or only.block is None or not (in_system or any(t.label and t.label.modulo for t in told)):
+    if only is None or only.block is None or not (in_system or any(t.label and t.label.modulo for t in rows)):
         return Others()
-    result = (company.of if in_system else company.modulo)(i, only.block, only.answer)
-    companions = None if result.companions is None else tuple(f"'{names[k]}'" for k in result.companions)
-    return Others(companions, result.integral, result.identically, result.timed)
+    return (company.of if in_system else company.modulo)(i, only.block, only.answer)
 
 
 def _labelled_rows(number: int, outcome: Outcome, setting: Setting) -> list[list[LabelledRow]]:

@@ -11,7 +11,6 @@ from dofkit.classification.labels.reasons import (
     EntryLabels,
     EntryTraits,
     Ground,
-    Labels,
     Others,
     branches_of_time,
     claim_of_dependence,
@@ -26,8 +25,7 @@ from dofkit.classification.undecided import open_entry
 from dofkit.exact.zero import BOTH
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.single_form import Integrability, integrability
-from dofkit.integrability.traits import Traits
+from dofkit.integrability.traits import Integrability, Traits, integrability
 from dofkit.relations.answer import Answer, HolonomyLabel
 from dofkit.relations.blocks import Block, Row
 from dofkit.relations.normal.pieces import Clause, Finite, Nonlinear, Normal, Pfaffian, Reduced, Still, with_constants
@@ -90,16 +88,15 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
     own_forms = [p for f in forms if isinstance(p := with_constants(f, own_constants), Pfaffian)]
     proofs = _proofs(form, own_forms, evidence.by_itself, setting)
     labels = _labels_of(reduced, evidence, form, proofs, forms, consistent)
-    integrals = _integrals_of(form, labels, proofs, evidence, bool(consistent))
-    own_traits = _traits_of(pieces, clauses, normals, evidence)
+    integral, others = _integral_of(form, labels, proofs, evidence, bool(consistent))
+    of_pieces = _traits_of(pieces, clauses, normals, evidence)
+    branches = branches_of_time(reduced, bool(consistent), setting.positive)
     single = evidence.rows[0] if len(evidence.rows) == len(clauses) == 1 else None
-    timed = timed_in_system(clauses[0], single.block, single.answer, integrals.others, setting) if single else None
+    timed = timed_in_system(clauses[0], single.block, single.answer, others, setting) if single else None
     every = _of_every_form(labels, evidence.rows, normals)
-    traits = traits_together([*own_traits, *branches_of_time(normals, bool(consistent))], form, every, timed)
-    reasons = _labels(labels.in_system, labels.alone, evidence.rows)
-    sentences = reason_of(form, reasons, proofs, evidence.circuit, integrals.others)
-    reason = _once(normals) + sentences + reason_of_time(traits)
-    claims = _claims(form, labels, traits, integrals.integral, evidence, bool(proofs) and all(p.proved for p in proofs))
+    traits = traits_together([*of_pieces, *branches], form, every, timed)
+    sentences = (_once(normals), reason_of(form, labels, proofs, evidence.circuit, others), reason_of_time(traits))
+    claims = _claims(form, labels, traits, integral, evidence, bool(proofs) and all(p.proved for p in proofs))
     return ConstraintEntry(
         name=constraint.name,
         type=constraint.type,
@@ -112,13 +109,13 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
         bilateral=not reduced.inequalities,
         exact=traits.exact,
         integrating_factor=joined([p.factor for p in proofs]),
-        integral=integrals.integral,
+        integral=integral,
         circuit=evidence.circuit,
         equations=reduced.equations,
         independent=None if evidence.independent is None else min(evidence.independent, reduced.equations),
         verdict=weakest(*(c.verdict for c in claims.values()), *(t.answer.verdict for t in evidence.rows)),
         verdicts={name: FieldVerdict.of(claim) for name, claim in claims.items()},
-        reason=reason,
+        reason="".join(sentences),
     )
 
 
@@ -164,7 +161,12 @@ def _labels_of(
     own, sure_own = _alone(form, evidence.by_itself, proofs, forms, reduced.inequalities)
     if consistent is False and in_system is None:
         in_system, sure = own, sure_own
-    return EntryLabels(in_system, own, (sure, sure_own))
+    rows = evidence.rows
+    undecided = [t.label.reason for t in rows if t.label and t.label.holonomic is None and t.label.reason]
+    late = [why for t in rows if t.answer.late for why in t.answer.reasons]
+    beside = (t.label.reason for t in rows if t.reduced and t.label and t.label.holonomic is False)
+    sures = (sure, sure_own)
+    return EntryLabels(in_system, own, sures, next(iter(late + undecided), ""), bool(rows), next(beside, ""))
 
 
 def _of_every_form(labels: EntryLabels, rows: Sequence[LabelledRow], normals: Sequence[Normal]) -> EntryLabels:
@@ -222,23 +224,17 @@ def _claims(
     return claims
 
 
-class _EntryIntegrals(NamedTuple):
-    """The finite relation that a constraint integrates to, and what the others do for it."""
-
-    integral: str | None
-    others: Others
-
-
-def _integrals_of(
+def _integral_of(
     form: Form, labels: EntryLabels, proofs: Sequence[Integrability], evidence: Evidence, consistent: bool
-) -> _EntryIntegrals:
+) -> tuple[str | None, Others]:
+    """Return the finite relation that a constraint integrates to, and what the others do for it."""
     own = joined([p.integral for p in proofs])
     others = Others()
     if form == "pfaffian" and labels.in_system is not None and consistent and not (labels.alone and own):
         others = evidence.companions_of(labels.in_system)
-    if labels.alone:
-        return _EntryIntegrals(others.integral if own is None else own, others)
-    return _EntryIntegrals(others.integral if labels.in_system else None, others)
+    if labels.alone and own is not None:
+        return own, others
+    return others.integral if labels.alone or labels.in_system else None, others
 
 
 def _once(normals: Sequence[Normal]) -> str:
@@ -263,13 +259,6 @@ def _proofs(form: Form, forms: Sequence[Pfaffian], by_itself: Answer | None, set
     labels = [label.holonomic for label in by_itself.labels.values()]
     single = labels[0] if len(labels) == 1 else None
     return [integrability(f, setting.positive, single) for f in forms]
-
-
-def _labels(in_system: bool | None, own: bool | None, told: Sequence[LabelledRow]) -> Labels:
-    undecided = [t.label.reason for t in told if t.label and t.label.holonomic is None and t.label.reason]
-    late = [why for t in told if t.answer.late for why in t.answer.reasons]
-    reduced = (t.label.reason for t in told if t.reduced and t.label and t.label.holonomic is False)
-    return Labels(in_system, own, next(iter(late + undecided), ""), bool(told), next(reduced, ""))
 
 
 def label_in_system(

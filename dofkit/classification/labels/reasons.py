@@ -10,12 +10,11 @@ from dofkit.base.verdicts import OPEN, ArgumentKey, Claim, Verdict, least, toget
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.single_form import Integrability
-from dofkit.integrability.traits import TraitAnswer, Traits, all_of, vanishes_on
+from dofkit.integrability.traits import Integrability, TraitAnswer, Traits, all_of, timeless, vanishes_on
 from dofkit.relations.answer import BITS, GAP, Answer, HolonomyLabel
 from dofkit.relations.blocks import Block
 from dofkit.relations.normal.domain import DomainCondition
-from dofkit.relations.normal.pieces import INSTANT_NOTE, Clause, Finite, Normal, Pfaffian, Piece
+from dofkit.relations.normal.pieces import INSTANT_NOTE, Clause, Finite, Normal, Pfaffian, Piece, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.report import Form
 from dofkit.system import Relation
@@ -42,15 +41,15 @@ class Others:
         return f"{self.integral}{'' if self.identically else _CHECKED}"
 
 
-@dataclass(frozen=True)
-class Labels:
-    """What is said of a constraint: in the system, alone, and why it was left open where it was.
+class EntryLabels(NamedTuple):
+    """Holonomic in the system and alone, how sure each is, and why it was left undecided where it was.
 
-    ``beside``: what the others make of one that is nonlinear in the velocities.
+    ``relates``: there is a row; ``beside``: what the others make of one that is nonlinear in the velocities.
     """
 
     in_system: bool | None
     alone: bool | None
+    verdicts: tuple[Verdict, Verdict]
     undecided: str = ""
     relates: bool = True
     beside: str = ""
@@ -63,7 +62,7 @@ def joined(parts: Sequence[str | None]) -> str | None:
 
 
 def reason_of(
-    form: Form, labels: Labels, proofs: Sequence[Integrability], circuit: list[str] | None, others: Others
+    form: Form, labels: EntryLabels, proofs: Sequence[Integrability], circuit: list[str] | None, others: Others
 ) -> str:
     """The sentences, by the constraint's form and labels."""
     if form == "pfaffian":
@@ -86,7 +85,7 @@ def reason_of(
     return reason
 
 
-def _nonlinear(labels: Labels) -> str:
+def _nonlinear(labels: EntryLabels) -> str:
     if labels.in_system:
         return (
             "On its own it is not linear in the velocities; together with the other constraints it is "
@@ -99,7 +98,7 @@ def _nonlinear(labels: Labels) -> str:
     return f"{why}: non-holonomic; it restricts the velocities, not the accessible configurations."
 
 
-def _pfaffian(labels: Labels, proofs: Sequence[Integrability], others: Others) -> str:
+def _pfaffian(labels: EntryLabels, proofs: Sequence[Integrability], others: Others) -> str:
     if labels.in_system is None:
         return f"Not decided: {labels.undecided or 'the engines found no regular point to decide at'}."
     if labels.in_system and labels.alone:
@@ -177,14 +176,6 @@ def _given(vector: tuple[Expr, ...]) -> bool:
     return not any(str(s.args[1]).startswith("_") for part in vector for s in part.symbols)
 
 
-class EntryLabels(NamedTuple):
-    """Holonomic in the system and alone, and how sure each is."""
-
-    in_system: bool | None
-    alone: bool | None
-    verdicts: tuple[Verdict, Verdict]
-
-
 class EntryTraits(NamedTuple):
     """What all pieces of a constraint carry, and how sure each label is.
 
@@ -241,15 +232,18 @@ def traits_together(
     )
 
 
-def branches_of_time(normals: Sequence[Normal], consistent: bool) -> Iterator[Traits]:
-    """Yield that it is undecided whether t occurs where branches hold at different times, or one does at an instant.
+def branches_of_time(reduced: Reduced, consistent: bool, positive: frozenset[Expr]) -> Iterator[Traits]:
+    """Yield whether t occurs in an equation whose branches hold at different times, or one of which fixes the time.
 
-    The latter was left out, which changes nothing where motions satisfy the others.
+    A branch that holds at an instant only was left out, which changes nothing where motions satisfy the others.
     """
-    for n in normals:
+    for k, n in enumerate(reduced.normals):
         conditions = ([p.expr for p in b if isinstance(p, DomainCondition)] for b in n.branches)
         intervals = {frozenset(e for e in of_branch if ex.TIME in e.symbols) for of_branch in conditions}
-        if len(intervals) > 1 or (INSTANT_NOTE in n.notes and not consistent):
+        if len(intervals) > 1:
+            timed = timeless(Finite(reduced.written[k].expr), positive)
+            yield Traits(timed if timed[0] is False else (None, "undecided"))
+        elif INSTANT_NOTE in n.notes and not consistent:
             yield Traits((None, "undecided"))
 
 

@@ -2,31 +2,149 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
+
+from flint import arb, ctx, nmod, nmod_mat
 
 from dofkit.base.deadline import OutOfTimeError, expired, limited
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.base.wording import many, verb
 from dofkit.classification.freedom.branches import Outcome
-from dofkit.classification.special.common_zeros import Leaf, drop, flag, in_order, order_of, where
-from dofkit.classification.special.loci import Candidates, Locus, candidates, place
-from dofkit.classification.special.minors import MinorTable, table_of
+from dofkit.classification.special.common_zeros import (
+    Leaf,
+    drop,
+    flag,
+    in_order,
+    order_of,
+    where,
+)
+from dofkit.classification.special.minors import (
+    Candidates,
+    MinorTable,
+    candidates,
+    table_of,
+)
+from dofkit.configuration.generic_points import on_variety
+from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.exact.matrices.sparse import rank_of
+from dofkit.exact.points.balls import PRECISION, BallPoint
+from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.frames import certified_rank, field_frame
+from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.program import values
+from dofkit.exact.triangular import TriangularSolver
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.terms import number_and_rest
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
+from dofkit.integrability.growth_vector import growth_at
+from dofkit.integrability.pfaffian_system import codistribution
 from dofkit.relations.answer import Answer
-from dofkit.relations.blocks import Block, expressions
+from dofkit.relations.blocks import Block, Chart, expressions
 from dofkit.relations.normal.pieces import Finite, Inequality, Reduced
 from dofkit.relations.normal.semidefinite import never_holds
 from dofkit.relations.setting import Setting
 from dofkit.report import Report, SpecialCase
 from dofkit.system import Constraint, Coordinate, Relation, System, TypeFacts
+
+#: Starts and steps of the search for a real point of a locus; where it is regular a few are enough.
+STARTS, STEPS = 2, 14
+
+
+def points_of(chart: Chart) -> tuple[FieldPoint, BallPoint, bool] | None:
+    """Return a random point of a locus over GF(p) and a certified real one; None where they were not found at once.
+
+    The last entry tells whether the conditions are independent at the real one, so that it exists for certain.
+    """
+    solver = TriangularSolver(chart.ring, chart.nodes, seed=1)
+    drawn = solver.draw(1)
+    if drawn is None or not on_variety(chart, drawn):
+        return None
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive)
+    real = search.search(starts=STARTS, steps=STEPS)
+    if real is None or not real.certified or not real.consistent:
+        return None
+    return drawn, real.point, real.rank == len(chart.nodes)
+
+
+@dataclass(frozen=True)
+class Locus:
+    """A block's rows on a locus.
+
+    ``rank`` in the coordinates' columns; ``moves``: False where no velocity satisfies them (dt lies in their
+    span); ``dependent``: the constraints whose independent rows depend on each other there; ``regular``: that such
+    real configurations exist is proved. ``growth``: dimensions of D, D + [D, D], ..., where they were asked for, as far
+    as they are certain.
+    """
+
+    rank: int
+    moves: bool
+    dependent: tuple[int, ...]
+    regular: bool
+    growth: tuple[int, ...] = ()
+
+
+@raising_no_value
+def place(
+    block: Block, a: Answer, setting: Setting, conditions: Sequence[Expr], relations: Sequence[Expr], grows: int
+) -> Locus | None:
+    """The rows on the locus; None where there is no such real configuration, or the engines disagree on a rank.
+
+    ``relations``: the finite relations that do not hold there anyway; ``grows``: the rank at which D's growth is asked.
+    """
+    forms = codistribution(block, setting, a.hidden, on=[*relations, *conditions])
+    rows, chart, n = forms.rows, forms.chart, forms.n
+    result = points_of(chart)
+    if result is None:
+        return None
+    point, real, regular = result
+    try:
+        matrix = rows.matrix(values(chart.ring, point), point.number(ex.ZERO.args[0]))
+        with ctx.workprec(PRECISION):
+            balls = rows.matrix(values(chart.ring, real), arb(0))
+            certified = certified_rank(_part(balls, n)), certified_rank(balls)
+    except NoValueError:
+        return None
+    rank, whole = rank_of(_part(matrix, n), point.p), rank_of(matrix, point.p)
+    if certified != (rank, whole):
+        return None
+    owners = _owners(block, a, _dependent(a, _part(matrix, n), point.p))
+    frame = field_frame(matrix, len(rows.columns), point.p)
+    if not rank == whole == grows or not frame.rows or not frame.free:
+        return Locus(rank, whole == rank, owners, regular)
+    return Locus(
+        rank, True, owners, regular, growth_at(rows, frame, point, a.growth[-1] if a.growth else len(rows.columns))
+    )
+
+
+def _part(matrix: list[list[Any]], n: int) -> list[list[Any]]:
+    return [row[:n] for row in matrix]
+
+
+def _dependent(a: Answer, matrix: list[list[Any]], p: int) -> set[int]:
+    """Of rows that are independent elsewhere, those that a relation between them holds here."""
+    n = len(matrix[0])
+    chosen: Sequence[int] = range(len(matrix))
+    if len(a.matrix) == len(matrix):
+        chosen = field_frame(
+            [[nmod(row.get(c, 0), a.modulus) for c in range(n)] for row in a.matrix], n, a.modulus
+        ).rows
+    columns = nmod_mat([[int(matrix[r][c]) for r in chosen] for c in range(n)], p)
+    basis, nullity = columns.nullspace()
+    return {r for i, r in enumerate(chosen) if any(int(basis[i, k]) for k in range(nullity))}
+
+
+def _owners(block: Block, a: Answer, rows: Iterable[int]) -> tuple[int, ...]:
+    """The constraints of rows, hidden relations left out."""
+    first, last = len(block.finite), len(block.finite) + len(a.hidden)
+    places = [i if i < first else i - len(a.hidden) for i in rows if i < first or i >= last]
+    return tuple(sorted({block.rows[i].constraint for i in places}))
+
 
 #: Expressions for which the rest of the configuration space is looked at.
 MAX_EXPRESSIONS = 4
@@ -112,35 +230,20 @@ class GenericAnswer:
     def names(self, constraints: Sequence[int]) -> list[str]:
         return [self.system.constraints[i].name for i in constraints]
 
-    @property
-    def velocities(self) -> int:
-        """Independent velocities at a generic configuration."""
-        return self.report.velocity_dof or 0
-
-    @property
-    def rank(self) -> int:
-        """Of all rows at a generic configuration."""
-        return len(self.system.coordinates) - self.velocities
-
 
 @dataclass(frozen=True)
 class SearchedBlock:
-    """One block, its polynomials and its candidates."""
+    """One block, its polynomials and its candidates.
+
+    ``rank`` of its rows at a generic configuration; ``curved``: there is a form that does not integrate.
+    """
 
     block: Block
     answer: Answer
     table: MinorTable
     candidates: Candidates
-
-    @property
-    def rank(self) -> int:
-        """Of its rows at a generic configuration."""
-        return len(self.block.coordinates) - (self.answer.velocity_dof or 0)
-
-    @property
-    def curved(self) -> bool:
-        """Is there curvature at a generic configuration: a form that does not integrate?"""
-        return any(label.holonomic is False for label in self.answer.labels.values())
+    rank: int
+    curved: bool
 
 
 def special_cases(
@@ -158,7 +261,8 @@ def special_cases(
         with suppress(*_UNFINISHED):
             cases.extend(branch_dimensions(system, reduced, outcome, report, again))
         blocks = zip(outcome.blocks, outcome.answers, strict=True)
-        result = [s for b, a in blocks if _is_searched(b, a, answer) and (s := _search(b, a, answer)) is not None]
+        searched = (_search(b, a, answer) for b, a in blocks if _small(b, a) and _plain(b, answer))
+        result = [s for s in searched if s is not None]
         if not result:
             return {"special_cases": cases} if cases else {}
         for block in result:
@@ -180,10 +284,6 @@ def _merged(cases: Sequence[SpecialCase]) -> list[SpecialCase]:
     return list(kept.values())
 
 
-def _is_searched(block: Block, a: Answer, told: GenericAnswer) -> bool:
-    return _small(block, a) and _plain(block, told)
-
-
 def _search(block: Block, a: Answer, told: GenericAnswer) -> SearchedBlock | None:
     """The candidates of a block; None where it takes too long."""
     system = told.system
@@ -195,7 +295,7 @@ def _search(block: Block, a: Answer, told: GenericAnswer) -> SearchedBlock | Non
     try:
         table = table_of(block, a.hidden, told.setting, nonzero)
         curved = any(label.holonomic is False for label in a.labels.values())
-        return SearchedBlock(block, a, table, candidates(table, rank, curvature, curved))
+        return SearchedBlock(block, a, table, candidates(table, rank, curvature, curved), rank, curved)
     except _UNFINISHED:
         return None
 
@@ -274,9 +374,10 @@ def _locus(
 
 def _dropping(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, seen: Locus) -> Iterator[SpecialCase]:
     """The minors vanish identically on the locus; a ball certifies the rank that is left."""
-    by = found.rank - seen.rank
+    by, velocities = found.rank - seen.rank, told.report.velocity_dof or 0
+    rank = len(told.system.coordinates) - velocities
     sure: Verdict = "proved" if by == 1 and seen.regular else "probable"
-    return _locus(found, told, leaf, drop(told.rank, by, told.velocities, seen.moves), seen.dependent, sure)
+    return _locus(found, told, leaf, drop(rank, by, velocities, seen.moves), seen.dependent, sure)
 
 
 def _bending(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, seen: Locus) -> Iterator[SpecialCase]:

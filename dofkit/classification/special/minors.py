@@ -1,4 +1,4 @@
-"""A block's rows as polynomials: where their rank drops, and what curvature is left on their kernel.
+"""A block's rows as polynomials: candidates for where their rank drops, or curvature on their kernel vanishes.
 
 Rows are the differentials of the finite relations and the Pfaffian forms, each times its denominators. Rows with
 a coefficient that never vanishes are eliminated first: the rank drops where that of the rest does. The kernel is
@@ -7,95 +7,24 @@ spanned by Cramer's vectors, so the curvature d(omega)(u, v) of every form on ev
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
+from itertools import chain, combinations
 from math import comb
+from typing import NamedTuple
 
 from dofkit.base.deadline import check
-from dofkit.classification.special.common_zeros import Reals
-from dofkit.exact.errors import TooLargeError, raising_no_value
-from dofkit.exact.ring.canonical import Canon, Poly, Quotient, cleared, determinant
-from dofkit.exact.ring.program import Var
+from dofkit.classification.special.common_zeros import MAX_READ, Leaf, Reals, common_zeros
+from dofkit.exact.errors import NoValueError, TooLargeError, raising_no_value
+from dofkit.exact.ring.canonical import Canon, Poly, Quotient, cleared, determinant, lowest_terms
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
+from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Block
 from dofkit.relations.normal.pieces import Finite, Pfaffian
 from dofkit.relations.setting import Setting
-
-
-class Derivation:
-    """d/ds for every symbol s; memoised."""
-
-    def __init__(self, canon: Canon) -> None:
-        self.canon = canon
-        self.zero: Quotient = (canon.one * 0, canon.one)
-        self._known: dict[tuple[int, Expr], Quotient] = {}
-
-    def of(self, value: Quotient, symbol: Expr) -> Quotient:
-        """The derivative of a quotient, in lowest terms. Raises TooLargeError for functions it does not know."""
-        top, bottom = value
-        if bottom.is_constant():
-            return self._of_poly(top, symbol)
-        above, below = self._of_poly(top, symbol), self._of_poly(bottom, symbol)
-        total = above[0] * below[1] * bottom - below[0] * above[1] * top
-        return self.lowest(self.canon.reduce(total), above[1] * below[1] * bottom**2)
-
-    def lowest(self, top: Poly, bottom: Poly) -> Quotient:
-        """A quotient without common factors, its denominator 1 where it is a number."""
-        if bottom.is_constant():
-            return top / bottom.leading_coefficient(), self.canon.one
-        common = top.gcd(bottom)
-        return (top / common, bottom / common) if common.total_degree() else (top, bottom)
-
-    def _of_poly(self, poly: Poly, symbol: Expr) -> Quotient:
-        total, below, n = self.zero[0], self.canon.one, len(self.canon.gens)
-        for i in self.canon.generators_in(poly):
-            top, bottom = self._of_generator(i, symbol)
-            if top == 0:
-                continue
-            term = poly.derivative(n - 1 - i) * top
-            if bottom == below:
-                total = total + term
-            else:
-                total, below = total * bottom + term * below, below * bottom
-        return self.lowest(self.canon.reduce(total), below)
-
-    def _of_generator(self, index: int, symbol: Expr) -> Quotient:
-        var, generator = self.canon.ring.vars[index], self.canon.ring.var_expr[index]
-        if symbol not in generator.symbols:
-            return self.zero
-        if var.kind == "symbol":
-            return self.canon.one, self.canon.one
-        result = self._known.get((index, symbol))
-        if result is None:
-            inner = self.of(self.canon.quotient(var.args[0]), symbol)
-            top, bottom = self._outer(var)
-            result = self._known[index, symbol] = self.lowest(self.canon.reduce(inner[0] * top), inner[1] * bottom)
-        return result
-
-    def _outer(self, var: Var) -> Quotient:
-        """The derivative of a generator by its argument."""
-        gens, one = self.canon.gens, self.canon.one
-        if var.kind == "cos":
-            return -gens[var.partner], one
-        if var.kind == "sin":
-            return gens[var.partner], one
-        if var.kind == "exp":
-            return gens[var.index], one
-        if var.kind == "sign":
-            return one * 0, one
-        top, bottom = self.canon.quotient(var.args[0])
-        if var.kind == "root":
-            return gens[var.index] * bottom, var.degree * top
-        if var.kind == "log":
-            return bottom, top
-        if var.kind == "atan":
-            return bottom**2, bottom**2 + top**2
-        raise TooLargeError
-
 
 #: Minors, and vectors of the kernel, of which there may be so many; their size.
 MAX_MINORS, MAX_VECTORS, MAX_SIZE = 20, 8, 4
@@ -107,7 +36,7 @@ MAX_TERMS, MAX_SHORT = 12, 60
 class MinorTable:
     """``relations`` are the finite relations; ``rows`` over ``symbols`` (coordinates, then time where it enters).
 
-    The first rows are the relations' differentials. Of every form ``bent`` has d(omega);
+    The first rows are the relations' differentials. ``curls_of`` returns d(omega) of every form;
     ``below`` has every row's denominator, as written.
     """
 
@@ -116,14 +45,13 @@ class MinorTable:
     symbols: tuple[Expr, ...]
     relations: list[Poly]
     rows: list[list[Poly]]
-    bent: Callable[[], list[dict[tuple[int, int], Quotient]]]
+    curls_of: Callable[[], list[dict[tuple[int, int], Poly]]]
     below: list[Poly]
 
     @cached_property
     def curls(self) -> list[dict[tuple[int, int], Poly]]:
         """The coefficients of d(omega) by pairs of columns, of every form. Raises NoValueError."""
-        bent = self.bent()
-        return [dict(zip(curl, cleared(self.canon, list(curl.values()))[0], strict=True)) for curl in bent]
+        return [{pair: p for pair, p in curl.items() if p != 0} for curl in self.curls_of()]
 
     @property
     def n(self) -> int:
@@ -133,47 +61,46 @@ class MinorTable:
 
 @raising_no_value
 def table_of(block: Block, hidden: Sequence[Expr], setting: Setting, nonzero: frozenset[Expr]) -> MinorTable:
-    """The polynomials of a block without nonlinear rows. Raises TooLargeError."""
+    """Return the polynomials of a block without nonlinear rows. Raises TooLargeError."""
     finite = [r.piece.expr for r in block.finite if isinstance(r.piece, Finite)] + list(hidden)
     forms = [dict(r.piece.items()) for r in block.forms if isinstance(r.piece, Pfaffian)]
-    everything = [*finite, *(e for form in forms for e in form.values())]
     timed = any(ex.TIME in form or any(ex.TIME in e.symbols for e in form.values()) for form in forms)
     timed = timed or any(ex.TIME in g.symbols for g in finite)
     symbols = tuple(ex.coordinate(c) for c in block.coordinates) + ((ex.TIME,) if timed else ())
+    rows = [[diff(g, s) for s in symbols] for g in finite] + [[form.get(s, ex.ZERO) for s in symbols] for form in forms]
+    curls = [_curl(form, symbols) for form in forms]
+    everything = [*finite, *chain(*rows), *chain(*(curl.values() for curl in curls))]
     ring = Ring(everything, setting.positive)
     nodes = {e: ring.node(e) for e in everything}
     canon = Canon(ring)
-    slopes = Derivation(canon)
-    values = {e: slopes.lowest(*canon.quotient(node)) for e, node in nodes.items()}
-    written = [[slopes.of(values[g], s) if s in g.symbols else slopes.zero for s in symbols] for g in finite]
-    written += [[values[form[s]] if s in form else slopes.zero for s in symbols] for form in forms]
-    clear = [cleared(canon, row) for row in written]
+
+    def cleared_row(row: Iterable[Expr]) -> tuple[list[Poly], Poly]:
+        return cleared(canon, [in_lowest_terms(canon.quotient(nodes[e])) for e in row])
+
+    clear = [cleared_row(row) for row in rows]
     return MinorTable(
         canon,
         Reals(canon, setting.positive, nonzero),
         symbols,
-        [values[g][0] for g in finite],
+        [canon.quotient(nodes[g])[0] for g in finite],
         [tops for tops, _ in clear],
-        lambda: [_curl(slopes, form, values, symbols) for form in forms],
+        lambda: [dict(zip(curl, cleared_row(curl.values())[0], strict=True)) for curl in curls],
         [whole for _, whole in clear],
     )
 
 
-def _curl(
-    slopes: Derivation, form: Mapping[Expr, Expr], values: Mapping[Expr, Quotient], symbols: Sequence[Expr]
-) -> dict[tuple[int, int], Quotient]:
-    """d(omega): the coefficient of dq_i ^ dq_j for i < j, where it is not 0."""
-    result: dict[tuple[int, int], Quotient] = {}
-    for j, i in ((j, i) for j, s in enumerate(symbols) if s in form for i in range(len(symbols)) if i != j):
-        entry = form[symbols[j]]
-        if symbols[i] not in entry.symbols:
-            continue
-        key, (top, below) = (min(i, j), max(i, j)), slopes.of(values[entry], symbols[i])
-        old, under = result.get(key, slopes.zero)
-        top = top if i < j else -top
-        total = old + top if below == under else old * below + top * under
-        result[key] = slopes.lowest(slopes.canon.reduce(total), below if below == under else below * under)
-    return {key: result[key] for key in sorted(result) if result[key][0] != 0}
+def in_lowest_terms(quotient: Quotient) -> Quotient:
+    """Return a quotient without common factors, its denominator 1 where it is a number."""
+    top, bottom = quotient if quotient[1].is_constant() else lowest_terms(*quotient)
+    return (top / bottom.leading_coefficient(), bottom**0) if bottom.is_constant() else (top, bottom)
+
+
+def _curl(form: Mapping[Expr, Expr], symbols: Sequence[Expr]) -> dict[tuple[int, int], Expr]:
+    """Return d(omega): the coefficient of dq_i ^ dq_j for i < j, where it is not written as 0."""
+    pairs = combinations(range(len(symbols)), 2)
+    a = [form.get(s, ex.ZERO) for s in symbols]
+    curl = {(i, j): diff(a[j], symbols[i]) - diff(a[i], symbols[j]) for i, j in pairs}
+    return {pair: e for pair, e in curl.items() if not e.is_zero}
 
 
 class EliminatedTable:
@@ -282,3 +209,94 @@ def curvatures(table: MinorTable, vectors: Sequence[Sequence[Poly]]) -> list[lis
             values.append(canon.reduce(total))
         result.append(values)
     return result
+
+
+# candidates
+
+
+class Candidates(NamedTuple):
+    """Conditions on coordinates under which all largest minors vanish, and all curvature or a minor of it."""
+
+    ranks: list[Leaf]
+    bends: list[Leaf]
+
+
+def candidates(table: MinorTable, rank: int, curvature: int, curved: bool) -> Candidates:
+    """Return the candidates; ``rank``: of the rows in the columns of the coordinates.
+
+    ``curvature``: the number of independent directions that [D, D] adds to D at a generic point, 0 where not known.
+    Where nothing is ``curved`` curvature has nothing to tell. What is too large has no candidates.
+    """
+    reduction = EliminatedTable(table)
+    size = rank - len(reduction.solved)
+    ranks = _attempt(lambda: _loci(table, reduction.minors(size) if size > 0 else ()))
+    bends = _attempt(lambda: _bends(table, reduction, size, curvature)) if curved and size >= 0 else []
+    return Candidates(ranks, bends)
+
+
+def _attempt(search: Callable[[], Iterable[Leaf]]) -> list[Leaf]:
+    try:
+        return raising_no_value(lambda: list(search()))()
+    except NoValueError:
+        return []
+
+
+def _bends(table: MinorTable, reduction: EliminatedTable, size: int, independent: int) -> Iterator[Leaf]:
+    """Yield the loci on which all curvature vanishes, and those on which less of it is independent."""
+    if not any(table.curls):
+        return
+    matrix = curvatures(table, reduction.kernel(size))
+    yield from _loci(table, [c for row in matrix for c in row])
+    bent = [row for row in matrix if any(c != 0 for c in row)]
+    if independent > 1 and comb(len(bent), independent) * comb(len(bent[0]), independent) <= MAX_MINORS:
+        columns = range(len(bent[0]))
+        picked = [(r, c) for r in combinations(bent, independent) for c in combinations(columns, independent)]
+        yield from _loci(table, [determinant(table.canon, [[row[i] for i in c] for row in r]) for r, c in picked])
+
+
+def _loci(table: MinorTable, polynomials: Iterable[Poly]) -> Iterator[Leaf]:
+    """Yield conditions on coordinates under which polynomials vanish and the finite relations can hold for a while."""
+    present = [p for p in polynomials if p != 0]
+    for leaf in common_zeros(table.reals, present, short=True) if present else ():
+        conditions = leaf.conditions(table.canon)
+        short = all(len(p) <= MAX_READ for p in (*leaf.others, *(v for _, v in leaf.solved)))
+        alone = any(_is_instant(table, c) or table.reals.of_parameters(c) for c in conditions)
+        if not short or alone or not _is_of_coordinates(table, conditions) or not _is_defined(table, leaf):
+            continue
+        if _can_hold(table, leaf):
+            yield leaf
+
+
+def _can_hold(table: MinorTable, leaf: Leaf) -> bool:
+    """Return whether the finite relations may hold on a leaf for an interval of time and all parameters."""
+    relations = [table.reals.on(leaf, g) for g in table.relations]
+    if any(table.reals.never_zero(g) for g in relations):
+        return False
+    try:
+        ways = [way.conditions(table.canon) for way in common_zeros(table.reals, relations)]
+    except NoValueError:
+        return True
+    return any(not any(_is_instant(table, c) or table.reals.of_parameters(c) for c in way) for way in ways)
+
+
+def _is_instant(table: MinorTable, condition: Poly) -> bool:
+    """Return whether a condition is one on time alone."""
+    symbols = _symbols(table, [condition])
+    return ex.TIME in symbols and all(s.args[0] in ("time", "parameter") for s in symbols)
+
+
+def _symbols(table: MinorTable, conditions: Iterable[Poly]) -> frozenset[Expr]:
+    present = {i for poly in conditions for i in table.canon.generators_in(poly)}
+    return frozenset[Expr]().union(*(table.canon.ring.var_expr[i].symbols for i in present))
+
+
+def _is_defined(table: MinorTable, leaf: Leaf) -> bool:
+    """Return whether the denominators of the rows do not vanish on a leaf."""
+    below = [table.reals.on(leaf, p) for p in table.below]
+    return all(p != 0 and not any(divmod(p, c)[1] == 0 for c in leaf.others) for p in below)
+
+
+def _is_of_coordinates(table: MinorTable, conditions: Sequence[Poly]) -> bool:
+    """Return whether coordinates occur, and no unknown functions."""
+    kinds = {table.canon.ring.vars[i].kind for poly in conditions for i in table.canon.generators_in(poly)}
+    return "call" not in kinds and any(s.args[0] == "coordinate" for s in _symbols(table, conditions))

@@ -1,6 +1,6 @@
 """The criteria for finite motion and rigidity, in the order in which they are asked, and their driver.
 
-The first row whose hypotheses hold and whose function comes to a conclusion decides. A new criterion is a function of
+The first row whose function comes to a conclusion decides. A new criterion is a function of
 the germ (`germ.Germ`) in `conclusions` and a row here; its theorem is a line of `dofkit/THEOREMS.md`.
 """
 
@@ -20,7 +20,8 @@ from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.points.balls import BallPoint, precision
 from dofkit.exact.points.field import FieldPoint
-from dofkit.relations.chart import Chart
+from dofkit.exact.points.frames import Pivots
+from dofkit.relations.blocks import Chart
 
 UNDECIDED = LocalDimension(
     None, "undecided", "the equations are dependent here and their lowest-order terms do not decide"
@@ -31,16 +32,15 @@ UNDECIDED = LocalDimension(
 class Criterion:
     """A row of the table; m, mu, k, M and N as in `germ`.
 
-    ``hypotheses`` in words, and ``applies``, which checks them; ``decide`` gives its conclusion, None where it comes to
-    none. ``concludes``: "motion" where first-order motions, or some of them, are finite ones; "rigidity" where only
-    motions of the whole are; "nothing" where the question is left open and no later row is asked. ``verdict``: how sure
-    that is at the best; with balls alone it is "numeric".
+    ``hypotheses`` in words; ``decide`` checks them and returns the conclusion, None where it comes to none.
+    ``concludes``: "motion" where first-order motions, or some of them, are finite ones; "rigidity" where only motions
+    of the whole are; "nothing" where the question is left open and no later row is asked. ``verdict``: how sure that
+    is at the best; with balls alone it is "numeric".
     """
 
     key: ArgumentKey
     theorem: str
     hypotheses: str
-    applies: Callable[[Germ], bool]
     concludes: Literal["motion", "rigidity", "nothing"]
     verdict: Verdict
     decide: Callable[[Germ], Conclusion | None]
@@ -57,7 +57,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "independent relations",
         "ImplicitFunctions",
         "all equations are independent at the point (k = 0)",
-        conclusions.independent,
         "motion",
         "proved",
         conclusions.manifold,
@@ -66,26 +65,15 @@ CRITERIA: tuple[Criterion, ...] = (
         "rigid to first order",
         "AsimowRoth1978",
         "the equations allow only the velocities of rigid motions of the system (m = mu)",
-        conclusions.rigid_to_first_order,
         "rigidity",
         "proved",
         conclusions.orbit,
-    ),
-    Criterion(
-        "degree too high",
-        "SchwartzZippel",
-        "a dependent equation has a degree beyond the orders that are examined",
-        conclusions.of_high_degree,
-        "nothing",
-        "undecided",
-        conclusions.unfollowed,
     ),
     Criterion(
         "zero along a curve",
         "SchwartzZippel",
         "the dependent equations vanish along a random curve of M to an order above their degree, and at a "
         "finite distance",
-        conclusions.vanishing,
         "motion",
         "probable",
         conclusions.whole_manifold,
@@ -93,8 +81,8 @@ CRITERIA: tuple[Criterion, ...] = (
     Criterion(
         "flat along a curve",
         "SchwartzZippel",
-        "the dependent equations vanish along a random curve of M, but not, or not verifiably, at a finite distance",
-        conclusions.vanishing_here,
+        "the dependent equations vanish along a random curve of M, but not to an order above their degree, or not "
+        "verifiably at a finite distance",
         "nothing",
         "undecided",
         conclusions.flat,
@@ -104,7 +92,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "IsolatedZeros",
         "one motion remains besides the rigid motions of the system (m = mu + 1), and a dependent equation "
         "is not zero along it",
-        conclusions.of_one_variable,
         "rigidity",
         "proved",
         conclusions.isolated_zero,
@@ -113,7 +100,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "indefinite form",
         "HurewiczWallman1941",
         "one dependent equation, whose second order has certified squares of both signs; time, if any, moves on M",
-        conclusions.one_form,
         "motion",
         "proved",
         conclusions.indefinite,
@@ -122,7 +108,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "definite form",
         "MorseBott",
         "one dependent equation, whose second order has m - mu certified squares, all of one sign",
-        conclusions.one_form,
         "rigidity",
         "proved",
         conclusions.definite,
@@ -131,7 +116,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "definite combination",
         "ConnellyWhiteley1996",
         "several dependent equations, of whose second orders a combination has m - mu certified squares of one sign",
-        conclusions.several_forms,
         "rigidity",
         "proved",
         conclusions.prestress_stable,
@@ -141,7 +125,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "GromollMeyer1969",
         "one dependent equation, of second order of one sign, and which vanishes on its critical set N as "
         "far as examined",
-        conclusions.split_form,
         "motion",
         "probable",
         conclusions.least_along_a_motion,
@@ -150,35 +133,15 @@ CRITERIA: tuple[Criterion, ...] = (
         "change of sign",
         "HurewiczWallman1941",
         "one dependent equation, whose second order and lowest order on N together take both signs",
-        conclusions.split_form,
         "motion",
         "probable",
         conclusions.changing_sign,
-    ),
-    Criterion(
-        "definite at a higher order",
-        "GromollMeyer1969",
-        "one dependent equation, whose second order and lowest order on N are of one sign, and N has dimension mu + 1",
-        conclusions.split_form,
-        "rigidity",
-        "probable",
-        conclusions.definite_at_higher_order,
-    ),
-    Criterion(
-        "no second-order flex",
-        "TangentCone",
-        "several dependent equations, whose second orders have a cone of common zeros of dimension mu, and no more",
-        conclusions.several_forms_over_both,
-        "rigidity",
-        "proved",
-        conclusions.no_second_order_flex,
     ),
     Criterion(
         "critical branch",
         "TangentCone",
         "several dependent equations, all zero on N as far as examined, which has the dimension of their "
         "second-order cone",
-        conclusions.several_forms_over_both,
         "motion",
         "probable",
         conclusions.critical_branch,
@@ -187,7 +150,6 @@ CRITERIA: tuple[Criterion, ...] = (
         "branch followed",
         "TangentCone",
         "several dependent equations; a branch of the dimension of their second-order cone was found numerically",
-        conclusions.several_forms_over_both,
         "motion",
         "numeric",
         conclusions.branch_followed,
@@ -198,7 +160,7 @@ CRITERIA: tuple[Criterion, ...] = (
 def decision(germ: Germ) -> tuple[Criterion | None, LocalDimension]:
     """The first criterion that decides, and what it says; None where all are asked and none does."""
     for criterion in CRITERIA:
-        told = criterion.decide(germ) if criterion.applies(germ) else None
+        told = criterion.decide(germ)
         if told is None:
             continue
         verdict = weakest(criterion.verdict, told.verdict, "proved" if germ.exact else "numeric")
@@ -237,17 +199,21 @@ def local_at(
     ``time``: the number of that column, where it matters whether time moves on. A point that was ``drawn`` may be one
     where a relation is flat: what is 0 along a curve is looked at from a distance, if balls may be asked.
     """
-    frame = frame_at(chart, point)
     try:
-        field_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point)
-        ball_manifold = None
-        if ball is not None:
-            ball_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
-        return local_dimension(field_manifold, ball_manifold, rigid, time, drawn and "balls" in chart.engines)
+        field, over_balls = _manifolds(chart, frame_at(chart, point), point, ball)
+        return local_dimension(field, over_balls, rigid, time, drawn and "balls" in chart.engines)
     except NoValueError:
         return LocalDimension(
             None, "undecided", "the equations could not be evaluated along a curve through this configuration"
         )
+
+
+def _manifolds(
+    chart: Chart, frame: Pivots, point: FieldPoint, ball: BallPoint | None
+) -> tuple[Manifold, Manifold | None]:
+    """Return the manifold of the frame's relations over GF(p), and over balls where there is a ball."""
+    program = chart.ring, chart.nodes, chart.columns, frame
+    return Manifold(*program, point), None if ball is None else Manifold(*program, ball, chart.scales)
 
 
 def vanish_near(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, rank: int) -> bool | None:
@@ -260,11 +226,7 @@ def vanish_near(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: 
     if len(frame.rows) != rank:
         return False
     try:
-        on_field = Manifold(chart.ring, chart.nodes, chart.columns, frame, point)
-        on_balls = None
-        if ball is not None:
-            on_balls = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
-        return _vanish(Germ(on_field, on_balls, rigid, distance=ball is not None))
+        return _vanish(Germ(*_manifolds(chart, frame, point, ball), rigid, distance=ball is not None))
     except (ArithmeticError, NoValueError):
         return None
 
@@ -274,6 +236,6 @@ def _vanish(germ: Germ) -> bool | None:
     with ctx.workprec(max(ctx.prec, precision())):
         if germ.dependent == 0 or germ.m == germ.rigid:
             return True
-        if conclusions.of_high_degree(germ):
-            return None
-        return germ.vanishes_away if germ.vanishes else False
+        if not germ.vanishes:
+            return False
+        return None if germ.order <= germ.degree else germ.vanishes_away

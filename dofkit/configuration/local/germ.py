@@ -23,8 +23,8 @@ from dofkit.exact.ring.ring import Ring
 
 #: Orders to which the other relations are followed on M; the second where one motion is in question.
 ORDER, LONG_ORDER = 8, 16
-#: Relations of this degree are not followed, over balls beyond the long order: their series may begin later.
-LONGEST = 64
+#: Relations of this degree are followed to the long order only, over balls those beyond it: they may begin later.
+LONGEST = 65
 #: With more motions than this beside those of the whole, balls look at one random curve only.
 MANY_WAYS = 60
 #: The order to which they are followed on their critical set, and random directions in which a sign is looked at.
@@ -86,6 +86,8 @@ class Germ:
     def order(self) -> int:
         """The order to which the dependent relations are followed on M."""
         few = self.exact and self.m - self.rigid <= 1
+        if self.degree >= (LONGEST if self.exact else LONG_ORDER):
+            return LONG_ORDER
         return max(LONG_ORDER if few else ORDER, self.degree + 1)
 
     @cached_property

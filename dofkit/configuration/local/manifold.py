@@ -14,7 +14,7 @@ from dofkit.base.verdicts import ArgumentKey, Verdict
 from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import FactoredMatrix
 from dofkit.exact.points.frames import Pivots, pivots, solve
-from dofkit.exact.points.series import Series, SeriesPoint, monomial, series_values, zero_poly
+from dofkit.exact.points.series import Series, SeriesPoint, monomial, zero_poly
 from dofkit.exact.ring.program import Scalar, gradient, values
 from dofkit.exact.ring.ring import Ring
 
@@ -132,7 +132,7 @@ class Manifold:
     def _evaluate(self, path: Sequence[Series], order: int) -> tuple[SeriesPoint, list[Series]]:
         moved = {c: path[i].truncated(order) for i, c in enumerate(self.columns) if c >= 0}
         point = SeriesPoint(self.base, moved, order, self.like)
-        return point, series_values(self.ring, point)
+        return point, values(self.ring, point)
 
     def slopes(self, curve: Curve, functions: Sequence[int]) -> list[list[Series]]:
         """The derivatives by the free columns of ``functions`` on the manifold, along a curve.

@@ -118,16 +118,13 @@ def follow(pose: MeasuredPose, direction: Any, reach: float) -> Path:
     f, j = equations.system(pose.at, pose.norms)
     combinations, at, distance = pose.independent, pose.at, 0.0
     stages = [Stage(0.0, at, _largest(f))]
-    chosen_at = 1
     ahead, step = direction / np.linalg.norm(direction), reach_of(tolerance) * STRIDE * HALF * HALF
     while distance < reach * (1 - CLOSE) and step > STEP * SHORTEST:
         tangent = _tangent(combinations @ j, ahead)
         size = float(np.linalg.norm(tangent))
         moved = _corrected(pose, combinations, at, tangent * (step / size)) if size > STRAIGHT else None
         if moved is None:
-            others = _independent_combinations(pose, f, j) if len(stages) > chosen_at else None
-            chosen_at, step = len(stages), step if others is not None else step / 2
-            combinations = combinations if others is None else others
+            step /= 2
             continue
         at, f, j = moved
         distance, ahead = distance + step, tangent / size
@@ -140,13 +137,6 @@ def follow(pose: MeasuredPose, direction: Any, reach: float) -> Path:
 
 def _largest(f: Any) -> float:
     return float(np.max(np.abs(f), initial=0.0))
-
-
-def _independent_combinations(pose: MeasuredPose, f: Any, j: Any) -> Any:
-    """Return r independent combinations at another point of the set; None if its rank is another or undecided."""
-    if _largest(f) > SLACK * pose.tolerance or clear_rank(j, pose.tolerance) != pose.rank:
-        return None
-    return np.linalg.svd(j, full_matrices=False)[0].T[: pose.rank]
 
 
 def _tangent(a: Any, ahead: Any) -> Any:

@@ -4,8 +4,8 @@ Columns of lengths are divided by the scene's size and rows by their gradients, 
 fraction of the size an equation can be satisfied otherwise. Those below the tolerance (times `SLACK`) count as 0. What
 is then dependent is taken to be exactly dependent in the geometry that was measured. An infinitesimal motion is finite
 where it is continued within the tolerance; it is not where the second order of that geometry, or the residuals along
-it, exclude it by more than the tolerance can hide. Where that leaves it open, the geometry exactly as written may
-decide, as it is one of those that the tolerance allows. All else is undecided.
+it, exclude it by more than the tolerance can hide. A motion that the geometry exactly as written does not have is left
+open, and so is all else.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from functools import cached_property
 from typing import Any
 
 from dofkit.base.libraries import np
-from dofkit.configuration.at_reference import AtReference, at_reference
+from dofkit.configuration.at_reference import at_reference
 from dofkit.configuration.local.germ import Conclusion
 from dofkit.configuration.measured.continuation import BEYOND, LONGEST, Path, follow, is_motion, reach_of
 from dofkit.configuration.measured.equations import (
@@ -31,7 +31,7 @@ from dofkit.configuration.measured.equations import (
 )
 from dofkit.exact.matrices.certified import dependency_pattern, greedy_pivots
 from dofkit.expressions.tree import Expr
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Chart
 from dofkit.relations.setting import Setting
 
 #: From so many sizes from the origin singular values are smaller by the square of that, since turns are about it; from
@@ -46,14 +46,11 @@ MISSED = (
     "the measured reference configuration does not satisfy the equations within the tolerance, and the "
     "tolerance is meaningful only near it"
 )
-FIXED = "within the tolerance the equations allow neither a motion nor another instant: they fix the time"
 OPEN = "some infinitesimal motions are not finite motions; which ones was not decided"
-AS_WRITTEN = "with the numbers exactly as written the equations are dependent, which decides: {}"
 STOPPED = (
     "the infinitesimal motion extends to a finite motion within the tolerance but not for the geometry "
     "as written, so the tolerance leaves it open"
 )
-HIDDEN = "the geometry as written allows no finite motion, but lengths within the tolerance may allow one"
 
 
 @dataclass(frozen=True)
@@ -62,8 +59,7 @@ class MeasuredFreedom:
 
     ``dependencies``: a matrix over GF(2) with the pattern of dependent rows that the Jacobian has within the tolerance:
     independent rows are unit vectors, the others sums of those they depend on. ``columns`` are dependent coordinates.
-    ``gap``: between the least singular value that counts and the largest that does not. ``fixes_time``: the equations
-    are satisfied at one instant only. ``bound``: an upper bound of the dimension where it is undecided.
+    ``gap``: between the least singular value that counts and the largest that does not.
     """
 
     instantaneous: int | None
@@ -72,8 +68,6 @@ class MeasuredFreedom:
     columns: tuple[int, ...]
     gap: float
     reason: str
-    fixes_time: bool = False
-    bound: int | None = None
 
 
 def measured_freedom(chart: Chart, pose: Mapping[Expr, Expr], setting: Setting) -> MeasuredFreedom | None:
@@ -82,27 +76,13 @@ def measured_freedom(chart: Chart, pose: Mapping[Expr, Expr], setting: Setting) 
     if at is None:
         return None
     freedom = _within_tolerance(chart, at, setting)
-    if freedom.reason not in (OPEN, FOLLOWED) or chart.time is not None:
+    if freedom.reason != FOLLOWED or chart.time is not None:
         return freedom
     exact = at_reference(chart, pose)
-    return freedom if exact is None else _compared_with_exact(freedom, exact)
-
-
-def _compared_with_exact(freedom: MeasuredFreedom, exact: AtReference) -> MeasuredFreedom:
-    """Return what the geometry exactly as written says of a measured freedom, if its rank is the same.
-
-    It decides a motion of as many dimensions as the tolerance allows; it leaves open a motion that it does not have.
-    """
-    dimension = exact.local.dimension
-    if exact.instantaneous != freedom.instantaneous or dimension is None or dimension == freedom.dimension:
+    same_rank = exact is not None and exact.instantaneous == freedom.instantaneous
+    if exact is None or not same_rank or exact.local.dimension in (None, freedom.dimension):
         return freedom
-    if freedom.dimension is not None:
-        return replace(freedom, dimension=None, reason=STOPPED)
-    if dimension <= exact.rigid:
-        return replace(freedom, reason=HIDDEN)
-    if freedom.bound is None or dimension < freedom.bound:
-        return freedom
-    return replace(freedom, dimension=dimension, reason=AS_WRITTEN.format(exact.local.reason))
+    return replace(freedom, dimension=None, reason=STOPPED)
 
 
 def _within_tolerance(chart: Chart, at: Mapping[Expr, float], setting: Setting) -> MeasuredFreedom:
@@ -126,7 +106,6 @@ def _within_tolerance(chart: Chart, at: Mapping[Expr, float], setting: Setting) 
         return MeasuredFreedom(None, None, [], (), gap, "a singular value near the tolerance leaves the rank undecided")
     problem = _Problem(MeasuredPose(equations, at, timed, rank, tolerance), lever > FAR_AWAY)
     conclusion = next(c for criterion in CRITERIA if (c := criterion(problem)) is not None)
-    bound = problem.bound if conclusion.reason == OPEN else None
     if chart.time is not None:
         conclusion = _at_fixed_time(problem.pose, conclusion)
     return MeasuredFreedom(
@@ -136,8 +115,6 @@ def _within_tolerance(chart: Chart, at: Mapping[Expr, float], setting: Setting) 
         tuple(greedy_pivots(j.T, rank)),
         gap,
         conclusion.reason,
-        conclusion.reason == FIXED,
-        bound,
     )
 
 
@@ -155,11 +132,6 @@ class _Problem:
     def forms(self) -> StressForms:
         """The second order."""
         return StressForms(self.pose)
-
-    @property
-    def bound(self) -> int:
-        """An upper bound of the dimension where not all of its infinitesimal motions are finite."""
-        return min(self.first - 1, self.rigid + self.forms.cone_bound)
 
     @cached_property
     def paths(self) -> list[tuple[Path, Path]]:
@@ -266,21 +238,6 @@ def _directions(flexes: Any) -> list[Any]:
 
 def _at_fixed_time(pose: MeasuredPose, conclusion: Conclusion) -> Conclusion:
     """Return the dimension without that of time; undecided where time may be constant on the set."""
-    rank, (equations, columns) = clear_rank(pose.j, pose.tolerance), pose.j.shape
-    if rank == columns:
-        return Conclusion(None, FIXED)
-    if rank is not None and rank == equations > pose.rank and _time_moves(replace(pose, rank=rank)):
-        why = "all equations are independent within the tolerance, with time as a variable"
-        return Conclusion(columns - equations - 1, why)
-    if rank != pose.rank or (conclusion.dimension is not None and conclusion.confined):
+    if clear_rank(pose.j, pose.tolerance) != pose.rank or (conclusion.dimension is not None and conclusion.confined):
         return Conclusion(None, "whether a motion passes through this instant is not decided within the tolerance")
     return conclusion if conclusion.dimension is None else conclusion._replace(dimension=conclusion.dimension - 1)
-
-
-def _time_moves(pose: MeasuredPose) -> bool:
-    """Return whether time changes beyond the tolerance along a random path of the manifold of all equations."""
-    if not len(pose.flexes):
-        return False
-    path = follow(pose, _directions(pose.flexes)[-1], reach_of(pose.tolerance))
-    ahead = pose.equations.between(pose.at, path.stages[-1].at)[-1]
-    return abs(float(ahead)) > GREY * pose.tolerance

@@ -11,19 +11,17 @@ from typing import Any
 from flint import arb
 
 from dofkit.base.deadline import check
-from dofkit.base.libraries import np, nx
+from dofkit.base.libraries import np
 from dofkit.configuration.at_reference import ball_point
-from dofkit.configuration.local.quadratic_cone import MAX_CUTS, definite_combination, macaulay_matrix
+from dofkit.configuration.local.quadratic_cone import definite_combination
 from dofkit.configuration.rigid_motions import displacements_real
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Block, coordinates_of
-from dofkit.relations.chart import Chart
+from dofkit.relations.blocks import Block, Chart
 from dofkit.relations.setting import Setting
-from dofkit.system import GROUND
 
 #: A singular value counts as 0 below tolerance * SLACK; between that and tolerance * GREY the rank is undecided.
 SLACK, GREY = 3.0, 30.0
@@ -70,8 +68,7 @@ class ScaledEquations:
 
     def rigid_motions(self, at: Point) -> Any:
         """Return the velocities of rigid motions of the system as rows."""
-        variables = self.chart.ring.vars
-        fields = displacements_real(self.chart, lambda i: at.get(variables[i].key, 0.0) if i >= 0 else 0.0)
+        fields = displacements_real(self.chart, FloatPoint(at, 0))
         return (fields + fields @ self._arms.slopes(at).T) / self.scale if fields.size else fields
 
     def system(self, at: Point, norms: Any = None) -> tuple[Any, Any]:
@@ -273,24 +270,6 @@ def is_measured(block: Block, setting: Setting) -> bool:
     return not placed.isdisjoint(block.coordinates)
 
 
-def is_tree(block: Block, setting: Setting) -> bool:
-    """Return whether constraints of geometry alone join particles, bodies and the ground without a loop.
-
-    Their equations are then independent wherever they are satisfied, whatever their numbers are.
-    """
-    owners = {c.name: c.owner for c in setting.roles}
-    members: dict[int, set[str | None]] = {}
-    for row in block.rows:
-        members.setdefault(row.constraint, set()).update(owners[name] for name in coordinates_of(row.piece))
-    joined: nx.Graph = nx.Graph()
-    for constraint, ends in members.items():
-        if constraint not in setting.geometric or None in ends:
-            return False
-        pair = [*ends, GROUND] if len(ends) == 1 else [*ends]
-        joined.add_edges_from((("joint", constraint), ("member", end)) for end in pair)
-    return bool(nx.is_forest(joined)) if joined else True
-
-
 def float_point(chart: Chart, pose: Mapping[Expr, Expr]) -> dict[Expr, float] | None:
     """Return a pose in floating point, symbols without a value at random; None if a value is undefined."""
     ball = ball_point(chart, {**pose, ex.TIME: ex.ZERO}, random.Random("dofkit measured"))
@@ -311,8 +290,6 @@ def pose_of_block(chart: Chart, setting: Setting) -> Mapping[Expr, Expr] | None:
 DELTA, ROUGH = 1e-5, 1e-6
 #: The perturbations of size |J - J_0| / s in a form: of its stress and of both its motions.
 PERTURBATIONS = 3.0
-#: Random subspaces on which forms without a common zero are sought.
-SUBSPACES = 3
 
 
 class StressForms:
@@ -367,22 +344,3 @@ class StressForms:
             if np.all(spectrum > self.noise) or np.all(spectrum < -self.noise):
                 return True
         return definite_combination(self.balls, self.flexes)
-
-    @property
-    def cone_bound(self) -> int:
-        """An upper bound of the dimension of their common zeros, over the complex numbers [Macaulay1902].
-
-        See `quadratic_cone.bound`; the Macaulay matrices are of full rank for all forms within the noise.
-        """
-        w = self.flexes
-        rng = np.random.default_rng(5)
-        for cuts in range(min(w, len(self.forms), MAX_CUTS), 0, -1):
-            for _ in range(SUBSPACES):
-                basis = np.linalg.qr(rng.standard_normal((w, cuts)))[0]
-                restricted = [(basis.T @ form @ basis).tolist() for form in self.forms]
-                rows = np.array(macaulay_matrix(restricted, cuts), dtype=float)
-                change = 2 * self.noise * w * float(np.sqrt(np.count_nonzero(rows)))
-                singular = np.linalg.svd(rows, compute_uv=False)
-                if len(singular) == rows.shape[1] and singular[-1] > change:
-                    return w - cuts
-        return w

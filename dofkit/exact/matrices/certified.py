@@ -86,8 +86,6 @@ def greedy_pivots(matrix: np.ndarray, rank: int) -> list[int]:
     return sorted(kept)
 
 
-#: Up to this many multiplications, rows are eliminated in their order; past it, those that floating point chose first.
-ORDERED = 20_000
 Balls = Sequence[Sequence[arb]]
 
 
@@ -106,21 +104,10 @@ class PivotedPart(NamedTuple):
     fall: float = 1.0
 
 
-def middles(matrix: Balls) -> np.ndarray:
-    """Return the balls' middles in floating point, each row as a fraction of its largest entry."""
-    return np.array([[float(v.mid() / _scale(row)) for v in row] for row in matrix])
-
-
 def ball_part(matrix: Balls) -> PivotedPart:
     """Return a part of the matrix that is certified regular, such that the rest holds 0 after elimination."""
     if not matrix or not matrix[0]:
         return PivotedPart(0, math.inf, [], [])
-    if len(matrix) * len(matrix[0]) * min(len(matrix), len(matrix[0])) <= ORDERED:
-        return _in_order(matrix)
-    return _chosen_first(matrix)
-
-
-def _in_order(matrix: Balls) -> PivotedPart:
     kept: list[tuple[list[arb], int]] = []
     rows: list[int] = []
     sizes: list[float] = []
@@ -179,45 +166,6 @@ def _fall(sizes: Sequence[float]) -> float:
     """Return the largest ratio of neighbours, in order of size."""
     ordered = sorted(sizes)
     return max((b / a if a else math.inf for a, b in pairwise(ordered)), default=1.0)
-
-
-def _chosen_first(matrix: Balls) -> PivotedPart:
-    """Rows that floating point finds independent, then those that the balls add."""
-    _, _, rows, columns = independent_part(middles(matrix))
-    while True:
-        others = [r for r in range(len(matrix)) if r not in set(rows)]
-        rest = _complement(matrix, rows, columns, others)
-        if rest is None:
-            return _in_order(matrix)
-        found = next(((r, c) for r, row in zip(others, rest, strict=True) if (c := _pivot(row)) >= 0), None)
-        if found is None:
-            left = max((_share(_largest(row), matrix[r]) for r, row in zip(others, rest, strict=True)), default=0.0)
-            sizes = _singular_values(matrix, rows)
-            return PivotedPart(len(rows), _ratio(sizes, left), rows, columns, _fall(sizes))
-        rows, columns = sorted([*rows, found[0]]), [*columns, found[1]]
-
-
-def _complement(
-    matrix: Balls, rows: Sequence[int], columns: Sequence[int], others: Sequence[int]
-) -> list[list[arb]] | None:
-    """The other rows less what the chosen ones say of them (Schur's complement); None where these are not regular."""
-    if not others or not rows:
-        return [list(matrix[r]) for r in others]
-    weights = combinations_of(matrix, rows, columns, others)
-    if weights is None:
-        return None
-    whole = arb_mat([list(matrix[r]) for r in rows])
-    rest = arb_mat([list(matrix[r]) for r in others]) - weights * whole
-    return [[rest[i, j] for j in range(rest.ncols())] for i in range(rest.nrows())]
-
-
-def _singular_values(matrix: Balls, rows: Sequence[int]) -> list[float]:
-    """Return the singular values of some rows, each scaled to length 1."""
-    chosen = middles([matrix[r] for r in rows])
-    if not chosen.size:
-        return []
-    norms = np.linalg.norm(chosen, axis=1, keepdims=True)
-    return [*map(float, np.linalg.svd(chosen / np.where(norms > 0, norms, 1.0), compute_uv=False))]
 
 
 def combinations_of(

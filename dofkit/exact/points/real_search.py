@@ -16,7 +16,7 @@ from flint import arb, arb_mat, ctx
 from dofkit.base.deadline import check
 from dofkit.base.libraries import np
 from dofkit.exact.errors import NoValueError, raising_no_value
-from dofkit.exact.matrices.certified import ORDERED, PivotedPart, ball_part, independent_part
+from dofkit.exact.matrices.certified import PivotedPart, ball_part, independent_part
 from dofkit.exact.points.balls import BallPoint, FloatPoint, jacobian, precision
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring
@@ -29,6 +29,8 @@ MOMENTS, LATER, TICKS = 8, 4.0, 512
 HALVINGS = 8
 #: After this many singular points no regular one is looked for.
 SINGULAR_TRIES = 4
+#: Multiplications by which the Jacobian is eliminated exactly at a point near the zero set.
+MAX_ELIMINATED = 20_000
 #: A Newton step smaller than the precision by so many bits ends the refinement.
 SPARE_BITS = 16
 
@@ -198,7 +200,7 @@ class RealSearch:
 
     def _part_at(self, symbols: Mapping[Expr, float], seed: int) -> PivotedPart | None:
         """Return a regular part of the Jacobian exactly at a point near the zero set; None for large ones."""
-        if len(self.nodes) ** 2 * len(self.columns) > ORDERED:
+        if len(self.nodes) ** 2 * len(self.columns) > MAX_ELIMINATED:
             return None
         point = BallPoint({s: arb(v) for s, v in symbols.items()}, seed)
         try:

@@ -10,8 +10,7 @@ from typing import Any
 from flint import arb, arb_poly, nmod, nmod_poly
 
 from dofkit.exact.errors import PoleError
-from dofkit.exact.ring.program import Point, Scalar, Var, values
-from dofkit.exact.ring.ring import Ring
+from dofkit.exact.ring.program import Point, Scalar, Var
 
 #: An unknown function's composition uses this many of its derivatives by several arguments at most.
 MAX_JET = 400
@@ -220,11 +219,6 @@ def _multi_indices(n: int, total: int) -> list[tuple[int, ...]]:
         return [(k,) for k in range(total + 1)]
     indices = [(k, *rest) for k in range(total + 1) for rest in _multi_indices(n - 1, total - k)]
     return indices[:MAX_JET]
-
-
-def series_values(ring: Ring, point: SeriesPoint) -> list[Series]:
-    """Return every instruction of the program as a series."""
-    return values(ring, point)
 
 
 def zero_poly(base: Point, sample: Scalar) -> Any:

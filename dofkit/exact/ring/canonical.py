@@ -205,11 +205,6 @@ def lowest_terms(top: Poly, bottom: Poly) -> Quotient:
     return top / common, bottom / common
 
 
-def canonical(ring: Ring) -> Canon:
-    """Return the canonical forms of a finished ring (later generators do not enter)."""
-    return Canon(ring)
-
-
 def is_identically_zero(expression: Expr, positive: frozenset[Expr] = frozenset()) -> bool | None:
     """True: proved zero. False: not zero in the ring. None: too large to say. Raises PoleError."""
     ring = Ring([expression], positive)

@@ -9,7 +9,6 @@ What a platform, a file's own name or a folder's name confirms goes before what 
 
 from __future__ import annotations
 
-import csv
 import hashlib
 import os
 import re
@@ -18,15 +17,13 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from io import StringIO
 from pathlib import Path
 from typing import NamedTuple
 
 from dofkit.base.errors import DofkitError
+from dofkit.homework.answers.spreadsheet import decoded, spreadsheet
 from dofkit.homework.answers.submission import MOST_BYTES, clean, reason
 
-#: Separators of columns, the most usual first.
-DELIMITERS = ",;\t|"
 #: What headers call each field, in small letters.
 _HEADERS: Mapping[str, frozenset[str]] = {
     "name": frozenset(
@@ -64,6 +61,11 @@ METADATA = "submission_metadata.yml"
 _SUBMITTER = re.compile(
     r"^(?P<folder>submission_\d+):|^  :(?P<block>\w+):|^\s+(?P<next>- )?:(?P<field>name|email|sid): *(?P<value>.*)$",
     re.MULTILINE,
+)
+#: Cyrillic and Greek letters that look like Latin ones, and these.
+_LOOKALIKES = str.maketrans(
+    "\u0430\u0435\u043e\u0440\u0441\u0443\u0445\u0456\u0458\u0455\u0501\u04bb\u03b1\u03bf\u03b9\u03bd",
+    "aeopcyxijsdhaoiv",
 )
 #: Files as PrairieLearn calls them: ``UID_..._QUESTION_..._SUBMISSION_NAME``.
 _PRAIRIELEARN = re.compile(r"(?P<who>[^@\s/]+@[^@\s/_]+)_(?:.*_)?\d+_[^_]*")
@@ -163,6 +165,16 @@ def _key(text: str) -> str:
     return " ".join(unicodedata.normalize("NFC", text).casefold().split())
 
 
+def lookalike(name: str) -> str:
+    """Return what a name looks like: the same for two names that a reader cannot tell apart.
+
+    >>> lookalike("Ad\u0430 ") == lookalike("\uff21da\u200b")  # a Cyrillic letter; a wide letter and a zero-width space
+    True
+    """
+    shown = unicodedata.normalize("NFKC", name).casefold().translate(_LOOKALIKES)
+    return " ".join("".join(c for c in shown if unicodedata.category(c) != "Cf").split())
+
+
 def load_roster(path: str | os.PathLike[str]) -> Roster:
     """The roster of a table in CSV, separated by commas, semicolons, tabs or bars. Raises RosterError.
 
@@ -175,34 +187,17 @@ def load_roster(path: str | os.PathLike[str]) -> Roster:
         raise RosterError(f"{shown} cannot be read: {reason(error)}") from None
     if len(data) > MOST_BYTES:
         raise RosterError(f"{shown} is longer than {MOST_BYTES // 10**6} MB")
-    try:
-        text = data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
-        table = [(number, [cell.strip() for cell in row]) for number, row in _rows(text)]
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise RosterError(f"{shown} is no table in UTF-8: {error}") from None
+    text = decoded(data)
+    if clean(text) != text:
+        raise RosterError(f"{shown} is no table in UTF-8: save it as UTF-8")
+    table = list(spreadsheet(text, lambda cells: identity_column(cells) >= 0).rows)
     if not table:
         raise RosterError(f"{shown} is empty: a roster has a header such as name,email,id and a row for everyone")
-    (_, header), *rows = table
-    fields = _fields(header, shown)
-    return Roster(
-        tuple(_members(fields, rows, shown)), tuple(header), hashlib.blake2b(data, digest_size=16).hexdigest()
-    )
-
-
-def _rows(text: str) -> Iterator[tuple[int, list[str]]]:
-    """The rows that say anything, each with its line."""
-    lines = text.lstrip("\r\n")
-    first = lines.split("\n", 1)[0].strip()
-    delimiter = max(DELIMITERS, key=first.count)
-    if re.fullmatch(r"sep=.", first, re.IGNORECASE):
-        delimiter, lines = first[4], lines.split("\n", 1)[-1]
-    before = text.count("\n") - lines.count("\n")
-    reader = csv.reader(StringIO(lines, newline=""), delimiter=delimiter)
-    start = 1
-    for row in reader:
-        if any(cell.strip() for cell in row):
-            yield before + start, row
-        start = reader.line_num + 1
+    if broken := next((row for row in table if row.error is not None), None):
+        raise RosterError(f"{shown}, line {broken.line}: {broken.error}")
+    header, *rows = [(row.line, [cell.strip() for cell in row.cells]) for row in table]
+    members = _members(_fields(header[1], shown), rows, shown)
+    return Roster(tuple(members), tuple(header[1]), hashlib.blake2b(data, digest_size=16).hexdigest())
 
 
 def _fields(header: list[str], shown: str) -> dict[str, int]:

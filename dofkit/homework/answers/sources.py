@@ -11,11 +11,12 @@ import stat
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from io import BytesIO, TextIOWrapper
+from io import BytesIO
 from itertools import islice
 from typing import Any, BinaryIO
 
 from dofkit.homework.answers.roster import METADATA, Participant, own_name, submitters
+from dofkit.homework.answers.spreadsheet import decoded
 from dofkit.homework.answers.submission import (
     MOST_BYTES,
     FilePlace,
@@ -27,7 +28,7 @@ from dofkit.homework.answers.submission import (
     refused,
     shaped,
 )
-from dofkit.homework.answers.tables import MOST_CHARACTERS, Columns, TableError, is_header, rows
+from dofkit.homework.answers.tables import Columns, TableError, is_header, rows
 
 DOCUMENTS, LINES, TABLES = (".json", ".yaml", ".yml"), (".jsonl", ".ndjson"), (".csv", ".tsv")
 STDIN = "-"
@@ -174,7 +175,7 @@ def _stream(stream: BinaryIO, file: str, known: Columns) -> Iterator[Handed]:
     suffix, shown = os.path.splitext(file)[1].lower(), clean(file)
     first = stream.readline(MOST_BYTES + 1) if suffix not in DOCUMENTS else b""
     if suffix in TABLES or (suffix not in (*DOCUMENTS, *LINES) and is_header(first.decode("utf-8-sig", "replace"))):
-        yield from _table(_text(first, stream), shown, known)
+        yield from _table(decoded(first + stream.read()), shown, known)
     elif suffix in LINES or (suffix not in DOCUMENTS and _is_line(first)):
         yield from _lines(first, stream, shown)
     else:
@@ -200,21 +201,9 @@ def _lines(first: bytes, stream: BinaryIO, file: str) -> Iterator[Handed]:
         line, number = stream.readline(MOST_BYTES + 1), number + 1
 
 
-def _text(first: bytes, stream: BinaryIO) -> Iterator[str]:
-    """The lines of a text in UTF-8, or in UTF-16 where its first bytes say so; each at most so long."""
-    wide = {b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be"}.get(first[:2])
-    text = TextIOWrapper(BytesIO(first + stream.read()), encoding=wide or "utf-8", errors="surrogateescape", newline="")
-    start = True
-    while line := text.readline(MOST_CHARACTERS + 1):
-        yield line.removeprefix("\ufeff") if start else line
-        start = False
-        while not line.endswith(("\n", "\r")) and (line := text.readline(MOST_CHARACTERS)):
-            pass
-
-
-def _table(lines: Iterator[str], file: str, known: Columns) -> Iterator[Handed]:
+def _table(text: str, file: str, known: Columns) -> Iterator[Handed]:
     try:
-        for row in rows(lines, known):
+        for row in rows(text, known):
             place = FilePlace(file, row.line)
             if row.error is not None:
                 yield Handed(row.student, place, error=row.error)
@@ -222,7 +211,7 @@ def _table(lines: Iterator[str], file: str, known: Columns) -> Iterator[Handed]:
                 named = {"student": row.student} if row.student else {}
                 value = {**named, "answers": row.answers}
                 yield Handed(row.student or _stem(file), place, value, listed=bool(named))
-    except (TableError, UnicodeError) as error:
+    except TableError as error:
         yield Handed(_stem(file), FilePlace(file, 1), error=str(error))
 
 

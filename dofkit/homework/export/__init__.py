@@ -1,5 +1,75 @@
-"""What a course platform is given to grade an assignment by itself."""
+"""The autograder of an assignment for Gradescope: one zip with the assignment, its scenes and dofkit itself."""
 
-from dofkit.homework.export.gradescope import PYTHONS, ExportError, export_gradescope
+from __future__ import annotations
 
-__all__ = ["PYTHONS", "ExportError", "export_gradescope"]
+import json
+import os
+import zipfile
+from collections.abc import Iterator
+from importlib import metadata, resources
+from importlib.resources.abc import Traversable
+from pathlib import Path
+
+from dofkit.base.errors import DofkitError
+from dofkit.homework.assignment import load_assignment
+from dofkit.homework.autograder import undecided
+from dofkit.homework.formats.base import text
+from dofkit.homework.formats.gradescope import document, visibility_of
+from dofkit.homework.formats.review import TABLE, RunReview
+from dofkit.homework.handout.class_sheets import standing_alone
+from dofkit.scene.catalog import catalog_folder
+
+SCRIPTS = Path(__file__).parent / "scripts"
+_EXECUTABLE = frozenset({"setup.sh", "run_autograder"})
+_TIME = (1980, 1, 1, 0, 0, 0)
+
+
+class ExportError(DofkitError):
+    """An autograder that cannot be written."""
+
+
+def export_gradescope(assignment: str | os.PathLike[str], out: Path, reviewed: Path | None = None) -> None:
+    """Write the zip to upload.
+
+    It holds ``setup.sh`` and ``run_autograder``, the assignment with its scenes in place, the result that stands until
+    there is another, ``reviewed``, the points that a person gave, dofkit, and the list of what dofkit requires. Raises
+    AssignmentError for what is no assignment, ReviewError for what is no such table, ExportError if the zip cannot be
+    written.
+    """
+    prepared = load_assignment(assignment)
+    RunReview.read(prepared, reviewed, None)
+    files = {path.name: path.read_bytes() for path in sorted(SCRIPTS.iterdir()) if path.is_file()}
+    files["assignment.json"] = json.dumps(standing_alone(prepared, Path())).encode()
+    interrupted = undecided(prepared, "", "grading was interrupted.")
+    files["fallback.json"] = text(document(interrupted, visibility_of(prepared), prepared.assignment.language)).encode()
+    if reviewed is not None:
+        files[TABLE] = reviewed.read_bytes()
+    required = [line for line in metadata.requires("dofkit") or [] if "extra ==" not in line]
+    files["requirements.txt"] = "".join(f"{line}\n" for line in required).encode()
+    files |= _below(resources.files("dofkit"), "code/dofkit")
+    files |= _below(catalog_folder(), "code/dofkit/_catalog")
+    try:
+        _zip(files, out)
+    except OSError as error:
+        raise ExportError(f"{out} cannot be written: {error.strerror or error}") from None
+
+
+def _below(folder: Traversable, path: str) -> Iterator[tuple[str, bytes]]:
+    """Yield the files of an installed folder with their paths in the zip."""
+    for entry in sorted(folder.iterdir(), key=lambda entry: entry.name):
+        if entry.is_dir() and not entry.name.startswith((".", "__pycache__")):
+            yield from _below(entry, f"{path}/{entry.name}")
+        elif entry.is_file():
+            yield f"{path}/{entry.name}", entry.read_bytes()
+
+
+def _zip(files: dict[str, bytes], out: Path) -> None:
+    """Write the zip whole: the same files give the same zip."""
+    out.parent.mkdir(parents=True, exist_ok=True)
+    beside = out.with_name(f".{out.name}.new")
+    with zipfile.ZipFile(beside, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in files.items():
+            info = zipfile.ZipInfo(name, _TIME)
+            info.external_attr = (0o755 if name in _EXECUTABLE else 0o644) << 16
+            archive.writestr(info, data, zipfile.ZIP_DEFLATED)
+    os.replace(beside, out)

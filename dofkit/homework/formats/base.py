@@ -16,7 +16,7 @@ from dofkit.base.wording import format_of_path, is_folder_path
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import FileNames, plain
-from dofkit.homework.result import Result
+from dofkit.homework.result import Result, json_line
 
 #: Where results go: the path that ``--out`` names, or a stream such as standard output.
 Target = Path | TextIO
@@ -73,7 +73,7 @@ def write_native(results: Iterator[Result], prepared: Prepared, target: Target, 
     del prepared, roster
     with opened(target) as stream:
         for result in results:
-            stream.write(result.json_line() + "\n")
+            stream.write(json_line(result) + "\n")
             stream.flush()
 
 

@@ -2,7 +2,7 @@
 
 Coursera takes a number and nothing else, and has no review by a person. So that an answer that could not be decided is
 neither zero nor full marks there, half of its points stand in for it, and the text begins by saying so. One that could
-not be read has none, and the text says that it can be submitted again.
+not be read, or that claims nothing in one way (``7?``), has none, and the text says that it can be submitted again.
 """
 
 from __future__ import annotations
@@ -23,8 +23,9 @@ OPEN_SHARE = 0.5
 
 def document(result: Result, language: Language = "en") -> dict[str, Any]:
     """Return what ``feedback.json`` says of a submission."""
-    undecided = sum(item.max_score for item in result.items if item.score is None and item.status != "unreadable")
-    unreadable = sum(item.max_score for item in result.items if not item.score and item.status == "unreadable")
+    unclear = [item for item in result.items if not item.score and (item.status == "unreadable" or not item.certain)]
+    undecided = sum(item.max_score for item in result.items if item.score is None and item not in unclear)
+    unreadable = sum(item.max_score for item in unclear)
     paragraphs = [feedback(result, language)]
     if undecided:
         sentence = (

@@ -16,7 +16,6 @@ Results without a row are listed with the reason in ``TABLE.apart.csv``.
 
 from __future__ import annotations
 
-import hashlib
 import re
 import sys
 from collections.abc import Callable, Iterator
@@ -92,7 +91,7 @@ def _with_rows(
     results: Iterator[Result], roster: Roster | None, apart: list[tuple[Result, str]]
 ) -> Iterator[tuple[Result, Participant | None]]:
     """Yield the results that have a row, one for each student, with their member of the roster."""
-    seen: set[bytes] = set()
+    seen: set[str] = set()
     for result in results:
         member = None if roster is None else roster.find(result.student)
         why = _unfit(result)
@@ -101,13 +100,12 @@ def _with_rows(
         if why is None and member is None and not is_cell(result.student):
             why = "the name cannot be written to a table unchanged"
         student = result.student if member is None else member.student
-        mark = hashlib.blake2b(student.encode("utf-8", "surrogatepass"), digest_size=12).digest()
-        if why is None and mark in seen:
+        if why is None and student in seen:
             why = "the student already has a row"
         if why is not None:
             apart.append((result, why))
             continue
-        seen.add(mark)
+        seen.add(student)
         yield result, member
 
 

@@ -15,8 +15,7 @@ says first that it is not final and how many points are open, and ``extra_data``
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
 from dofkit.homework.answers.roster import Roster
@@ -25,24 +24,6 @@ from dofkit.homework.formats.base import Format, Target, write_documents
 from dofkit.homework.formats.wording import line, open_points, plain, points, remark, standing, title
 from dofkit.homework.result import Item, Result
 from dofkit.homework.sentences import Language, in_language
-
-
-def numbers(items: Sequence[Item]) -> list[str | None]:
-    """The number of every answer: its problem's, and its own within it; None for those to nothing that was asked.
-
-    They are the last ones, not readable and worth nothing.
-    """
-    most = len(items)
-    while most and items[most - 1].status == "unreadable" and not items[most - 1].max_score:
-        most -= 1
-    problems: dict[str, int] = {}
-    asked: Counter[str] = Counter()
-    found: list[str | None] = [None] * len(items)
-    for i, item in enumerate(items[:most]):
-        problems.setdefault(item.problem, len(problems) + 1)
-        asked[item.problem] += 1
-        found[i] = f"{problems[item.problem]}.{asked[item.problem]}"
-    return found
 
 
 def visibility_of(prepared: Prepared | None) -> Visibility:
@@ -66,8 +47,7 @@ def document(result: Result, visibility: Visibility = "visible", language: Langu
             "doubt": None if result.doubt is None else plain(result.doubt),
         },
     }
-    places = list(zip(result.items, numbers(result.items), strict=True))
-    tests = [_test(item, place, visibility, language) for item, place in places]
+    tests = [_test(item, visibility, language) for item in result.items]
     if later:
         tests = [*(_reading(item, language) for item in result.items), *tests]
     if result.error is not None:
@@ -99,10 +79,8 @@ def _reading(item: Item, language: Language) -> dict[str, Any]:
     return {"name": name, "output": output, "output_format": "text", "visibility": "visible"}
 
 
-def _test(item: Item, place: str | None, visibility: Visibility, language: Language) -> dict[str, Any]:
+def _test(item: Item, visibility: Visibility, language: Language) -> dict[str, Any]:
     found: dict[str, Any] = {"name": title(item)}
-    if place is not None:
-        found["number"] = place
     if item.score is not None:
         found["score"] = item.score
         found["max_score"] = item.max_score

@@ -1,40 +1,150 @@
 """Pages to read: one for each student, and an overview for the lecturer.
 
 ``index.html`` is the overview, ``students/`` holds the others; the answers that wait for a person stand in
-``review.html``, if there are any. Every page stands alone: it loads nothing, runs nothing, and all that a student wrote
-is escaped. Answers that need a review have no points, and the score says that it is not final.
+``review.html``, if there are any. Every page stands alone: it loads nothing, and all that a student wrote is escaped.
+Answers that need a review have no points, and the score says that it is not final.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from statistics import mean, median
+from typing import Any, NamedTuple
 
 from dofkit.homework.answers.roster import Roster
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import Format, FormatError, Target
-from dofkit.homework.formats.overview import Overview
-from dofkit.homework.formats.pages import rendered, student_page
-from dofkit.homework.formats.review import write_page
-from dofkit.homework.formats.wording import FileNames
-from dofkit.homework.result import Result
+from dofkit.homework.formats.pages import BADGES, percent, question_text, rendered, student_page
+from dofkit.homework.formats.review import queue_of, write_page
+from dofkit.homework.formats.wording import FileNames, number
+from dofkit.homework.key.misconceptions import CODES
+from dofkit.homework.result import Item, Result, Status
+
+#: Bars of the distribution; errors and unreadable texts that are listed for a question.
+BARS, MOST_LISTED = 10, 3
+#: So many answers, and such a part of all, that could not be read make a question doubtful.
+FEWEST_UNREAD, LEAST_UNREAD = 2, 0.2
+
+
+class Submitted(NamedTuple):
+    """A submission in a list."""
+
+    name: str
+    link: str
+    result: Result
+
+    @property
+    def points(self) -> str:
+        return "–" if self.result.score is None else number(self.result.score)
+
+
+class Question(NamedTuple):
+    """How one question went: ``counts`` of its statuses, and ``mean`` of what was decided, in points.
+
+    ``unread`` of so many ``given`` answers could not be read, the commonest of which are ``unread_texts``; ``right``:
+    the share of the graded answers with full points; ``errors``: the commonest errors.
+    """
+
+    name: str
+    asked: str
+    counts: list[tuple[Status, int, float]]
+    mean: float | None
+    most: float
+    unread: int
+    given: int
+    right: float | None
+    errors: list[tuple[int, str]]
+    unread_texts: list[tuple[int, str]]
+
+    @property
+    def doubt(self) -> str:
+        """What to ask of a question whose answers often could not be read; empty where they could."""
+        if self.unread < FEWEST_UNREAD or self.unread < LEAST_UNREAD * self.given:
+            return ""
+        return f"{self.unread} of {self.given} answers could not be read: is the question clear?"
+
+
+def overview(submitted: Sequence[Submitted], prepared: Prepared, roster: Roster | None = None) -> dict[str, Any]:
+    """Return what the lecturer's page shows; a ``roster`` tells who did not submit."""
+    graded = [one.result for one in submitted if one.result.error is None]
+    final = [result for result in graded if not result.needs_review and result.doubt is None]
+    scores = [result.score or 0.0 for result in final]
+    answers: defaultdict[tuple[str, str], list[Item]] = defaultdict(list)
+    for item in (item for result in graded for item in result.items):
+        answers[item.problem, item.question].append(item)
+    questions = list(_questions(prepared, answers))
+    asked = [item for place in prepared.most_points() for item in answers[place]]
+    codes = Counter(code for item in asked for code in set(item.codes))
+    most = float(sum(prepared.most_points().values()))
+    queue = queue_of(graded, prepared, [one.link for one in submitted if one.result.error is None]).open_answers()
+    present = {one.name for one in submitted}
+    return {
+        "title": prepared.assignment.title,
+        "most": most,
+        "graded": len(final),
+        "unfinished": len(graded) - len(final),
+        "mean": mean(scores) if scores else None,
+        "median": median(scores) if scores else None,
+        "bars": _bars(scores, most),
+        "questions": questions,
+        "unclear": max((q for q in questions if q.doubt), key=lambda q: q.unread / q.given, default=None),
+        "codes": [(code, count, CODES.get(code, "")) for code, count in codes.most_common()],
+        "reviews": queue,
+        "open_count": sum(queued.count for queued in queue),
+        "errors": [one for one in submitted if one.result.error is not None],
+        "doubts": [one for one in submitted if one.result.doubt is not None],
+        "students": submitted,
+        "missing": [] if roster is None else [m.student for m in roster.members if m.student not in present],
+    }
+
+
+def _questions(prepared: Prepared, answers: dict[tuple[str, str], list[Item]]) -> Iterator[Question]:
+    for problem, question in prepared.questions():
+        items = answers[problem.id, question.id]
+        counts = Counter(item.status for item in items)
+        scores = [item.score for item in items if item.score is not None]
+        errors = Counter(code for item in items for code in set(item.codes))
+        unread = Counter(item.answer or "" for item in items if item.status == "unreadable")
+        yield Question(
+            f"{problem.id}.{question.id}",
+            question_text(question),
+            [(status, counts[status], 100 * counts[status] / len(items)) for status in BADGES if counts[status]],
+            mean(scores) if scores else None,
+            float(question.points),
+            counts["unreadable"],
+            len(items) - counts["missing"],
+            mean(score >= question.points for score in scores) if scores else None,
+            [(count, CODES.get(code, code)) for code, count in errors.most_common(MOST_LISTED)],
+            [(count, text) for text, count in unread.most_common(MOST_LISTED)],
+        )
+
+
+def _bars(scores: Sequence[float], most: float) -> list[tuple[str, int, float]]:
+    """Return points, how many have them, and that in percent of the highest; steps are without their upper ends."""
+    counts = Counter(min(int(percent(score, most) * BARS / 100 + 1e-9), BARS - 1) for score in scores)
+    highest, step = max(counts.values(), default=1), most / BARS
+    labels = [f"{number(i * step)}–{number((i + 1) * step)}" for i in range(BARS)]
+    return [(label, counts[i], 100 * counts[i] / highest) for i, label in enumerate(labels)]
 
 
 def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
-    """A folder of pages; by class where a ``roster`` tells them. Raises FormatError for what is no folder."""
+    """Write a folder of pages. Raises FormatError for what is no folder."""
     if not isinstance(target, Path) or (target.exists() and not target.is_dir()):
         raise FormatError("the format html writes a folder: give its name with --out")
     folder = target / "students"
     folder.mkdir(parents=True, exist_ok=True)
-    names, overview = FileNames(), Overview(prepared, roster)
+    names, submitted = FileNames(), list[Submitted]()
     for result in results:
-        name = names.of(result.student)
-        page = rendered("student.html", page=student_page(result, prepared))
-        (folder / f"{name}.html").write_text(page, encoding="utf-8")
-        overview.add(result, f"students/{name}.html")
-    if overview.queue.open_answers():
-        write_page(overview.queue, [], prepared, target / "review.html", "review.csv")
-    (target / "index.html").write_text(rendered("overview.html", page=overview.page()), encoding="utf-8")
+        link = f"students/{names.of(result.student)}.html"
+        (target / link).write_text(rendered("student.html", page=student_page(result, prepared)), encoding="utf-8")
+        submitted.append(Submitted(result.student, link, result))
+    page = overview(submitted, prepared, roster)
+    if page["reviews"]:
+        queue = queue_of([one.result for one in submitted], prepared)
+        write_page(queue, [], prepared, target / "review.html", "review.csv")
+    (target / "index.html").write_text(rendered("overview.html", page=page), encoding="utf-8")
 
 
 HTML = Format("html", write, needs_path=True, endings=())

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from dofkit.expressions.text.typesetting import mathml, typeset
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.wording import STATUSES, line, number, open_points, plain, stop_of
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, Result, Status
-from dofkit.homework.sentences import Language, in_language
+from dofkit.homework.sentences import in_language
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -39,74 +39,41 @@ BADGES: dict[Status, Badge] = {
 }
 
 
-@dataclass(frozen=True)
-class AnswerRow:
-    """One answer beside what was asked."""
-
-    item: Item
-    asked: str
-
-    @property
-    def points(self) -> str:
-        given = "–" if self.item.score is None else number(self.item.score)
-        return f"{given} / {number(self.item.max_score)}"
-
-
-@dataclass(frozen=True)
-class Section:
-    """The answers to one problem."""
-
-    title: str
-    rows: list[AnswerRow]
-
-
-@dataclass(frozen=True)
-class StudentPage:
-    """A student's page."""
-
-    title: str
-    result: Result
-    sections: list[Section]
-    language: Language
-
-    def told(self, sentence: str, **values: object) -> str:
-        """Return a sentence in the page's language."""
-        return in_language(self.language, sentence, **values)
-
-    @property
-    def open_points(self) -> float:
-        return open_points(self.result)
-
-    @property
-    def percent(self) -> float:
-        return percent(self.result.score, self.result.max_score)
-
-    @property
-    def open_percent(self) -> float:
-        return percent(self.open_points, self.result.max_score)
-
-
 def percent(score: float | None, most: float) -> float:
     """A share in percent, from 0 to 100."""
     return min(max(100 * (score or 0.0) / most, 0.0), 100.0) if most else 0.0
 
 
-def student_page(result: Result, prepared: Prepared) -> StudentPage:
-    """The page of one submission: its answers by problem, those to nothing that was asked at the end."""
+def student_page(result: Result, prepared: Prepared) -> dict[str, Any]:
+    """Return what the page of one submission shows: its answers by problem, those to nothing that was asked last."""
     found = {(item.problem, item.question): item for item in result.items}
-    sections, language = [], prepared.assignment.language
+    language, sections = prepared.assignment.language, list[dict[str, Any]]()
     for problem in prepared.assignment.problems:
         rows = [
-            AnswerRow(found.pop((problem.id, q.id)), plain(q.asked(", ".join(q.about)).told(language)))
+            _answer_row(found.pop((problem.id, q.id)), plain(q.asked(", ".join(q.about)).told(language)))
             for q in problem.questions
             if (problem.id, q.id) in found
         ]
         if rows:
-            sections.append(Section(problem_title(problem), rows))
+            sections.append({"title": problem_title(problem), "rows": rows})
     if found:
-        unasked = in_language(language, "Answers to questions that were not asked")
-        sections.append(Section(unasked, [AnswerRow(item, "") for item in found.values()]))
-    return StudentPage(prepared.assignment.title, result, sections, language)
+        rows = [_answer_row(item, "") for item in found.values()]
+        sections.append({"title": in_language(language, "Answers to questions that were not asked"), "rows": rows})
+    return {
+        "title": prepared.assignment.title,
+        "language": language,
+        "told": partial(in_language, language),
+        "result": result,
+        "sections": sections,
+        "open_points": open_points(result),
+        "percent": percent(result.score, result.max_score),
+        "open_percent": percent(open_points(result), result.max_score),
+    }
+
+
+def _answer_row(item: Item, asked: str) -> dict[str, Any]:
+    score = "–" if item.score is None else number(item.score)
+    return {"item": item, "asked": asked, "points": f"{score} / {number(item.max_score)}"}
 
 
 def problem_title(problem: Problem) -> str:
@@ -139,7 +106,7 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters.update(plain=plain, line=line, number=number, stop=stop_of, pieces=_pieces)
+    environment.filters.update(plain=plain, line=line, number=number, stop=stop_of, pieces=_pieces, formulas=_formulas)
     environment.globals["badges"] = BADGES
     return environment
 
@@ -147,3 +114,10 @@ def _environment() -> Environment:
 def _pieces(text: str) -> list[str]:
     """A text cut at the names between backquotes: what is around them and, at every second place, a name."""
     return _NAME.split(plain(text))
+
+
+def _formulas(text: str) -> list[tuple[str, str]]:
+    """Return the parts of how an answer was read, each with its MathML if it is a relation in the grammar of scenes."""
+    parts = re.split("(; | or )", plain(text))
+    formulas = [typeset(part) if re.search("[=<>]", part) else None for part in parts]
+    return [("" if latex is None else mathml(latex), part) for latex, part in zip(formulas, parts, strict=True)]

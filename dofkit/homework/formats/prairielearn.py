@@ -30,14 +30,12 @@ UNGRADED = (
 def document(result: Result, language: Language = "en") -> dict[str, Any]:
     """What ``results.json`` says of a submission, in less than a megabyte."""
     found = _document(result, language)
-    most = MOST_CHARACTERS
-    while len(text(found)) > MOST_BYTES and most >= 8:
-        found = _cut(found, most)
-        most //= 2
+    for most in (MOST_CHARACTERS, MOST_CHARACTERS // 10):
+        found = found if len(text(found)) <= MOST_BYTES else _cut(found, most)
     if len(text(found)) > MOST_BYTES:
-        found = {**found, "tests": [], "format_errors": found.get("format_errors", [])[:50]}
         too_many = in_language(language, "There are too many answers to be listed one by one.")
-        found["message"] = f"{found['message']}\n{too_many}"
+        errors = {"format_errors": found["format_errors"][:50]} if "format_errors" in found else {}
+        found = {**found, **errors, "tests": [], "message": f"{found['message']}\n{too_many}"}
     return found
 
 

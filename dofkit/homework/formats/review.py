@@ -9,16 +9,16 @@ from __future__ import annotations
 
 import csv
 import os
+import secrets
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import groupby
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any
 
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.formats.base import cell
-from dofkit.homework.formats.pages import problem_title, question_text, rendered
+from dofkit.homework.formats.pages import question_text, rendered
 from dofkit.homework.formats.wording import unmarked
 from dofkit.homework.result import Result
 from dofkit.homework.review import COLUMNS, FilledTable, Queue, QueuedAnswer, ReviewRow, read_table
@@ -59,54 +59,30 @@ def _cells(cells: Mapping[str, str], delimiter: str) -> list[str]:
     return found
 
 
-class ReviewedQuestion(NamedTuple):
-    """The open answers to one question."""
-
-    name: str
-    problem: str
-    asked: str
-    most: float
-    answers: list[QueuedAnswer]
-
-
-class ReviewPage(NamedTuple):
-    """``more``: answers that are not shown; ``decided``: rows that a person filled in."""
-
-    title: str
-    questions: list[ReviewedQuestion]
-    waiting: int
-    students: int
-    more: int
-    decided: list[ReviewRow]
-    table: str
-
-
 def write_page(queue: Queue, rows: Iterable[ReviewRow], prepared: Prepared, path: Path, table: str) -> None:
     """Write the page whole. ``table``: what the file is called in which points are filled in. Raises OSError."""
     waiting = queue.open_answers()
-    decided = [row for row in rows if row.decision is not None]
-    page = ReviewPage(
-        prepared.assignment.title,
-        list(_questions(waiting[:MOST_SHOWN], prepared)),
-        len(waiting),
-        sum(queued.count for queued in waiting),
-        max(0, len(waiting) - MOST_SHOWN),
-        decided[:MOST_SHOWN],
-        table,
-    )
+    page = {
+        "title": prepared.assignment.title,
+        "questions": list(_questions(waiting[:MOST_SHOWN], prepared)),
+        "waiting": len(waiting),
+        "students": sum(queued.count for queued in waiting),
+        "decided": [row for row in rows if row.decision is not None][:MOST_SHOWN],
+        "table": table,
+        "nonce": secrets.token_urlsafe(16),
+    }
     beside = path.with_name(f".{path.name}.new")
     beside.write_text(rendered("review.html", page=page), encoding="utf-8")
     os.replace(beside, path)
 
 
-def _questions(waiting: Sequence[QueuedAnswer], prepared: Prepared) -> Iterator[ReviewedQuestion]:
-    known = {(problem.id, question.id): (problem, question) for problem, question in prepared.questions()}
-    for place, answers in groupby(waiting, key=lambda queued: (queued.item.problem, queued.item.question)):
-        if place in known:
-            problem, question = known[place]
+def _questions(waiting: Sequence[QueuedAnswer], prepared: Prepared) -> Iterator[dict[str, Any]]:
+    """Yield the open answers to each question."""
+    for problem, question in prepared.questions():
+        answers = [one for one in waiting if (one.item.problem, one.item.question) == (problem.id, question.id)]
+        if answers:
             name = f"{problem.id}.{question.id}"
-            shown = list(answers)
-            yield ReviewedQuestion(name, problem_title(problem), question_text(question), float(question.points), shown)
+            yield {"name": name, "asked": question_text(question), "most": float(question.points), "answers": answers}
 
 
 @dataclass(frozen=True)
@@ -142,14 +118,18 @@ class RunReview:
             beside = read_table(paths.table, asked)
         if reviewed is not None:
             named = read_table(reviewed, asked)
-        rows = {**beside.rows, **{i: row for i, row in named.rows.items() if row.filled or i not in beside.rows}}
+        rows = dict(beside.rows)
+        for identity, row in named.rows.items():
+            if row.filled or identity not in rows:
+                cells = rows[identity].cells if identity in rows else {}
+                rows[identity] = replace(row, cells={**cells, **row.cells})
         return cls(paths, rows, beside.delimiter or named.delimiter)
 
     def applied(self, prepared: Prepared) -> Prepared:
         """Return the assignment with the decisions."""
         return replace(prepared, decisions=FilledTable(self.rows).decisions)
 
-    def write(self, results: Path, prepared: Prepared) -> None:
+    def write(self, results: Sequence[Result], prepared: Prepared) -> None:
         """Write the queue of these results and say on standard error where it is. Raises OSError."""
         if self.paths is None:
             return
@@ -166,18 +146,16 @@ class RunReview:
             again = f"fill in points, then grade again with --reviewed {self.paths.table}"
             print(f"{different} review in {self.paths.table}: {again}", file=sys.stderr)
 
-    def write_page(self, results: Path, prepared: Prepared) -> None:
+    def write_page(self, results: Sequence[Result], prepared: Prepared) -> None:
         """Write the page alone, of results whose table is elsewhere. Raises OSError."""
         if self.paths is not None:
             queue = queue_of(results, prepared)
             write_page(queue, queue.rows(self.rows), prepared, self.paths.page, str(self.paths.table))
 
 
-def queue_of(results: Path, prepared: Prepared) -> Queue:
-    """Return the queue of results in dofkit's own format."""
+def queue_of(results: Sequence[Result], prepared: Prepared, links: Sequence[str] = ()) -> Queue:
+    """Return the queue of the answers that wait for a person or were decided by one; ``links``: to the results."""
     queue = Queue([(problem.id, question.id) for problem, question in prepared.questions()])
-    with results.open(encoding="utf-8", newline="\n") as lines:
-        for line in lines:
-            if '"needs_review":0' not in line or '"decided_by":"' in line:
-                queue.add(Result.model_validate_json(line))
+    for result, link in zip(results, links or [""] * len(results), strict=True):
+        queue.add(result, link)
     return queue

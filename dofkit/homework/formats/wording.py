@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
+from collections import Counter
 from typing import NamedTuple
 
 from dofkit.homework.result import Item, Result, Status
@@ -185,7 +186,7 @@ class FileNames:
     """Names for files, one a submission: never two alike, on any file system, whatever the students are called."""
 
     def __init__(self) -> None:
-        self._taken: dict[bytes, int] = {}
+        self._taken = Counter[str]()
 
     def of(self, student: str) -> str:
         """A name without its ending.
@@ -195,9 +196,8 @@ class FileNames:
         ('ada', 'ada-2', True)
         """
         name = stem(student)
-        key = hashlib.blake2b(name.encode(), digest_size=8).digest()
-        count = self._taken[key] = self._taken.get(key, 0) + 1
-        return name if count == 1 else f"{name}-{count}"
+        self._taken[name] += 1
+        return name if self._taken[name] == 1 else f"{name}-{self._taken[name]}"
 
 
 def stem(student: str) -> str:

@@ -61,7 +61,7 @@ def class_sheets(source: str, roster: Roster, seed: str, out: Path, anew: bool =
         raise VaryError(f"{source} was made by `dofkit assignment vary`: vary what it was made from")
     if not prepared.combinations:
         raise VaryError(f"nothing varies in {source}: write `vary: {{n: [2, 3, 5]}}` in a problem")
-    value = _standing_alone(prepared, out)
+    value = standing_alone(prepared, out)
     before = () if anew else _earlier(out, value)
     variants = drawn(prepared, roster, seed, before)
     present = {member.student for member in roster.members}
@@ -90,7 +90,7 @@ def _earlier(out: Path, value: Mapping[str, Any]) -> tuple[StudentVariant, ...]:
     return known.variants.students
 
 
-def _standing_alone(prepared: Prepared, out: Path) -> dict[str, Any]:
+def standing_alone(prepared: Prepared, out: Path) -> dict[str, Any]:
     """Return the assignment as it may be written in another folder: scenes in place, paths of pictures from there."""
     value = prepared.assignment.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
     value["problems"] = [

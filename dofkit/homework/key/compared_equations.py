@@ -178,7 +178,7 @@ class EquationComparison:
         return wrong(way.shown, told, sameness.value)
 
     def _told(self, read: Read, shown: str) -> Judgement:
-        found = self.key.compared((self.names, read.texts, read.constants), lambda: self._compared(read))
+        found = self.key.once((self.names, read.texts, read.constants), lambda: self._compared(read))
         if found.sameness is Sameness.UNDECIDED:
             return needs_review(shown, _UNDECIDED)
         told, code = _FEEDBACK[found.sameness], found.sameness.value

@@ -79,10 +79,6 @@ def _accelerations(rows: Sequence[Sequence[int]], p: int) -> list[int] | None:
         pivot = next(j for j, v in enumerate(row) if v)
         if pivot == n:
             return None
-        chosen[pivot] = (-row[n] - sum(v * chosen[j] for j, v in enumerate(row[:n]) if j > pivot)) % p
-    for i in range(int(rank) - 1, -1, -1):
-        row = [int(reduced[i, j]) for j in range(n + 1)]
-        pivot = next(j for j, v in enumerate(row) if v)
         chosen[pivot] = (-row[n] - sum(v * chosen[j] for j, v in enumerate(row[:n]) if j != pivot)) % p
     return chosen
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal
+from typing import Any, Literal, TypeVar, cast
 
 from dofkit.base.errors import DofkitError
-from dofkit.classification.dependence.equivalence import Compared
 from dofkit.expressions.text import Names
 from dofkit.homework.answers.declared import DeclaredNames
 from dofkit.homework.key.right_motion import RightMotion, right_motion_or_why
@@ -20,13 +19,9 @@ from dofkit.scene.scene import Scene
 
 #: A question about a set of names of a scene, whose report is known.
 Chosen = Callable[[Scene, Sequence[str], Report], bool | None]
-#: Sets of names whose answers are kept.
-MOST_KNOWN = 4096
-#: Scenes with coordinates of answers' own that are kept.
-MOST_EXTENDED = 256
-
-#: Names of constraints, the equations beside them, and their constants.
-ComparedTexts = tuple[tuple[str, ...], tuple[str, ...], frozenset[str]]
+#: Answers about a scene that are kept.
+MOST_KEPT = 4096
+Answer = TypeVar("Answer")
 Convention = Literal["configuration", "velocity"]
 
 
@@ -50,44 +45,22 @@ class Key:
         return classify(self.scene) if self.base is None else self.base.report
 
     @cached_property
-    def _known(self) -> dict[tuple[Chosen, frozenset[str]], bool | None]:
+    def _answers(self) -> dict[Hashable, Any]:
         return {}
+
+    def once(self, question: Hashable, answer: Callable[[], Answer]) -> Answer:
+        """Return an answer about the scene, worked out once for all who write the same in other ways."""
+        if question not in self._answers:
+            value = answer()
+            if len(self._answers) == MOST_KEPT:
+                return value
+            self._answers[question] = value
+        return cast(Answer, self._answers[question])
 
     def known(self, what: Chosen, names: Iterable[str]) -> bool | None:
-        """``what(scene, names, report)``, worked out once for every set of names, in whatever order they come."""
+        """Return ``what(scene, names, report)``, in whatever order the names come."""
         chosen = frozenset(names)
-        if (what, chosen) not in self._known:
-            found = what(self.scene, sorted(chosen), self.report)
-            if len(self._known) == MOST_KNOWN:
-                return found
-            self._known[what, chosen] = found
-        return self._known[what, chosen]
-
-    @cached_property
-    def _compared(self) -> dict[ComparedTexts, Compared]:
-        return {}
-
-    def compared(self, texts: ComparedTexts, compare: Callable[[], Compared]) -> Compared:
-        """What equations come to beside the constraints, worked out once for all who write the same in other ways."""
-        known = self._compared.get(texts)
-        if known is None:
-            known = compare()
-            if len(self._compared) < MOST_KNOWN:
-                self._compared[texts] = known
-        return known
-
-    @cached_property
-    def _implied(self) -> dict[str, bool]:
-        return {}
-
-    def implied(self, text: str, decide: Callable[[], bool]) -> bool:
-        """Does a relation follow from the scene's constraints? Worked out once for each text."""
-        known = self._implied.get(text)
-        if known is None:
-            known = decide()
-            if len(self._implied) < MOST_KNOWN:
-                self._implied[text] = known
-        return known
+        return self.once((what, chosen), lambda: what(self.scene, sorted(chosen), self.report))
 
     @cached_property
     def declared(self) -> DeclaredNames:
@@ -104,26 +77,18 @@ class Key:
         """The scene's configuration coordinates, in order."""
         return [c.name for c in coordinate_table(self.scene).coordinates]
 
-    @cached_property
-    def _extended(self) -> dict[tuple[tuple[str, ...], tuple[str, ...]], Key]:
-        return {}
-
     def with_own(self, names: tuple[str, ...], texts: tuple[str, ...]) -> Key:
-        """The same of the scene with further coordinates, and equations that say what they are."""
-        if (names, texts) not in self._extended:
-            more = tuple(Equation(name=f"own {i + 1}", text=text) for i, text in enumerate(texts))
-            scene = self.scene.model_copy(
-                update={
-                    "coordinates": (*self.scene.coordinates, *names),
-                    "constraints": (*self.scene.constraints, *more),
-                    "expect": {},
-                }
-            )
-            key = Key(scene, self.convention, others=self.others, base=self)
-            if len(self._extended) == MOST_EXTENDED:
-                return key
-            self._extended[names, texts] = key
-        return self._extended[names, texts]
+        """Return the key of the scene with further coordinates, and equations that say what they are."""
+        return self.once((names, texts), lambda: self._with_own(names, texts))
+
+    def _with_own(self, names: tuple[str, ...], texts: tuple[str, ...]) -> Key:
+        more = tuple(Equation(name=f"own {i + 1}", text=text) for i, text in enumerate(texts))
+        update = {
+            "coordinates": (*self.scene.coordinates, *names),
+            "constraints": (*self.scene.constraints, *more),
+            "expect": {},
+        }
+        return Key(self.scene.model_copy(update=update), self.convention, others=self.others, base=self)
 
     @cached_property
     def motion(self) -> RightMotion | DofkitError:

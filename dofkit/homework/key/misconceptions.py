@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from typing import NamedTuple
 
-from dofkit.homework.key.facts import SceneCounts
+from dofkit.homework.key.facts import SceneCounts, scene_counts
 from dofkit.homework.key.key import Key
 from dofkit.homework.sentences import Said, say
 from dofkit.report import ConstraintEntry
@@ -41,18 +41,18 @@ def _less(count: Callable[[SceneCounts], int | Fraction]) -> Callable[[SceneCoun
 
 
 def _all_links(f: SceneCounts) -> Numbers:
-    if f.bars.links > f.n - f.dof and f.naive < f.dof:
+    if f.links > f.n - f.dof and f.naive < f.dof:
         yield f.naive
 
 
 def _rod_three(f: SceneCounts) -> Numbers:
-    if f.bars.links and f.naive > f.dof:
+    if f.links and f.naive > f.dof:
         yield f.naive
 
 
 def _plane_forgotten(f: SceneCounts) -> Numbers:
-    if f.surfaces.planes and f.d == 3:
-        yield f.dof + f.surfaces.planes
+    if f.planes and f.d == 3:
+        yield f.dof + f.planes
 
 
 def _in_space(f: SceneCounts) -> Numbers:
@@ -71,10 +71,10 @@ def _no_constraint(f: SceneCounts) -> Numbers:
 
 
 def _sum_of_squares(f: SceneCounts) -> Numbers:
-    if not f.bars.links and f.naive > f.dof and not f.integrable and not f.nonholonomic:
+    if not f.links and f.naive > f.dof and not f.integrable and not f.nonholonomic:
         yield f.naive
-    elif f.surfaces.surplus:
-        yield f.dof + f.surfaces.surplus
+    elif f.surplus:
+        yield f.dof + f.surplus
 
 
 def _trajectory(f: SceneCounts) -> Numbers:
@@ -83,7 +83,7 @@ def _trajectory(f: SceneCounts) -> Numbers:
 
 
 def _conservation(f: SceneCounts) -> Numbers:
-    if f.dof > 1 and (f.key.scene.energies is not None or f.forces or not f.entries):
+    if f.dof > 1 and (f.energies or f.forces or not f.entries):
         yield f.dof - 1
 
 
@@ -170,18 +170,18 @@ ERRORS: tuple[Misconception, ...] = (
     Misconception(
         "ROD_SPIN",
         "Two particles on a rod are not a rigid body: a rotation about the rod's axis changes nothing.",
-        _more(lambda f: f.bars.rods if f.d == 3 else 0),
+        _more(lambda f: f.rods if f.d == 3 else 0),
     ),
     Misconception(
         "NO_SPIN",
         "A rigid body can also rotate about its own axis.",
-        _less(lambda f: f.bodies + f.bars.clusters if f.d == 3 else 0),
+        _less(lambda f: f.bodies + f.clusters if f.d == 3 else 0),
     ),
     Misconception("PLANE_FORGOT", _IN_PLANE, _plane_forgotten),
     Misconception(
         "CURVE_ONE",
         "A curve in space is the intersection of two surfaces: it takes two equations.",
-        _more(lambda f: f.surfaces.surplus),
+        _more(lambda f: f.surplus),
     ),
     Misconception(
         "SUM_SQ", "A vanishing sum of squares stands for several equations: each square vanishes.", _sum_of_squares
@@ -200,12 +200,12 @@ ERRORS: tuple[Misconception, ...] = (
         _less(lambda f: f.particles if f.d == 2 else 0),
     ),
     Misconception(
-        "BAR_TWO", "A rod between two particles removes one degree of freedom, not two.", _less(lambda f: f.bars.links)
+        "BAR_TWO", "A rod between two particles removes one degree of freedom, not two.", _less(lambda f: f.links)
     ),
     Misconception(
         "BAR_POINT",
         "Two particles joined by a rod are not one particle: the rod can rotate.",
-        _less(lambda f: (f.d - 1) * f.bars.links),
+        _less(lambda f: (f.d - 1) * f.links),
     ),
     Misconception(
         "MOTION",
@@ -221,7 +221,7 @@ ERRORS: tuple[Misconception, ...] = (
     Misconception(
         "PARAM_COUNT",
         "A parametric curve adds its parameter as one more unknown.",
-        _less(lambda f: f.surfaces.on_curves),
+        _less(lambda f: f.on_curves),
         alone=True,
     ),
     Misconception(
@@ -234,7 +234,7 @@ ERRORS: tuple[Misconception, ...] = (
     Misconception(
         "FIXED_FORGOT",
         "An equation that fixes one coordinate is a constraint too.",
-        _more(lambda f: f.surfaces.fixed),
+        _more(lambda f: f.fixed),
         alone=True,
     ),
     Misconception(
@@ -264,7 +264,7 @@ def explain(given: Fraction, ask: str, key: Key) -> tuple[tuple[str, ...], str]:
     report = key.report
     if report.dof is None:
         return (), ""
-    facts = SceneCounts(key)
+    facts = scene_counts(key)
     right = report.dof
     wanted = len(key.coordinates) - given if ask == "k" else given
     by_velocities = ask == "velocity_dof" or (ask == "dof" and key.convention == "velocity")

@@ -100,8 +100,8 @@ def _equations(key: Key, name: str) -> list[str]:
 
 
 def implied(key: Key, text: str) -> bool:
-    """Does a relation follow from the scene's constraints?"""
-    return key.implied(text, lambda: _follows(key, text))
+    """Return whether a relation follows from the scene's constraints."""
+    return key.once(("implied", text), lambda: _follows(key, text))
 
 
 def _follows(key: Key, text: str) -> bool:

@@ -11,7 +11,7 @@ from pydantic import BeforeValidator, Field
 
 from dofkit.base.errors import Fault
 from dofkit.homework.answers.declared import DeclaredNames
-from dofkit.homework.judgement import Given, Judgement, Reading, Sentence, shown_text_of, verdict
+from dofkit.homework.judgement import Given, Judgement, Reading, Sentence, shown_text_of
 from dofkit.homework.key.key import Key
 from dofkit.homework.sentences import Said, say
 from dofkit.scene.fields import Number, WrittenModel, exact, fault_error
@@ -93,10 +93,6 @@ class QuestionBase(WrittenModel):
     def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         """Return what one reading is worth."""
         raise NotImplementedError
-
-    def judge(self, answer: Given, key: Key, earlier: Earlier) -> Judgement:
-        """Return what an answer is worth: one verdict for all its readings. Raises TextError if it cannot be read."""
-        return verdict(self.readings(answer, key.declared), lambda reading: self.judged(reading, key, earlier))
 
     def read(self, answer: Given, names: DeclaredNames) -> str:
         """Return the answer as it is understood, the plainest readings only. Raises TextError if it cannot be read."""

@@ -108,41 +108,34 @@ class Lagrangian(_Value):
 class _OfCoordinate(_Value):
     """Momenta and forces; what is right before an elimination is looked at by a person."""
 
+    #: The code of a wrong answer, and what is said of it.
+    code: ClassVar[str]
+    hint: ClassVar[str]
     coordinate: str = Field(description="the coordinate it belongs to")
 
-    def _right(self, known: RightMotion) -> Expr | None:
-        raise NotImplementedError
-
-    def _unreduced(self, known: RightMotion) -> Expr:
+    def _right(self, known: RightMotion) -> tuple[Expr | None, Expr]:
+        """Return what is right in the coordinates that are kept, if any, and before the constraints are substituted."""
         raise NotImplementedError
 
     def _comparison(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
-        wanted = self._right(known)
-        reduced = known.motions and wanted is not None
-        if wanted is None:
-            wanted = self._unreduced(known)
+        kept, unreduced = self._right(known)
+        wanted = unreduced if kept is None else kept
         same = known.zero(given - wanted)
         if same:
             return right(shown)
         if same is None:
             return needs_review(shown, "it could not be decided whether this is equal to the correct expression.")
-        if reduced and known.zero(given - self._unreduced(known)) is not False:
+        if known.motions and kept is not None and known.zero(given - unreduced) is not False:
             return needs_review(
-                shown, ("it may be written in the original coordinates, before the constraints are substituted.")
+                shown, "it may be written in the original coordinates, before the constraints are substituted."
             )
         if known.zero(given + wanted):
             return wrong(shown, "The sign is wrong.", "SIGN")
-        return wrong(shown, self._feedback(), self._code())
-
-    def _feedback(self) -> Sentence:
-        raise NotImplementedError
-
-    def _code(self) -> str:
-        raise NotImplementedError
+        return wrong(shown, say(self.hint, coordinate=self.coordinate), self.code)
 
     def _solution(self, known: RightMotion) -> Sentence:
-        wanted = self._right(known)
-        return say("A correct answer is {text}.", text=to_text(self._unreduced(known) if wanted is None else wanted))
+        kept, unreduced = self._right(known)
+        return say("A correct answer is {text}.", text=to_text(unreduced if kept is None else kept))
 
 
 class Momentum(_OfCoordinate):
@@ -151,22 +144,12 @@ class Momentum(_OfCoordinate):
     wanted: ClassVar[str] = "What is the generalized momentum conjugate to {about}?"
     how: ClassVar[str] = "A generalized momentum: write it like a Lagrangian; p = is optional."
     examples: ClassVar[tuple[str, ...]] = ("p = M udot + a chidot", "p = I chidot^3")
+    code: ClassVar[str] = "WRONG_MOMENTUM"
+    hint: ClassVar[str] = "The generalized momentum is the derivative of L with respect to {coordinate}dot."
     ask: Literal["momentum"] = Field(description="a generalized momentum")
 
-    def _right(self, known: RightMotion) -> Expr | None:
-        return known.momenta.get(self.coordinate)
-
-    def _unreduced(self, known: RightMotion) -> Expr:
-        return known.unreduced[self.coordinate][0]
-
-    def _feedback(self) -> Sentence:
-        return say(
-            ("The generalized momentum is the derivative of L with respect to {velocity}."),
-            velocity=f"{self.coordinate}dot",
-        )
-
-    def _code(self) -> str:
-        return "WRONG_MOMENTUM"
+    def _right(self, known: RightMotion) -> tuple[Expr | None, Expr]:
+        return known.momenta.get(self.coordinate), known.unreduced[self.coordinate][0]
 
 
 class GeneralizedForce(_OfCoordinate):
@@ -175,23 +158,15 @@ class GeneralizedForce(_OfCoordinate):
     wanted: ClassVar[str] = "What is the generalized force for {about}?"
     how: ClassVar[str] = "A generalized force: write it like a Lagrangian; Q = is optional."
     examples: ClassVar[tuple[str, ...]] = ("Q = -kappa u^3", "Q = -M g sin(chi)^2")
+    code: ClassVar[str] = "WRONG_FORCE"
+    hint: ClassVar[str] = (
+        "The quantity asked for is the derivative of L with respect to {coordinate}, plus the forces that"
+        " have no potential."
+    )
     ask: Literal["force"] = Field(description="a generalized force")
 
-    def _right(self, known: RightMotion) -> Expr | None:
-        return known.forces.get(self.coordinate)
-
-    def _unreduced(self, known: RightMotion) -> Expr:
-        return known.unreduced[self.coordinate][1]
-
-    def _feedback(self) -> Sentence:
-        return say(
-            "The quantity asked for is the derivative of L with respect to {coordinate}, plus the forces that"
-            " have no potential.",
-            coordinate=self.coordinate,
-        )
-
-    def _code(self) -> str:
-        return "WRONG_FORCE"
+    def _right(self, known: RightMotion) -> tuple[Expr | None, Expr]:
+        return known.forces.get(self.coordinate), known.unreduced[self.coordinate][1]
 
 
 class MotionQuestion(_MotionQuestion):

@@ -9,36 +9,24 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache, partial
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 from dofkit.base.process_limits import allow_processor
 from dofkit.base.runs import Cluster, Journal, Pool, StoppedError, in_order
-from dofkit.base.workers import MEMORY, Job, JobOutcome, Json
+from dofkit.base.workers import MEMORY, Job, Json
 from dofkit.homework.answers.sources import Handed
 from dofkit.homework.answers.submission import Submission
 from dofkit.homework.assignment import Prepared
 from dofkit.homework.grading import ANSWER_SECONDS, Echo, Grader, Spot, echo
-from dofkit.homework.result import Result, one_line
+from dofkit.homework.result import Result, json_line
 
+#: What becomes of a submission: its result, or how its answers are read.
+Outcome: TypeAlias = Result | Echo
 #: What a worker imports before its first job.
 MODULES = ("dofkit.homework.runs.batch",)
 _TOO_MUCH = "grading it took too long or too much memory."
 #: What a student reads of an answer that broke its worker, by how that ended.
 _ENDED = {"overrun": _TOO_MUCH, "memory": _TOO_MUCH, "died": _TOO_MUCH, "failed": "an internal error occurred."}
-
-
-class ResultLine(NamedTuple):
-    """The JSON of a result, whose it is, whether it could not be graded, and whether its owner is in doubt."""
-
-    student: str
-    failed: bool
-    text: str
-    doubted: bool = False
-
-    @classmethod
-    def of(cls, result: Result | Echo) -> ResultLine:
-        """Return the line of a result."""
-        return cls(result.student, result.error is not None, one_line(result.model_dump_json()))
 
 
 @dataclass(frozen=True)
@@ -62,11 +50,15 @@ class Orders:
         points = sum((question.points for _, question in prepared.questions()), Fraction(0))
         return cls(pickle.dumps(prepared), float(points), check_only)
 
-    def refused(self, student: str, error: str) -> ResultLine:
-        """Return the line of a submission that could not be graded."""
+    def refused(self, student: str, error: str) -> Outcome:
+        """Return the result of a submission that could not be graded."""
         if self.check_only:
-            return ResultLine.of(Echo(student=student, items=[], error=error))
-        return ResultLine.of(Result(student=student, score=None, max_score=self.max_score, items=[], error=error))
+            return Echo(student=student, items=[], error=error)
+        return Result(student=student, score=None, max_score=self.max_score, items=[], error=error)
+
+    def outcome(self, line: str) -> Outcome:
+        """Return the result that a worker wrote as a line of JSON."""
+        return (Echo if self.check_only else Result).model_validate_json(line)
 
 
 @dataclass(frozen=True)
@@ -82,7 +74,7 @@ def graded_lines(task: GradingTask) -> Iterator[Json]:
     """Yield ``{"next": ...}`` before each answer that takes work, and at the end ``{"lines": ...}``."""
     grader = _grader(task.orders)
     grader.condemned = task.condemned
-    lines: list[ResultLine] = []
+    lines: list[str] = []
     allow_processor(task.orders.hard)
     for submission in task.handed.submissions(grader.prepared.columns()):
         allow_processor(task.orders.hard)
@@ -91,7 +83,7 @@ def graded_lines(task: GradingTask) -> Iterator[Json]:
             try:
                 spot = next(steps)
             except StopIteration as stop:
-                lines.append(ResultLine.of(stop.value))
+                lines.append(json_line(stop.value))
                 break
             yield {"next": spot}
             allow_processor(task.orders.hard)
@@ -111,7 +103,7 @@ def _grader(orders: Orders) -> Grader:
 
 
 #: Yields everything submitted with the lines of its results, in order; a journal keeps them.
-Grading: TypeAlias = Callable[[Iterable[Handed], Journal | None], Iterator[tuple[Handed, list[ResultLine]]]]
+Grading: TypeAlias = Callable[[Iterable[Handed], Journal | None], Iterator[tuple[Handed, list[str]]]]
 
 
 class Keeper:
@@ -123,8 +115,8 @@ class Keeper:
         self._condemned: dict[Spot, str] = {}
         self._lock = threading.Lock()
 
-    def grade(self, handed: Handed) -> list[ResultLine]:
-        """Return the line of each submission. Raises StoppedError.
+    def grade(self, handed: Handed) -> list[str]:
+        """Return the result of each submission as a line of JSON. Raises StoppedError.
 
         An answer that breaks two workers, of which the second is a fresh one, is not judged again.
         """
@@ -137,22 +129,19 @@ class Keeper:
             if outcome.ended == "absent":
                 raise StoppedError(outcome.reason)
             if outcome.finished:
-                return [ResultLine(*line) for line in outcome.value["lines"]]
+                return list(outcome.value["lines"])
             spot = outcome.value["next"] if outcome.value else None
             if spot not in suspects:
                 suspects.append(spot)
             elif spot is None or spot in condemned:
-                return [self._refusal(handed, outcome)]
+                error = f"{handed.place}: it could not be graded: {_ENDED[outcome.ended]}"
+                return [json_line(self.orders.refused(handed.name, error))]
             else:
                 with self._lock:
                     self._condemned[spot] = _ENDED[outcome.ended]
 
-    def _refusal(self, handed: Handed, outcome: JobOutcome) -> ResultLine:
-        error = f"{handed.place}: it could not be graded: {_ENDED[outcome.ended]}"
-        return self.orders.refused(handed.name, error)
 
-
-def grade_there(orders: Orders, handed: Handed) -> list[ResultLine]:
+def grade_there(orders: Orders, handed: Handed) -> list[str]:
     """Return the same lines on a machine of a cluster, by killable workers of its own."""
     return _keeper(orders).grade(handed)
 

@@ -5,22 +5,20 @@ What a platform or a file's own name confirms goes before what a file only claim
 
 from __future__ import annotations
 
-import json
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import NamedTuple
 
-from dofkit.homework.answers.roster import Roster, attributed
+from dofkit.homework.answers.roster import Roster, attributed, lookalike
 from dofkit.homework.answers.sources import Handed
-from dofkit.homework.result import one_line
-from dofkit.homework.runs.batch import Orders, ResultLine
+from dofkit.homework.runs.batch import Orders, Outcome
 
 
-@dataclass(frozen=True)
-class OwnedLine:
-    """A result's line, where it was submitted, and whether its owner is confirmed."""
+class OwnedOutcome(NamedTuple):
+    """A result under the name of its owner, where it was submitted, and whether its owner is confirmed."""
 
-    line: ResultLine
+    outcome: Outcome
     place: str
     confirmed: bool
 
@@ -33,49 +31,46 @@ def named_by(roster: Roster, one: Handed) -> Handed:
     return replace(one, name=owners[-1].student) if len(owners) == 1 else one
 
 
-def owned(roster: Roster | None, one: Handed, lines: Sequence[ResultLine]) -> list[OwnedLine]:
-    """Return the lines of one place under the names of their owners, with the doubt there is."""
-    return [_owned(roster, one, line) for line in lines]
-
-
-def _owned(roster: Roster | None, one: Handed, line: ResultLine) -> OwnedLine:
+def owned(roster: Roster | None, one: Handed, outcome: Outcome) -> OwnedOutcome:
+    """Return a result under the name of its owner, with the doubt there is."""
     inside = isinstance(one.data, Mapping) and "student" in one.data
-    by_default = not inside and line.student == one.name
-    student, confirmed, doubt = attributed(roster, one.claims, one.users, line.student, by_default)
-    if (student, doubt) != (line.student, None):
-        line = _changed(line, student, None if doubt is None else f"{one.place}: {doubt}")
-    return OwnedLine(line, str(one.place), confirmed or one.listed)
+    by_default = not inside and outcome.student == one.name
+    student, confirmed, doubt = attributed(roster, one.claims, one.users, outcome.student, by_default)
+    doubt = outcome.doubt if doubt is None else f"{one.place}: {doubt}"
+    outcome = outcome.model_copy(update={"student": student, "doubt": doubt})
+    return OwnedOutcome(outcome, str(one.place), confirmed or one.listed)
 
 
-def _changed(line: ResultLine, student: str, doubt: str | None) -> ResultLine:
-    said = json.loads(line.text)
-    said["student"] = student
-    if doubt is not None:
-        said["doubt"] = doubt
-    text = one_line(json.dumps(said, ensure_ascii=False, separators=(",", ":")))
-    return ResultLine(student, line.failed, text, doubt is not None or line.doubted)
-
-
-def settled(orders: Orders, lines: Iterable[OwnedLine]) -> list[ResultLine]:
-    """Return the lines in their order; every submission of a student but the first is an error that names both places.
+def settled(orders: Orders, owned_outcomes: Iterable[OwnedOutcome], roster: Roster | None) -> list[Outcome]:
+    """Return the results in their order; each of a student's but the first is an error that names both places.
 
     A confirmed submission counts before those that only claim to be the student's. The first keeps its points with a
-    doubt if another of the same standing has other answers.
+    doubt if another of the same standing has other answers. A name that looks like another's is a doubt, too, unless
+    the roster has it.
     """
-    submitted = list(lines)
+    submitted = list(owned_outcomes)
     of_student: defaultdict[str, list[int]] = defaultdict(list)
-    for n, one in enumerate(submitted):
-        if not (one.line.failed or one.line.doubted):
-            of_student[one.line.student].append(n)
-    result = [one.line for one in submitted]
+    for n, (outcome, _, _) in enumerate(submitted):
+        if outcome.error is None and outcome.doubt is None:
+            of_student[outcome.student].append(n)
+    result = [one.outcome for one in submitted]
     for student, numbers in of_student.items():
         first, *others = sorted(numbers, key=lambda n: not submitted[n].confirmed)
         counted = submitted[first]
         for other in (submitted[n] for n in reversed(others)):
-            if other.confirmed == counted.confirmed and other.line.text != counted.line.text:
+            if other.confirmed == counted.confirmed and other.outcome != counted.outcome:
                 why = f"{counted.place}: '{student}' also submitted {other.place}: a person has to decide which counts"
-                result[first] = _changed(counted.line, student, why)
+                result[first] = counted.outcome.model_copy(update={"doubt": why})
         for n in others:
             why = f"{submitted[n].place}: '{student}' also submitted {counted.place}: only that submission is graded"
             result[n] = orders.refused(student, why)
+    alike = defaultdict[str, set[str]](set)
+    for student in (*of_student, *(member.student for member in ([] if roster is None else roster.members))):
+        alike[lookalike(student)].add(student)
+    for n, outcome in enumerate(result):
+        twins = sorted(alike[lookalike(outcome.student)] - {outcome.student})
+        unknown = roster is None or roster.find(outcome.student) is None
+        if twins and unknown and outcome.error is None and outcome.doubt is None:
+            why = f"the name '{outcome.student}' looks like '{twins[0]}': a person has to decide whose it is"
+            result[n] = outcome.model_copy(update={"doubt": f"{submitted[n].place}: {why}"})
     return result

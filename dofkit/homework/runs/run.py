@@ -22,9 +22,9 @@ from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
 from dofkit.homework.formats.gradebooks import apart_path
 from dofkit.homework.formats.review import PAGE, TABLE, ReviewPaths, RunReview
-from dofkit.homework.result import Result
-from dofkit.homework.runs.batch import Grading, Orders, ResultLine, grading
-from dofkit.homework.runs.owners import OwnedLine, named_by, owned, settled
+from dofkit.homework.result import Result, json_line
+from dofkit.homework.runs.batch import Grading, Orders, Outcome, grading
+from dofkit.homework.runs.owners import OwnedOutcome, named_by, owned, settled
 from dofkit.homework.variants import with_roster
 
 NATIVE = "native"
@@ -74,15 +74,6 @@ class GradingOptions:
         return self.out is not None and self.format.folder(self.out)
 
     @property
-    def native(self) -> Path | None:
-        """Where results stand in our own format, before they are written in another. Raises FormatError."""
-        if self.out is None:
-            return None
-        if self.format.name != NATIVE:
-            return self.out.with_name(self.out.name + ".results.jsonl")
-        return self.out / RESULTS if self.in_folder else self.out
-
-    @property
     def review(self) -> ReviewPaths | None:
         """Where the review stands. Raises FormatError."""
         return None if self.out is None or self.check_only else ReviewPaths.beside(self.out, self.in_folder)
@@ -90,16 +81,16 @@ class GradingOptions:
     @property
     def written(self) -> list[Path]:
         """The paths that are written to. Raises FormatError."""
-        path, review = self.native, self.review
-        if self.out is None or path is None:
+        if self.out is None:
             return []
+        review, native = self.review, self.out / RESULTS if self.in_folder else self.out
         beside = [apart_path(self.out), *([] if review is None else [review.table, review.page])]
-        return [self.out, path, *files_of(unfinished(path)), *beside]
+        return [self.out, native, *files_of(unfinished(self.out)), *beside]
 
 
-def unfinished(results: Path) -> Path:
-    """The journal of an unfinished run, from which the next one goes on."""
-    return results.with_name(results.name + ".unfinished")
+def unfinished(out: Path) -> Path:
+    """Return the journal of an unfinished run, from which the next one goes on."""
+    return out.with_name(out.name + ".unfinished")
 
 
 def fingerprint(prepared: Prepared, check_only: bool, roster: Roster | None = None) -> str:
@@ -129,57 +120,45 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     stream = hand_ins(sources, prepared.columns(), others)
     if people is not None:
         stream = (named_by(people, one) for one in stream)
-    native = options.native
-    mark = fingerprint(prepared, options.check_only, roster)
+    out, mark = options.out, fingerprint(prepared, options.check_only, roster)
     with (
         grading(orders, options.workers, options.scheduler) as grade_all,
-        nullcontext() if native is None else closing(Journal(unfinished(native), mark)) as journal,
+        nullcontext() if out is None else closing(Journal(unfinished(out), mark)) as journal,
     ):
-        lines = settled(orders, _graded(grade_all, stream, people, journal))
-        if options.out is None or native is None:
-            _to_stdout(lines, form, prepared, roster)
+        outcomes = settled(orders, _graded(grade_all, orders, stream, people, journal), people)
+        results = [one for one in outcomes if isinstance(one, Result)]
+        if form.name != NATIVE:
+            form.write(iter(results), prepared, out or sys.stdout, roster)
+        elif out is None:
+            _to_stdout(outcomes)
         else:
+            native = out / RESULTS if options.in_folder else out
             native.parent.mkdir(parents=True, exist_ok=True)
-            native.write_text("".join(f"{line.text}\n" for line in lines), encoding="utf-8", newline="\n")
-            _finished(native, form, prepared, options.out, roster, review)
-            if journal is not None:
-                journal.remove()
-    doubted = sum(line.doubted for line in lines)
+            native.write_text("".join(f"{json_line(one)}\n" for one in outcomes), encoding="utf-8", newline="\n")
+        review.write(results, prepared)
+        if journal is not None:
+            journal.remove()
+    doubted = sum(one.doubt is not None for one in outcomes)
     if doubted:
         print(f"{doubted} of the submissions have a 'doubt': a person has to decide whose they are", file=sys.stderr)
-    return not any(line.failed for line in lines)
-
-
-def _finished(
-    path: Path, form: Format, prepared: Prepared, out: Path, roster: Roster | None, review: RunReview
-) -> None:
-    """Write the results, which are in ``path`` in dofkit's own format, in the one asked for, and the review."""
-    if form.name != NATIVE:
-        form.write(_results(path), prepared, out, roster)
-    review.write(path, prepared)
-    if form.name != NATIVE:
-        path.unlink()
+    return all(one.error is None for one in outcomes)
 
 
 def _graded(
-    grade_all: Grading, stream: Iterator[Handed], people: Roster | None, journal: Journal | None
-) -> Iterator[OwnedLine]:
+    grade_all: Grading, orders: Orders, stream: Iterator[Handed], people: Roster | None, journal: Journal | None
+) -> Iterator[OwnedOutcome]:
     """Yield every result with its owner; a bar on a terminal shows how far it is."""
     with _bar() as bar:
         task = bar.add_task("graded", total=None)
         for one, lines in grade_all(stream, journal):
-            yield from owned(people, one, [ResultLine(*line) for line in lines])
+            yield from (owned(people, one, orders.outcome(line)) for line in lines)
             bar.update(task, advance=len(lines))
 
 
-def _to_stdout(lines: Iterable[ResultLine], form: Format, prepared: Prepared, roster: Roster | None) -> None:
-    if form.name != NATIVE:
-        results = (Result.model_validate_json(line.text) for line in lines)
-        form.write(results, prepared, sys.stdout, roster)
-        return
+def _to_stdout(outcomes: Iterable[Outcome]) -> None:
     utf8 = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
-    for line in lines:
-        print(line.text if utf8 else json.dumps(json.loads(line.text)), flush=True)
+    for text in map(json_line, outcomes):
+        print(text if utf8 else json.dumps(json.loads(text)), flush=True)
 
 
 def _bar() -> AbstractContextManager[Progress]:
@@ -188,11 +167,6 @@ def _bar() -> AbstractContextManager[Progress]:
     shown = console.is_terminal and not console.is_jupyter
     columns = (SpinnerColumn(), BarColumn(), TextColumn("{task.completed:.0f} graded"), TimeElapsedColumn())
     return Progress(*columns, console=console, transient=True, disable=not shown)
-
-
-def _results(path: Path) -> Iterator[Result]:
-    with path.open(encoding="utf-8", newline="\n") as lines:
-        yield from map(Result.model_validate_json, lines)
 
 
 def convert(assignment: str, results: Path, options: GradingOptions) -> int:
@@ -213,7 +187,7 @@ def convert(assignment: str, results: Path, options: GradingOptions) -> int:
     form.write(iter(found), prepared, options.out, roster)
     if (options.out / PAGE).exists():
         beside = ReviewPaths(path.parent / TABLE, options.out / PAGE, True)
-        RunReview.read(prepared, None, beside).write_page(path, prepared)
+        RunReview.read(prepared, None, beside).write_page(found, prepared)
     return len(found)
 
 

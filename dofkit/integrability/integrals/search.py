@@ -21,8 +21,17 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
 from dofkit.expressions.text.printing import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.integrability.integrals.algebra import Algebra, GivenUpError, Poly, Quotient, size, solve
-from dofkit.integrability.integrals.potentials import Form, as_power, potential
+from dofkit.integrability.integrals.potentials import (
+    Algebra,
+    Form,
+    GivenUpError,
+    Poly,
+    Quotient,
+    as_power,
+    potential,
+    size,
+    solve,
+)
 from dofkit.relations.normal.pieces import Pfaffian
 
 __all__ = ["Integral", "integrate"]

@@ -10,13 +10,12 @@ from dofkit.checker.problem import read_problem
 from dofkit.checker.trees import CheckError
 from dofkit.methods.certificates import emptiness, fields, freedom, labels
 from dofkit.methods.certificates.contradictions import (
-    Contradiction,
     as_if,
-    exclusions,
     is_decisive,
     is_of_largest_part,
     is_told_of_less,
     other_reports,
+    refutation,
 )
 from dofkit.methods.certificates.numerics import NoEstimateError
 from dofkit.methods.certificates.room import ClaimTrial, Room, Told, empty_certificate
@@ -24,7 +23,7 @@ from dofkit.methods.certificates.scenery import Scenery
 from dofkit.report import ConstraintEntry, Report
 
 Maker = Callable[[Room], Iterator[Told]]
-Found = TypeVar("Found")
+Candidate = TypeVar("Candidate")
 
 NUMBERS: dict[str, Maker] = {
     "consistent": freedom.consistent,
@@ -47,7 +46,6 @@ LABELS: dict[str, Callable[[Room, ConstraintEntry, str], Iterator[Told]]] = {
     "holonomic": labels.holonomic,
     "holonomic_alone": labels.holonomic,
     "exact": labels.exact,
-    "integrating_factor": labels.integrating_factor,
     "integral": labels.integral,
     "scleronomic": labels.scleronomic,
     "catastatic": labels.scleronomic,
@@ -84,7 +82,6 @@ class Certifying:
         self.rooms: list[Room] = []
         self.trial: ClaimTrial | None = None
         self.contradictions: dict[str, str] = {}
-        self.shown: dict[str, Any] = {}
 
     def written(self) -> dict[str, Any]:
         """All claims that are said to be proved, each with evidence or among the uncovered."""
@@ -122,20 +119,25 @@ class Certifying:
         if path not in self.contradictions and path in LAST:
             self._made(path, value, make)
         for room in self.rooms:
-            found = next(_guarded(self._others(room, path, value)), None)
-            found = found or next(_guarded(exclusions(room, self.report, path, value)), None)
-            if found is not None:
-                self.contradictions.setdefault(path, found.why)
-                self.shown.setdefault(path, found.shown)
+            for value_shown in _guarded(self._others(room, path, value)):
+                self.contradictions.setdefault(path, f"the evidence gives {value_shown!r}, not {str(value)[:80]!r}")
+                return
+            for why in _guarded(self._refutations(room, path, value)):
+                self.contradictions.setdefault(path, why)
 
-    def _others(self, room: Room, path: str, value: Any) -> Iterator[Contradiction]:
-        """Another value of a claim, shown where the claim is told of."""
+    def _others(self, room: Room, path: str, value: Any) -> Iterator[Any]:
+        """Other values of a claim that are shown where the claim is made."""
         for report in other_reports(self.report, path, value, len(room.problem.coordinates)):
             asked = next(one for one in _asked(report) if one[0] == path)
-            for evidence in _tried(asked[2], as_if(room, report)):
+            for evidence in _guarded(asked[2](as_if(room, report))):
                 claim = self._claim(room, path, asked[1], evidence)
                 if is_decisive(room, claim) and self.trial and self.trial.outcome(claim) == "shown":
-                    yield Contradiction(f"the evidence gives {asked[1]!r}, not {str(value)[:80]!r}", asked[1])
+                    yield asked[1]
+
+    def _refutations(self, room: Room, path: str, value: Any) -> Iterator[str]:
+        dof = self.trial.verifier.verified.get("/dof") if self.trial else None
+        if why := refutation(room, self.report, path, value, dof):
+            yield why
 
     @staticmethod
     def _claim(room: Room, path: str, value: Any, evidence: Told) -> Told:
@@ -145,7 +147,7 @@ class Certifying:
         """A claim that is shown; None where none is. What the evidence contradicts is written down elsewhere."""
         contradicted = ""
         for room in self.rooms:
-            for evidence in _tried(make, room):
+            for evidence in _guarded(make(room)):
                 claim = self._claim(room, path, value, evidence)
                 outcome = self.trial.outcome(claim) if self.trial else "open"
                 if outcome == "shown":
@@ -182,15 +184,10 @@ class Certifying:
             self.found["uncovered"].append(f"/verdicts{path}/about")
 
 
-def _tried(make: Maker, room: Room) -> Iterator[Told]:
-    """The evidence of one reading, one after another."""
-    yield from _guarded(make(room))
-
-
-def _guarded(found: Iterator[Found]) -> Iterator[Found]:
-    """What is found, until something stands in the way."""
+def _guarded(candidates: Iterator[Candidate]) -> Iterator[Candidate]:
+    """Yield candidates until something stands in the way."""
     try:
-        yield from found
+        yield from candidates
     except HINDRANCES:
         return
 

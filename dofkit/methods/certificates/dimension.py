@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from functools import partial
 from itertools import combinations
 
 from flint import arb
@@ -15,7 +16,7 @@ from dofkit.methods.certificates.fields import backing, kept_motions, orbit
 from dofkit.methods.certificates.numerics import SMALL, NoEstimateError, echelon
 from dofkit.methods.certificates.room import Room, Standing, Told
 from dofkit.methods.certificates.scenery import FAR, number_text
-from dofkit.methods.certificates.steps import accounted
+from dofkit.methods.certificates.steps import Order, accounted, given_in_order
 
 #: The size of a step along a motion, of what is added by chance, and the largest denominator of a coefficient.
 STEP, NOISE, DENOMINATOR = 0.25, 0.05, 60
@@ -119,8 +120,6 @@ def reduced_rows(rows: Samples) -> dict[str, dict[str, float]]:
 
 # Evidence that no part of the set is larger: graphs, single relations, relations with symbols of their own.
 
-Order = list[list[str]]
-
 
 def everywhere(room: Room) -> Iterator[Told]:
     """dof of the whole set; with forms from that near the main point."""
@@ -177,7 +176,8 @@ def _of_set(room: Room, standing: Standing) -> Iterator[Told]:
         yield {**found, "order": order}
     own = own_symbols(room)
     if not standing.dependent or standing.accounted:
-        for tried, rest in ((order, left), given_first(room, finite), ([], finite)):
+        for tried in (order, given_in_order(finite, room.scenery, partial(_gives, room)), []):
+            rest = [name for name in finite if all(name != given for given, _ in tried)]
             blocks, generic = _split(room, tried, rest, own)
             if all(name in own for name in generic):
                 yield {**found, "order": tried, "blocks": blocks, "generic": [[name, own[name]] for name in generic]}
@@ -224,26 +224,16 @@ def _moved(room: Room, name: str) -> set[str]:
     return {q for q in room.problem.coordinates if f"{q}dot" in held}
 
 
-def given_first(room: Room, names: Sequence[str]) -> tuple[Order, list[str]]:
-    """Relations that give a coordinate which those chosen before do not hold, short ones first; and the others."""
-    coordinates = room.problem.coordinates
-    held = {name: room.scenery.evidence.relation(name).left.symbols & set(coordinates) for name in names}
-    order: Order = []
-    taken: set[str] = set()
-    for name in sorted(held, key=lambda one: len(held[one])):
-        fit = [q for q in coordinates if q in held[name] and q not in taken and _gives(room, name, q)]
-        if fit:
-            order.append([name, fit[0]])
-            taken |= held[name]
-    return order, [name for name in names if all(name != chosen for chosen, _ in order)]
-
-
 def _gives(room: Room, name: str, q: str) -> bool:
     """Whether a relation gives a coordinate with a factor of numbers and parameters."""
     evidence = room.scenery.evidence
     try:
         slope = evidence.slope(name, q)
-        plain = slope.symbols <= evidence.chosen and room.point is not None and room.differs(slope, room.point)
+        plain = (
+            slope.symbols <= evidence.chosen
+            and room.point is not None
+            and room.scenery.differs(slope, room.point.floats)
+        )
         return plain or bool(evidence.ring.rational(slope))
     except CheckError:
         return False
@@ -285,68 +275,44 @@ ISOLATED, CROSSING = "isolated zero of one variable", "indefinite form"
 
 
 def stationary(room: Room) -> Iterator[Told]:
-    """dof near a point at which a relation depends on the others to first order alone."""
+    """Yield dof near a point at which a relation depends on the others to first order alone, by the rule `isolated`."""
     standing = room.standing
-    if standing is None or not standing.dependent:
+    if standing is None or room.report.verdicts["dof"].argument not in (ISOLATED, CROSSING):
         return
-    for found in _isolations(room):
-        most = {key: part for key, part in found.items() if key not in ("fields", "pins")}
-        yield {"rule": "squeeze", "about": room.about, "most": most, "least": _orbit(room, found)}
-    if room.report.verdicts["dof"].argument == CROSSING:
-        for least in families(room, room.report.dof or 0):
-            for most in _crossings(room, standing):
-                yield {"rule": "squeeze", "about": room.about, "most": most, "least": least}
+    for least in _motions_from(room, standing, room.report.dof or 0):
+        for most in _isolated(room, standing):
+            yield {"rule": "squeeze", "about": room.about, "most": most, "least": least}
 
 
-def _isolations(room: Room) -> Iterator[Told]:
-    """The rule `isolated`, with the generalized coordinates for pins, or what moves with the fields."""
-    chosen = room.report.generalized_coordinates
-    for wanted in (chosen, room.problem.coordinates) if room.report.verdicts["dof"].argument == ISOLATED else ():
-        fields = kept_motions(room, wanted) if wanted else {}
-        if wanted is not None and len(fields) == room.report.dof:
-            yield from _pinned(room, list(fields), list(fields.values()))
+def _motions_from(room: Room, standing: Standing, size: int) -> Iterator[Told]:
+    """Yield ``size`` motions from the point: rigid ones of all together, none, or a family."""
+    fields = kept_motions(room, room.problem.coordinates) if size else {}
+    if len(fields) == size:
+        orbit_of = {"fields": list(fields), "words": [[name] for name in fields], "columns": list(fields.values())}
+        yield {"rule": "span", "at": standing.point.name, "rows": list(room.scenery.evidence.finite), **orbit_of}
+    yield from families(room, size)
 
 
-def _pinned(room: Room, fields: list[str], pins: list[str]) -> Iterator[Told]:
-    if room.standing is None:
-        return
-    others = [q for q in room.problem.coordinates if q not in pins]
-    standing = room.standing_of(room.standing.order, others)
-    if standing is None or len(standing.rows) != len(others) - 1:
-        return
-    free = next(q for q in others if q not in standing.columns)
-    given: Told = {"rule": "isolated", "minor": room.minor(standing), "speeds": {free: "1"}}
-    given |= {"fields": fields, "pins": pins}
-    for order in range(2, HIGHEST_ORDER + 1):
-        for zero in standing.dependent:
-            yield {**given, "zero": zero, "order": order}
-
-
-def _orbit(room: Room, most: Told) -> Told:
-    """From below: the orbit of the fields, or the point alone."""
-    at, finite = room.standing.point.name if room.standing else "", list(room.scenery.evidence.finite)
-    words = [[name] for name in most["fields"]]
-    return {"rule": "span", "at": at, "fields": most["fields"], "rows": finite, "words": words, "columns": most["pins"]}
-
-
-def _crossings(room: Room, standing: Standing) -> Iterator[Told]:
-    """The rule `isolated`: a direction in which a relation has a second derivative."""
+def _isolated(room: Room, standing: Standing) -> Iterator[Told]:
+    """Yield directions in which another relation has a derivative that is not 0, of the lowest order."""
     free = [q for q in room.problem.coordinates if q not in standing.columns]
     ways = [{q: 1} for q in free] + [{a: 1, b: sign} for a, b in combinations(free, 2) for sign in SIGNS]
-    for zero in standing.dependent:
-        for way in ways:
-            if abs(_bends(room, standing, zero, way)) > FAR:
-                speeds = {q: str(value) for q, value in way.items()}
-                yield {"rule": "isolated", "minor": room.minor(standing), "zero": zero, "speeds": speeds, "order": 2}
-                break
+    for order in range(2, HIGHEST_ORDER + 1):
+        for zero in standing.dependent:
+            for way in ways:
+                if abs(_bends(room, standing, zero, way, order)) > FAR:
+                    speeds = {q: str(value) for q, value in way.items()}
+                    given = {"minor": room.minor(standing), "zero": zero, "speeds": speeds}
+                    yield {"rule": "isolated", **given, "order": order}
+                    return
 
 
-def _bends(room: Room, standing: Standing, zero: str, way: dict[str, int]) -> float:
-    """The second derivative of a relation in a direction; 0 where it cannot be told."""
+def _bends(room: Room, standing: Standing, zero: str, way: dict[str, int], order: int) -> float:
+    """Return the derivative of a relation in a direction, or 0 where it has none."""
     evidence = room.scenery.evidence
     try:
         minor = evidence.minor(room.minor(standing))
         speeds = {q: arb(value) for q, value in way.items()}
-        return float(along_curve(evidence, minor, speeds, evidence.relation(zero).left, 2).mid())
+        return float(along_curve(evidence, minor, speeds, evidence.relation(zero).left, order).mid())
     except (CheckError, ArithmeticError):
         return 0.0

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from typing import Any
 
 from flint import fmpq, fmpq_mat
 
-from dofkit.checker.trees import ONE, CheckError, Tree, substituted
+from dofkit.checker.trees import ONE, substituted
 from dofkit.methods.certificates.room import Room, Told
-from dofkit.methods.certificates.scenery import number_text
-from dofkit.methods.certificates.steps import rate_of
+from dofkit.methods.certificates.scenery import number_text, text_of
+from dofkit.methods.certificates.steps import positive_sum, rate_of
 
-Monomial = tuple[int, ...]
-Polynomial = dict[Monomial, Fraction]
 MOST_MONOMIALS = 400
 
 
@@ -65,117 +62,42 @@ def refutations(room: Room, names: Sequence[str]) -> Iterator[Told]:
         yield from _by_squares(room, name)
 
 
-def polynomials(room: Room, trees: Sequence[Tree]) -> tuple[list[Polynomial], list[Tree]] | None:
-    """Trees as polynomials in the ring's generators with one denominator left out; None where it differs."""
-    ring = room.scenery.evidence.ring
-    put_in = [substituted(tree, {"tdot": ONE}) for tree in trees]
-    for tree in put_in:
-        ring.read(tree)
-    normals = [ring.read(tree) for tree in put_in]
+def combination(room: Room, names: Sequence[str]) -> Told | None:
+    """Return numbers c with sum c_i relation_i = -1, as polynomials in the ring's generators, or None."""
+    ring, width = room.scenery.evidence.ring, len(names)
+    trees = [substituted(room.scenery.evidence.relation(name).left, {"tdot": ONE}) for name in names]
+    for tree in trees:
+        ring.read(tree)  # all generators are there before the first normal form is used
+    normals = [ring.read(tree) for tree in trees]
     if any(not normal.below.is_constant() for normal in normals):
         return None
-    found = []
-    for normal in normals:
-        under = normal.below.leading_coefficient()
-        terms = {key[::-1]: value / under for key, value in normal.above.to_dict().items()}
-        found.append({key: Fraction(int(value.p), int(value.q)) for key, value in terms.items()})
-    return found, list(trees)
-
-
-def combination(room: Room, names: Sequence[str]) -> Told | None:
-    """Numbers c with sum c_i relation_i = -1."""
-    read = polynomials(room, [room.scenery.evidence.relation(name).left for name in names])
-    if read is None:
+    columns = [
+        {key: value / normal.below.leading_coefficient() for key, value in normal.above.to_dict().items()}
+        for normal in normals
+    ]
+    monomials = sorted({key for column in columns for key in column})
+    constant = tuple(0 for _ in monomials[0]) if monomials else ()
+    if constant not in monomials or len(monomials) > MOST_MONOMIALS:
         return None
-    monomials = sorted({key for one in read[0] for key in one})
-    if not monomials or len(monomials) > MOST_MONOMIALS:
+    entries = [[*(column.get(key, fmpq(0)) for column in columns), fmpq(-(key == constant))] for key in monomials]
+    reduced, rank = fmpq_mat(len(entries), width + 1, [x for row in entries for x in row]).rref()
+    leads = [next(j for j in range(width + 1) if reduced[i, j] != 0) for i in range(rank)]
+    if width in leads:
         return None
-    matrix = [[_rational(one.get(key, Fraction(0))) for one in read[0]] for key in monomials]
-    constant = tuple(0 for _ in monomials[0])
-    found = solution(matrix, [fmpq(-1 if key == constant else 0) for key in monomials])
-    if found is None or constant not in monomials:
-        return None
-    told = {name: number_text(value) for name, value in zip(names, found, strict=True) if value}
-    return {"rule": "nullstellensatz", "c": told, "number": "1"}
-
-
-def solution(matrix: Sequence[Sequence[fmpq]], right: Sequence[fmpq]) -> list[Fraction] | None:
-    """One solution of linear equations over the rationals; None where there is none."""
-    width = len(matrix[0])
-    entries = [x for row, b in zip(matrix, right, strict=True) for x in (*row, b)]
-    reduced, rank = fmpq_mat(len(matrix), width + 1, entries).rref()
-    found = [Fraction(0)] * width
-    for i in range(rank):
-        lead = next(j for j in range(width + 1) if reduced[i, j] != 0)
-        if lead == width:
-            return None
-        value = reduced[i, width]
-        found[lead] = Fraction(int(value.p), int(value.q))
-    return found
-
-
-def _rational(value: Fraction) -> fmpq:
-    return fmpq(value.numerator, value.denominator)
+    factors = {names[lead]: str(reduced[i, width]) for i, lead in enumerate(leads) if reduced[i, width] != 0}
+    return {"rule": "nullstellensatz", "c": factors, "number": "1"}
 
 
 def _by_squares(room: Room, name: str) -> Iterator[Told]:
-    """One relation that is a positive number and squares, or their negative."""
+    """Yield evidence that one relation is never satisfied: it is a positive number and squares, or their negative."""
     one = room.scenery.evidence.relation(name)
-    try:
-        read = polynomials(room, [one.left])
-    except CheckError:
-        return
-    for sign in (1, -1) if read is not None else ():
-        signed = {key: sign * value for key, value in read[0][0].items()} if read is not None else {}
-        squares = completed(room, signed)
-        if squares is None:
+    for sign in (1, -1):
+        positive = positive_sum(one.left, Fraction(sign))
+        if positive is None:
             continue
-        number, terms = squares
-        told: dict[str, Any] = {"rule": "nullstellensatz", "number": number_text(number), "sos": terms}
+        squares = [[c, text_of(base)] for c, base in positive[1]]
+        claim: Told = {"rule": "nullstellensatz", "number": positive[0], "sos": squares}
         if one.kind != "inequality":
-            yield {**told, "c": {name: number_text(-sign)}}
+            yield {**claim, "c": {name: number_text(-sign)}}
         elif sign == -1:
-            yield {**told, "inequality": {name: [["1", "1"]]}}
-
-
-def completed(room: Room, polynomial: Polynomial) -> tuple[Fraction, list[list[str]]] | None:
-    """A quadratic polynomial as a positive number and squares; None where it is none."""
-    ring = room.scenery.evidence.ring
-    texts = {place: str(key[1]) for key, place in ring.places.items() if key[0] == "symbol"}
-    places = sorted({i for key in polynomial for i, exponent in enumerate(key) if exponent})
-    if any(sum(key) > 2 for key in polynomial) or any(place not in texts for place in places):
-        return None
-    rest = dict(polynomial)
-    terms: list[list[str]] = []
-    for place in places:
-        lead = rest.get(_monomial(rest, place, place), Fraction(0))
-        if lead <= 0:
-            if any(key[place] for key in rest):
-                return None
-            continue
-        linear = {key: value for key, value in rest.items() if key[place] == 1}
-        shift = {_without(key, place): value / (2 * lead) for key, value in linear.items()}
-        text = " + ".join([texts[place], *(_term(value, key, texts) for key, value in shift.items())])
-        terms.append([number_text(lead), text])
-        rest = {key: value for key, value in rest.items() if not key[place]}
-        for a, x in shift.items():
-            for b, y in shift.items():
-                key = tuple(i + j for i, j in zip(a, b, strict=True))
-                rest[key] = rest.get(key, Fraction(0)) - lead * x * y
-        rest = {key: value for key, value in rest.items() if value}
-    number = sum((value for key, value in rest.items() if not any(key)), Fraction(0))
-    return (number, terms) if number > 0 and all(not any(key) for key in rest) else None
-
-
-def _monomial(rest: Polynomial, first: int, second: int) -> Monomial:
-    size = len(next(iter(rest), ()))
-    return tuple((i == first) + (i == second) for i in range(size))
-
-
-def _without(key: Monomial, place: int) -> Monomial:
-    return (*key[:place], key[place] - 1, *key[place + 1 :])
-
-
-def _term(value: Fraction, key: Monomial, texts: dict[int, str]) -> str:
-    factors = [texts[i] for i, exponent in enumerate(key) for _ in range(exponent)]
-    return "*".join([f"({number_text(value)})", *factors])
+            yield {**claim, "inequality": {name: [["1", "1"]]}}

@@ -309,23 +309,18 @@ def involutive_rows(room: Room, names: Sequence[str], columns: Sequence[str] | N
 
 
 def growth_vector(room: Room) -> Iterator[Told]:
-    """Words for every entry."""
+    """Words for every entry, of as many entries as are claimed, and until nothing new comes."""
     standing, told = room.standing, room.report.growth_vector
     if standing is None or not standing.accounted or not told or room.nonlinear:
         return
     words = words_of(room, standing, reach(room))
     if words is None:
         return
-    levels = [*words.levels, *words.levels[-1:] * len(told)][: len(told)]
-    spans = [{"words": words.words[:count], "columns": _columns(words, count)} for count in levels]
-    yield {
-        "rule": "span",
-        "at": standing.point.name,
-        "fields": words.fields,
-        "rows": words.rows,
-        "minor": room.minor(standing),
-        "spans": spans,
-    }
+    given = {"rule": "span", "at": standing.point.name, "fields": words.fields, "rows": words.rows}
+    given["minor"] = room.minor(standing)
+    for steps in sorted({len(told), len(words.levels)}, reverse=True):
+        levels = [*words.levels, *words.levels[-1:] * steps][:steps]
+        yield {**given, "spans": [{"words": words.words[:k], "columns": _columns(words, k)} for k in levels]}
 
 
 def pairing(room: Room, name: str, point: FoundPoint, vector: dict[str, float]) -> float:

@@ -28,11 +28,11 @@ def consistent(room: Room) -> Iterator[Told]:
 
 
 def _inequalities(room: Room) -> dict[str, str] | None:
-    """For every inequality a point where it holds."""
+    """Return for every inequality a point where it holds, as an equality where no other was reached; else None."""
     found: dict[str, str] = {}
     for one in room.problem.relations:
         if one.kind == "inequality":
-            point = room.search.meeting(one.name)
+            point = room.search.meeting([one.name]) or room.search.touching(one.name, 70)
             if point is None:
                 return None
             found[one.name] = room.add_point(point)
@@ -116,11 +116,12 @@ def _needed(room: Room) -> Iterator[Told]:
 def generalized_coordinates(room: Room) -> Iterator[Told]:
     """The other coordinates are functions of these."""
     chosen = room.report.generalized_coordinates
-    if chosen is None or room.finite_standing is None:
+    finite = room.finite_standing
+    if chosen is None or finite is None:
         return
     others = [q for q in room.problem.coordinates if q not in chosen]
-    solving = room.solving(others)
-    if solving is not None:
+    solving = room.standing_of(finite.rows, others) if len(others) == len(finite.rows) else None
+    if solving is not None and not solving.dependent:
         found: Told = {"rule": "minor", "minor": room.minor(solving)}
         yield found
         alone = {q for name in solving.rows if len(row := room.row(name, solving.point)) == 1 for q in row}
@@ -138,7 +139,9 @@ def independent(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told
     if entry.form == "inequality":
         yield {"rule": "inequality"}
         return
-    standing, rows = room.standing, room.rows_through(entry.name)
+    standing, order = room.standing, room.finite_first
+    last = max((k for k, name in enumerate(order) if room.owner(name) == entry.name), default=-1)
+    rows = order[: last + 1]
     if standing is None or not rows:
         return
     size = len(set(rows).intersection(standing.rows))
@@ -177,9 +180,10 @@ def feasible(room: Room) -> Iterator[Told]:
     standing = room.standing
     if not room.report.feasible or standing is None:
         return
-    for point in (room.point, *room.search.open_points()):
-        if point is not None:
-            yield {"rule": "point", "at": room.add_point(point)}
+    yield {"rule": "point", "at": room.add_point(standing.point)}
+    inequalities = [one.name for one in room.problem.relations if one.kind == "inequality"]
+    if (point := room.search.meeting(inequalities, 200)) is not None:
+        yield {"rule": "point", "at": room.add_point(point)}
 
 
 def integrable_part(room: Room) -> Iterator[Told]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, negative, number, power, symbol, times
+from dofkit.checker.label_rules import form_of
+from dofkit.checker.trees import ZERO, CheckError, Tree, add, derivative, negative, number, symbol, times
 from dofkit.methods.certificates.fields import (
     LARGEST_CRAMER,
     determinant,
@@ -31,17 +32,20 @@ def integral_of_text(room: Room, text: str) -> str | None:
     return combined_integral(room, left.strip()) if right.strip() != "0" else None
 
 
-def combined_integral(room: Room, function: str) -> str | None:
-    """A step by which a function keeps its value, whatever relations that takes: its id."""
-    name = f"{room.scenery.label}{function} is constant"
+def combined_integral(room: Room, function: str, alone: str = "") -> str | None:
+    """Return the id of a step by which a function keeps its value: by one form ``alone``, or whatever that takes."""
+    name = f"{room.scenery.label}{function} is constant{f' by {alone}' if alone else ''}"
     if name in room.scenery.evidence.known:
         return name
-    if room.standing is None or not room.small:
+    if room.point is None:
         return None
-    tree = room.scenery.evidence.text(function)
+    try:
+        tree = room.scenery.evidence.text(function)
+    except CheckError:
+        return None
     target = {v: derivative(tree, v) for v in room.scenery.evidence.variables}
     step = {"id": name, "by": "integral", "function": function}
-    return name if _combined(room, step, target, moving_rows(room)) else None
+    return name if _combined(room, step, target, [alone] if alone else moving_rows(room)) else None
 
 
 def moving_rows(room: Room) -> list[str]:
@@ -54,13 +58,21 @@ def moving_rows(room: Room) -> list[str]:
     return found
 
 
-def follows_from_integrals(room: Room, name: str, steps: Sequence[str]) -> bool:
-    """Whether a step was found by which a form follows from integrals and finite relations."""
-    step = f"{room.scenery.label}{name} from integrals"
+def follows_from_integrals(room: Room, name: str, steps: Sequence[str], alone: bool = False) -> bool:
+    """Whether a step was found by which a form follows from integrals, and finite relations if not ``alone``."""
+    step = f"{room.scenery.label}{name} from {' and '.join(steps) if alone else 'integrals'}"
     if room.scenery.has_step(step):
         return True
-    sources = [rate for one in (*steps, *room.scenery.evidence.finite) if (rate := rate_of(room.scenery, one))]
-    return _combined(room, {"id": step, "by": "implied", "of": name}, components(room, name), sources)
+    sources = [*steps, *(() if alone else room.scenery.evidence.finite)]
+    rates = [rate for one in sources if (rate := rate_of(room.scenery, one))]
+    return _combined(room, {"id": step, "by": "implied", "of": name}, components(room, name), rates)
+
+
+def integral_alone(room: Room, entry: ConstraintEntry, name: str) -> str | None:
+    """Return the step of the integral that is claimed of a form, where each follows from the other alone."""
+    function = integral_text(entry)
+    step = combined_integral(room, function, name) if function and form_or_none(room, name) is not None else None
+    return step if step and follows_from_integrals(room, name, [step], alone=True) else None
 
 
 def _combined(room: Room, step: Told, target: Components, sources: Sequence[str]) -> bool:
@@ -85,6 +97,19 @@ def _combined(room: Room, step: Told, target: Components, sources: Sequence[str]
 
 def _placed(room: Room, row: Components, order: Order) -> Components:
     return {v: with_puts(room.scenery, tree, order) for v, tree in row.items()} if order else row
+
+
+def form_or_none(room: Room, name: str) -> Components | None:
+    """Return the components of a relation that is a linear form, or None."""
+    try:
+        return form_of(room.scenery.evidence, name)
+    except CheckError:
+        return None
+
+
+def variables_of(form: Components) -> frozenset[str]:
+    """Return the variables of a form: those it moves and those it mentions."""
+    return frozenset(form).union(*(tree.symbols for tree in form.values()))
 
 
 def components(room: Room, name: str) -> Components:
@@ -172,14 +197,14 @@ def holonomic(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
 def _wedge(room: Room, name: str) -> Told | None:
     """A point and three variables where omega ^ d(omega) is not 0."""
     point = room.point
-    form = room.form(name)
+    form = form_or_none(room, name)
     if point is None or form is None:
         return None
-    for triple in combinations([v for v in room.scenery.evidence.variables if v in room.met(form)], 3):
+    for triple in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 3):
         i, j, k = triple
         parts = ((i, j, k), (j, k, i), (k, i, j))
         tree = add(*(times(form.get(a, number(0)), curl(form, b, c)) for a, b, c in parts))
-        if room.differs(tree, point):
+        if room.scenery.differs(tree, point.floats):
             return {"rule": "wedge", "at": point.name, "triple": list(triple)}
     return None
 
@@ -210,54 +235,16 @@ def _reached(room: Room, owner: str, alone: bool) -> Told | None:
 
 
 def _integrated(room: Room, entry: ConstraintEntry) -> Told | None:
-    """The rule `integral`: a step for the integral that is told, and one by which the form follows from it."""
+    """Return the rule `integral`, by a step for the integral that is claimed and one by which the form follows."""
     names = room.scenery.evidence.owned(entry.name)
-    if len(names) != 1 or room.point is None or (step := integral_step(room, entry, names[0])) is None:
+    if len(names) != 1 or room.point is None or (step := integral_alone(room, entry, names[0])) is None:
         return None
     return {"rule": "integral", "at": room.point.name, "integrals": [step]}
-
-
-def integral_step(room: Room, entry: ConstraintEntry, name: str) -> str | None:
-    """Steps for an integral of one form alone: its id, where they stand up."""
-    function = integral_text(entry)
-    factor = factor_text(room, entry, name)
-    ids = f"{name} integrated", f"rate of {name} integrated", f"{name} from its integral"
-    if function is None or factor is None:
-        return None
-    if ids[0] in room.scenery.evidence.known:
-        return ids[0]
-    try:
-        room.scenery.add_step({"id": ids[0], "by": "integral", "function": function, "c": {name: factor}})
-        room.scenery.add_step({"id": ids[1], "by": "rate", "of": ids[0]})
-        room.scenery.add_step({"id": ids[2], "by": "implied", "of": name, "h": factor, "c": {ids[1]: "1"}})
-    except CheckError:
-        return None
-    return ids[0]
 
 
 def integral_text(entry: ConstraintEntry) -> str | None:
     """The function that is said to be constant."""
     return entry.integral.rpartition("=")[0].strip() if entry.integral else None
-
-
-def factor_text(room: Room, entry: ConstraintEntry, name: str) -> str | None:
-    """The factor with d(function) = factor * form, from a quotient of components."""
-    text, form = integral_text(entry), room.form(name)
-    if text is None or form is None:
-        return None
-    try:
-        function = room.scenery.evidence.text(text)
-        for v, part in form.items():
-            quotient = times(derivative(function, v), power(part, number(-1)))
-            for given in ("1", "-1", entry.integrating_factor):
-                if given and room.scenery.evidence.ring.vanishes(
-                    add(quotient, negative(room.scenery.evidence.text(given)))
-                ):
-                    return given
-        v = next(iter(form))
-        return text_of(times(derivative(function, v), power(form[v], number(-1))))
-    except (CheckError, StopIteration):
-        return None
 
 
 def integral(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
@@ -267,7 +254,7 @@ def integral(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     if len(names) != 1 or room.point is None or function is None:
         return
     found = {"rule": "integral", "at": room.point.name}
-    if alone := integral_step(room, entry, names[0]):
+    if alone := integral_alone(room, entry, names[0]):
         yield {**found, "step": alone}
         if other := room.search.somewhere(room.scenery.evidence.finite, room.problem.coordinates, seed=1):
             yield {**found, "step": alone, "at": room.add_point(other)}
@@ -283,12 +270,6 @@ def integral(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
         yield {**found, "step": step, "integrals": others, "minor": room.minor(standing)}
 
 
-def integrating_factor(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
-    """The factor that is told."""
-    if room.point is not None:
-        yield {"rule": "integral", "at": room.point.name}
-
-
 def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     """Closed, or a point where it is not."""
     if entry.exact:
@@ -298,9 +279,9 @@ def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     if point is None:
         return
     for name in names:
-        form = room.form(name) or {}
-        for i, j in combinations([v for v in room.scenery.evidence.variables if v in room.met(form)], 2):
-            if room.differs(curl(form, i, j), point):
+        form = form_or_none(room, name) or {}
+        for i, j in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 2):
+            if room.scenery.differs(curl(form, i, j), point.floats):
                 told = {"relation": name} if len(names) > 1 else {}
                 yield {"rule": "not exact", "at": point.name, "pair": [i, j], **told}
                 break
@@ -334,7 +315,7 @@ def _turning(room: Room, name: str, field: str) -> Iterator[Told]:
     if turned == number(0):
         return
     for point in _points_of(room, name):
-        if point is not None and room.differs(turned, point):
+        if point is not None and room.scenery.differs(turned, point.floats):
             yield {"at": room.add_point(point)}
 
 
@@ -346,7 +327,7 @@ def _points_of(room: Room, name: str) -> Iterator[FoundPoint | None]:
 
 
 def _turning_form(room: Room, name: str, field: str) -> Iterator[Told]:
-    form, point = room.form(name), room.point
+    form, point = form_or_none(room, name), room.point
     if point is None:
         return
     left = room.scenery.left(name)
@@ -354,11 +335,11 @@ def _turning_form(room: Room, name: str, field: str) -> Iterator[Told]:
     turned = form.get("t", number(0)) if form else derivative(left, "t")
     if field == "catastatic" and form is None:
         turned = add(*rates.values())
-    if room.differs(turned, point):
+    if room.scenery.differs(turned, point.floats):
         yield {"at": point.name}
     if form is None:
         return
     for a, b in combinations(form, 2) if field == "scleronomic" else ():
         back = negative(times(form[b], derivative(form[a], "t")))
-        if room.differs(add(times(form[a], derivative(form[b], "t")), back), point):
+        if room.scenery.differs(add(times(form[a], derivative(form[b], "t")), back), point.floats):
             yield {"at": point.name, "pair": [a, b]}

@@ -10,7 +10,6 @@ from typing import Any
 from dofkit.base.verdicts import weakest
 from dofkit.expressions.text.characters import DEGREE, GREEK_LETTERS
 from dofkit.methods.certificates.certificate import Certifying
-from dofkit.methods.certificates.contradictions import Contradiction
 from dofkit.report import ConstraintEntry, FieldVerdict, Report
 from dofkit.scene.lowering import survey_of
 from dofkit.scene.scene import Scene
@@ -54,35 +53,28 @@ def _plain(value: Any, unit: Callable[[re.Match[str]], str]) -> Any:
     return [_plain(part, unit) for part in value] if isinstance(value, list) else value
 
 
-def with_certificate(scene: Scene, report: Report, again: Callable[[], Report] | None = None) -> Report:
-    """The report with a certificate; a claim whose evidence gives another value is lowered, with a warning.
-
-    ``again``: asks an engine whose answers are probable for the whole report, where a claim was lowered.
-    """
+def with_certificate(scene: Scene, report: Report) -> Report:
+    """Return the report with a certificate; a claim whose evidence gives another value is lowered, with a warning."""
     making = Certifying(document_of_scene(scene), report)
     certificate = making.written()
-    told = report
-    if making.contradictions:
-        against = {path: Contradiction(why, making.shown.get(path)) for path, why in making.contradictions.items()}
-        against |= _doubted(report, against, certificate["uncovered"])
-        told = lowered(report, against, None if again is None else again())
-    return told.model_copy(update={"certificate": certificate})
+    against = making.contradictions
+    if against:
+        report = lowered(report, {**against, **_doubted(report, against, certificate["uncovered"])})
+    return report.model_copy(update={"certificate": certificate})
 
 
-def _doubted(
-    report: Report, contradictions: Mapping[str, Contradiction], uncovered: list[str]
-) -> dict[str, Contradiction]:
-    """Claims without evidence of their own that rest on the argument of one that failed, or on consistency that did."""
+def _doubted(report: Report, contradictions: Mapping[str, str], uncovered: list[str]) -> dict[str, str]:
+    """Return the claims without evidence that rest on the argument of one that failed, or on consistency that did."""
     verdicts = {path: verdict for path, _, verdict in told_fields(report)}
     failed = {verdicts[path].argument: path for path in contradictions}
-    found = {}
+    doubted = {}
     for path in uncovered:
         verdict = verdicts.get(path)
         if verdict is not None and verdict.argument in failed:
-            found[path] = Contradiction(f"it rests on the argument of {failed[verdict.argument]}")
+            doubted[path] = f"it rests on the argument of {failed[verdict.argument]}"
         elif verdict is not None and "/consistent" in contradictions and path.count("/") == 1:
-            found[path] = Contradiction("it rests on /consistent")
-    return found
+            doubted[path] = "it rests on /consistent"
+    return doubted
 
 
 def told_fields(report: Report) -> Iterator[tuple[str, Any, FieldVerdict]]:
@@ -98,50 +90,28 @@ def _entry_path(entry: ConstraintEntry) -> str:
     return "/constraints/" + entry.name.replace("~", "~0").replace("/", "~1")
 
 
-def lowered(report: Report, contradictions: Mapping[str, Contradiction], other: Report | None = None) -> Report:
-    """The report with the claims at some paths undecided; probable where another report says what the evidence does."""
-    values = {path: value for path, value, _ in told_fields(report)}
-    others = {path: (value, verdict) for path, value, verdict in told_fields(other)} if other is not None else {}
-    instead = {path: _instead(path, values[path], one, others) for path, one in contradictions.items()}
-    constraints = [_entry(entry, instead) for entry in report.constraints]
-    fields = {path[1:]: found for path, found in instead.items() if path.count("/") == 1}
-    verdicts = {**report.verdicts, **{field: verdict for field, (_, verdict) in fields.items()}}
-    told = [
-        f"{path}: a second program finds otherwise ({one.why}); it is {instead[path][1].verdict}"
-        for path, one in contradictions.items()
+def lowered(report: Report, contradictions: Mapping[str, str]) -> Report:
+    """Return the report with the claims at some paths undecided, and why in its warnings."""
+    fields = {
+        path[1:]: _OPEN.get(path[1:], getattr(report, path[1:])) for path in contradictions if path.count("/") == 1
+    }
+    warnings = [
+        f"{path}: a second program finds otherwise ({why}); it is undecided" for path, why in contradictions.items()
     ]
-    return report.model_copy(
-        update={
-            **{field: value for field, (value, _) in fields.items()},
-            "verdicts": verdicts,
-            "constraints": constraints,
-            "verdict": weakest(report.verdict, *(verdict.verdict for _, verdict in instead.values())),
-            "warnings": [*report.warnings, *told],
-        }
-    )
+    changes = {
+        **fields,
+        "verdicts": {**report.verdicts, **dict.fromkeys(fields, _UNDECIDED)},
+        "constraints": [_entry(entry, contradictions) for entry in report.constraints],
+        "verdict": weakest(report.verdict, "undecided"),
+        "warnings": [*report.warnings, *warnings],
+    }
+    return report.model_copy(update=changes)
 
 
-def _instead(
-    path: str, value: Any, one: Contradiction, others: Mapping[str, tuple[Any, FieldVerdict]]
-) -> tuple[Any, FieldVerdict]:
-    """What is told in place of a value that was contradicted, and how sure it is.
-
-    Another engine's answer is taken where it has a bound of its error, is not what was refuted, and is what was shown.
-    """
-    found, verdict = others.get(path, (None, _UNDECIDED))
-    probable = verdict.verdict == "probable" and found is not None and found != value
-    if probable and one.shown in (None, found) and not one.why.startswith("it rests"):
-        return found, verdict
-    field = path.rpartition("/")[2]
-    return (None if path.count("/") > 1 else _OPEN.get(field, value)), _UNDECIDED
-
-
-def _entry(entry: ConstraintEntry, instead: Mapping[str, tuple[Any, FieldVerdict]]) -> ConstraintEntry:
+def _entry(entry: ConstraintEntry, contradictions: Mapping[str, str]) -> ConstraintEntry:
     start = _entry_path(entry)
-    found = {field: instead[f"{start}/{field}"] for field in entry.verdicts if f"{start}/{field}" in instead}
-    if not found:
+    fields = [field for field in entry.verdicts if f"{start}/{field}" in contradictions]
+    if not fields:
         return entry
-    verdicts = {**entry.verdicts, **{field: verdict for field, (_, verdict) in found.items()}}
-    weak = weakest(entry.verdict, *(verdict.verdict for _, verdict in found.values()))
-    told = {field: value for field, (value, _) in found.items()}
-    return entry.model_copy(update={**told, "verdicts": verdicts, "verdict": weak})
+    verdicts = {**entry.verdicts, **dict.fromkeys(fields, _UNDECIDED)}
+    return entry.model_copy(update={**dict.fromkeys(fields), "verdicts": verdicts, "verdict": "undecided"})

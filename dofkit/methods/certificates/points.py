@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -52,111 +52,49 @@ def residual(scenery: Scenery, floats: Mapping[str, float], names: Sequence[str]
     return max((abs(estimates.value(scenery.left(name))) for name in names), default=0.0)
 
 
-class PointSettling:
-    """Makes points of a scene that can be checked."""
-
-    def __init__(self, scenery: Scenery) -> None:
-        self.scenery, self.problem = scenery, scenery.problem
-
-    def pivots(self, floats: Mapping[str, float], names: Sequence[str], unknowns: set[str]) -> list[Pivot]:
-        """Independent rows, with columns that are easily solved for."""
-        estimates = Estimates(floats)
-        lefts = [self.scenery.left(name) for name in names]
-        rows = [{n: s for n, s in estimates.gradient(left).items() if n in unknowns} for left in lefts]
-        generic = set(self.problem.world.generic)
-
-        def weight(place: int, column: str) -> float:
-            if column in generic:
-                return 1e6
-            return 1e3 if derivative(lefts[place], column).head == "number" else 1.0
-
-        return echelon(rows, weight).pivots
-
-    def settled(self, found: dict[str, float], names: Sequence[str], unknowns: set[str]) -> FoundPoint | None:
-        """All that is no column rounded to short numbers, the columns found again."""
-        pivots = self.pivots(found, names, unknowns)
-        rows, columns = [names[p.row] for p in pivots], [p.column for p in pivots]
-        for most in _ROUNDINGS:
-            exact = {name: Fraction(round(value * most), most) for name, value in found.items() if name not in columns}
-            exact |= {name: value for name, value in self.scenery.parameters.items() if name in exact}
-            if any(s != "real" and exact.get(n, 1) <= 0 for n, s in self.problem.world.signs.items()):
-                continue
-            floats = {**found, **floats_of(exact)}
-            try:
-                floats_again = self._square(floats, rows, columns)
-            except NoEstimateError:
-                continue
-            if floats_again is None or residual(self.scenery, floats_again, names) > NEAR:
-                continue
-            if all(abs(floats_again[c] - found[c]) < 1 + abs(found[c]) for c in columns):
-                return self._written(exact, floats_again, rows, columns)
-        return None
-
-    def _square(
-        self, floats: Mapping[str, float], rows: Sequence[str], columns: Sequence[str]
-    ) -> dict[str, float] | None:
-        found, wanted = dict(floats), set(columns)
-        for _ in range(ITERATIONS):
-            estimates = Estimates(found)
-            pairs = [estimates.value_and_gradient(self.scenery.left(name)) for name in rows]
-            matrix = [{n: s for n, s in slope.items() if n in wanted} for _, slope in pairs]
-            step = solved(matrix, [value for value, _ in pairs], columns)
-            if step is None or any(abs(change) > 1e6 for change in step.values()):
-                return None
-            found |= {name: found[name] - change for name, change in step.items()}
-            if max(map(abs, step.values()), default=0.0) < 1e-13:
-                return found
-        return None
-
-    def _written(
-        self, exact: Mapping[str, Fraction], floats: Mapping[str, float], rows: list[str], columns: list[str]
-    ) -> FoundPoint | None:
-        """The point with short numbers for the columns where these are exact, else as a box."""
-        short = {name: Fraction(floats[name]).limit_denominator(2**21) for name in columns}
-        if all(abs(float(short[name]) - floats[name]) < 1e-11 for name in columns):
-            values = {**exact, **short}
-            if self._holds(values, rows):
-                texts = {name: number_text(value) for name, value in self._ordered(values).items()}
-                return FoundPoint("P", texts, dict(floats), self.scenery.functions, rank=len(rows))
-        texts = {name: number_text(value) for name, value in self._ordered(exact).items()}
-        centre = self._refined(exact, floats, rows, columns)
-        return FoundPoint("P", texts | centre, dict(floats), self.scenery.functions, rows, columns, len(rows))
-
-    def _ordered(self, values: Mapping[str, Fraction]) -> dict[str, Fraction]:
-        first = [name for name in self.scenery.parameters if name in values]
-        return {name: values[name] for name in (*first, *(n for n in values if n not in first))}
-
-    def _holds(self, values: Mapping[str, Fraction], names: Sequence[str]) -> bool:
-        point = CheckedPoint("", {n: number(v) for n, v in values.items()}, {}, self.scenery.effort)
-        return all(self.scenery.evidence.ring.vanishes(point.prepared(self.scenery.left(name))) for name in names)
-
-    def _refined(
-        self, exact: Mapping[str, Fraction], floats: Mapping[str, float], rows: list[str], columns: list[str]
-    ) -> dict[str, str]:
-        """Decimals of the columns, by Newton's method with a fixed matrix in balls."""
-        estimates = Estimates(floats)
-        wanted = set(columns)
-        lefts: list[Tree] = [self.scenery.left(name) for name in rows]
-        matrix = [{n: s for n, s in estimates.gradient(left).items() if n in wanted} for left in lefts]
-        with ctx.workprec(PRECISION):
-            balls = {n: arb(fmpq(v.numerator, v.denominator)) for n, v in exact.items()}
-            balls |= {name: arb(floats[name]) for name in columns}
-            balls["tdot"] = arb(1)
-            for _ in range(6):
-                values = [evaluated(left, balls, self.scenery.effort).mid() for left in lefts]
-                size = max((abs(float(v)) for v in values), default=0.0)
-                if size < 1e-60:
-                    break
-                scaled = solved(matrix, [float(v / size) for v in values], columns) or {}
-                balls |= {name: (balls[name] - arb(scaled.get(name, 0.0)) * arb(size)).mid() for name in columns}
-            return {name: balls[name].str(DIGITS, radius=False) for name in columns}
-
-
-# Points: the scene's own configuration, or one that is looked for; exact, or a box for interval Newton.
-
 ATTEMPTS = 5
 #: Of a hundred attempts for an inequality so many start afar, those after them near the origin.
 AFAR = 12
+
+
+def solved_rows(
+    scenery: Scenery, floats: Mapping[str, float], rows: Sequence[str], columns: Sequence[str]
+) -> dict[str, float] | None:
+    """Return the floats with the columns solved for by Newton's method on as many rows, or None."""
+    found, wanted = dict(floats), set(columns)
+    for _ in range(ITERATIONS):
+        estimates = Estimates(found)
+        pairs = [estimates.value_and_gradient(scenery.left(name)) for name in rows]
+        matrix = [{n: s for n, s in slope.items() if n in wanted} for _, slope in pairs]
+        step = solved(matrix, [value for value, _ in pairs], columns)
+        if step is None or any(abs(change) > 1e6 for change in step.values()):
+            return None
+        found |= {name: found[name] - change for name, change in step.items()}
+        if max(map(abs, step.values()), default=0.0) < 1e-13:
+            return found
+    return None
+
+
+def refined(
+    scenery: Scenery, exact: Mapping[str, Fraction], floats: Mapping[str, float], rows: list[str], columns: list[str]
+) -> dict[str, str]:
+    """Decimals of the columns, by Newton's method with a fixed matrix in balls."""
+    estimates = Estimates(floats)
+    wanted = set(columns)
+    lefts: list[Tree] = [scenery.left(name) for name in rows]
+    matrix = [{n: s for n, s in estimates.gradient(left).items() if n in wanted} for left in lefts]
+    with ctx.workprec(PRECISION):
+        balls = {n: arb(fmpq(v.numerator, v.denominator)) for n, v in exact.items()}
+        balls |= {name: arb(floats[name]) for name in columns}
+        balls["tdot"] = arb(1)
+        for _ in range(6):
+            values = [evaluated(left, balls, scenery.effort).mid() for left in lefts]
+            size = max((abs(float(v)) for v in values), default=0.0)
+            if size < 1e-60:
+                break
+            scaled = solved(matrix, [float(v / size) for v in values], columns) or {}
+            balls |= {name: (balls[name] - arb(scaled.get(name, 0.0)) * arb(size)).mid() for name in columns}
+        return {name: balls[name].str(DIGITS, radius=False) for name in columns}
 
 
 class PointSearch:
@@ -164,7 +102,6 @@ class PointSearch:
 
     def __init__(self, scenery: Scenery, witness: Mapping[str, str] | None) -> None:
         self.scenery, self.problem = scenery, scenery.problem
-        self.settling = PointSettling(scenery)
         self.witness = {name: _fraction(text) for name, text in (witness or {}).items()}
 
     def reference(self) -> FoundPoint | None:
@@ -194,7 +131,7 @@ class PointSearch:
             try:
                 start = self._start(attempt, unknowns)
                 found = self.approached(start, names, set(unknowns))
-                point = self.settling.settled(found, names, set(unknowns)) if found is not None else None
+                point = self.settled(found, names, set(unknowns)) if found is not None else None
             except (NoEstimateError, CheckError):
                 continue
             if point is not None and (best is None or point.rank == wanted):
@@ -205,27 +142,17 @@ class PointSearch:
             best.name = "P" if seed == 0 else f"P{seed}"
         return best
 
-    def meeting(self, name: str, seed: int = 100) -> FoundPoint | None:
-        """A point at which an inequality holds, and the finite relations."""
+    def meeting(self, inequalities: Sequence[str], seed: int = 100) -> FoundPoint | None:
+        """Return a point at which inequalities hold, and the finite relations."""
         finite = self.scenery.evidence.finite
         for attempt in range(seed, seed + AFAR + 6):
             point = self.somewhere(finite, self.problem.coordinates, attempt)
             if point is None:
                 return None
-            if self._is_positive(point, name):
-                point.name = f"P{attempt} {name}"
+            if all(self._is_positive(point, name) for name in inequalities):
+                point.name = f"P{attempt} {' '.join(inequalities)}"
                 return point
         return None
-
-    def open_points(self, seed: int = 200) -> Iterator[FoundPoint]:
-        """Points at which the finite relations and all inequalities hold."""
-        names = [one.name for one in self.problem.relations if one.kind == "inequality"]
-        for attempt in range(seed, seed + AFAR + 6):
-            point = self.somewhere(self.scenery.evidence.finite, self.problem.coordinates, attempt)
-            if point is not None and all(self._is_positive(point, name) for name in names):
-                point.name = f"P{attempt}"
-                yield point
-                return
 
     def _is_positive(self, point: FoundPoint, name: str) -> bool:
         try:
@@ -291,6 +218,62 @@ class PointSearch:
             if len(own) == 1:
                 floats[own[0]] -= value / slope[own[0]]
         return floats
+
+    def pivots(self, floats: Mapping[str, float], names: Sequence[str], unknowns: set[str]) -> list[Pivot]:
+        """Independent rows, with columns that are easily solved for."""
+        estimates = Estimates(floats)
+        lefts = [self.scenery.left(name) for name in names]
+        rows = [{n: s for n, s in estimates.gradient(left).items() if n in unknowns} for left in lefts]
+        generic = set(self.problem.world.generic)
+
+        def weight(place: int, column: str) -> float:
+            if column in generic:
+                return 1e6
+            return 1e3 if derivative(lefts[place], column).head == "number" else 1.0
+
+        return echelon(rows, weight).pivots
+
+    def settled(self, found: dict[str, float], names: Sequence[str], unknowns: set[str]) -> FoundPoint | None:
+        """All that is no column rounded to short numbers, the columns found again."""
+        pivots = self.pivots(found, names, unknowns)
+        rows, columns = [names[p.row] for p in pivots], [p.column for p in pivots]
+        for most in _ROUNDINGS:
+            exact = {name: Fraction(round(value * most), most) for name, value in found.items() if name not in columns}
+            exact |= {name: value for name, value in self.scenery.parameters.items() if name in exact}
+            if any(s != "real" and exact.get(n, 1) <= 0 for n, s in self.problem.world.signs.items()):
+                continue
+            floats = {**found, **floats_of(exact)}
+            try:
+                floats_again = solved_rows(self.scenery, floats, rows, columns)
+            except NoEstimateError:
+                continue
+            if floats_again is None or residual(self.scenery, floats_again, names) > NEAR:
+                continue
+            if all(abs(floats_again[c] - found[c]) < 1 + abs(found[c]) for c in columns):
+                return self._written(exact, floats_again, rows, columns)
+        return None
+
+    def _written(
+        self, exact: Mapping[str, Fraction], floats: Mapping[str, float], rows: list[str], columns: list[str]
+    ) -> FoundPoint | None:
+        """The point with short numbers for the columns where these are exact, else as a box."""
+        short = {name: Fraction(floats[name]).limit_denominator(2**21) for name in columns}
+        if all(abs(float(short[name]) - floats[name]) < 1e-11 for name in columns):
+            values = {**exact, **short}
+            if self._holds(values, rows):
+                texts = {name: number_text(value) for name, value in self._ordered(values).items()}
+                return FoundPoint("P", texts, dict(floats), self.scenery.functions, rank=len(rows))
+        texts = {name: number_text(value) for name, value in self._ordered(exact).items()}
+        centre = refined(self.scenery, exact, floats, rows, columns)
+        return FoundPoint("P", texts | centre, dict(floats), self.scenery.functions, rows, columns, len(rows))
+
+    def _ordered(self, values: Mapping[str, Fraction]) -> dict[str, Fraction]:
+        first = [name for name in self.scenery.parameters if name in values]
+        return {name: values[name] for name in (*first, *(n for n in values if n not in first))}
+
+    def _holds(self, values: Mapping[str, Fraction], names: Sequence[str]) -> bool:
+        point = CheckedPoint("", {n: number(v) for n, v in values.items()}, {}, self.scenery.effort)
+        return all(self.scenery.evidence.ring.vanishes(point.prepared(self.scenery.left(name))) for name in names)
 
 
 def _fraction(text: str) -> Fraction:

@@ -7,15 +7,14 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Literal
 
-from dofkit.checker.label_rules import form_of
 from dofkit.checker.problem import CheckedProblem as Problem
 from dofkit.checker.problem import canonical, sha256_of
 from dofkit.checker.relations import FAULTS, told
-from dofkit.checker.trees import CheckError, Tree
+from dofkit.checker.trees import CheckError
 from dofkit.checker.verification import PARTS, Verifier
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint, PointSearch
-from dofkit.methods.certificates.scenery import FAR, MOST_ROWS, Scenery
+from dofkit.methods.certificates.scenery import MOST_ROWS, Scenery
 from dofkit.methods.certificates.steps import accounted, rate_of, reduced
 from dofkit.report import Report
 
@@ -80,8 +79,8 @@ class Standing:
 
 
 @dataclass
-class RoomParts:
-    """The report, the reading of the scene, and the parts found so far."""
+class Room:
+    """A report and a reading of its scene, the main point, and rows that are independent there."""
 
     report: Report
     document: Mapping[str, Any]
@@ -100,10 +99,9 @@ class RoomParts:
             entries.append(point.entry())
         return point.name
 
-    def minor(self, standing: Standing, size: int | None = None) -> str:
-        """The id of a minor: of all rows, or of the first ``size``."""
-        rows, columns = standing.rows[:size], standing.columns[:size]
-        given = {"at": standing.point.name, "rows": rows, "columns": columns}
+    def minor(self, standing: Standing) -> str:
+        """Return the id of the minor of the rows and columns."""
+        given = {"at": standing.point.name, "rows": standing.rows, "columns": standing.columns}
         minors = self.scenery.parts["minors"]
         for one in minors:
             if all(one[key] == value for key, value in given.items()):
@@ -111,25 +109,6 @@ class RoomParts:
         name = f"M{len(minors)}"
         minors.append({"id": name, **given})
         return name
-
-    def form(self, name: str) -> dict[str, Tree] | None:
-        """The components of a linear form."""
-        try:
-            return form_of(self.scenery.evidence, name)
-        except CheckError:
-            return None
-
-    def met(self, form: Mapping[str, Tree]) -> frozenset[str]:
-        """The variables of a form: those it moves and those it mentions."""
-        return frozenset(form).union(*(tree.symbols for tree in form.values()))
-
-    def differs(self, tree: Tree, point: FoundPoint) -> bool:
-        """Whether a tree is not 0 at a point, by far."""
-        return self.scenery.differs(tree, point.floats)
-
-
-class Room(RoomParts):
-    """One reading of a scene with its main point, and rows that are independent there."""
 
     @property
     def small(self) -> bool:
@@ -231,16 +210,6 @@ class Room(RoomParts):
         }
 
     @cached_property
-    def has_empty_row(self) -> bool:
-        """Whether a relation is stationary at the main point."""
-        try:
-            return self.point is not None and not all(
-                any(abs(v) > FAR for v in self.row(n, self.point).values()) for n in self.equations
-            )
-        except NoEstimateError:
-            return False
-
-    @cached_property
     def standing(self) -> Standing | None:
         """The main point with rows among all equations, the finite ones first; the others by steps if possible."""
         return self.accounted(self.finite_first)
@@ -250,23 +219,6 @@ class Room(RoomParts):
         """The equations in the order in which one is independent of those before it."""
         relation = self.scenery.evidence.relation
         return sorted(self.equations, key=lambda name: relation(name).kind != "finite")
-
-    def rows_through(self, owner: str) -> list[str]:
-        """The equations up to the last one of a constraint."""
-        last = max((k for k, name in enumerate(self.finite_first) if self.owner(name) == owner), default=-1)
-        return self.finite_first[: last + 1]
-
-    def solving(self, columns: Sequence[str]) -> Standing | None:
-        """The finite rows with just these columns; None where these do not do."""
-        found = self.finite_standing
-        if found is None or len(columns) != len(found.rows):
-            return None
-        wanted = set(columns)
-        matrix = [{q: v for q, v in self.row(name, found.point).items() if q in wanted} for name in found.rows]
-        pivots = echelon(matrix).pivots
-        if len(pivots) < len(columns):
-            return None
-        return Standing(found.point, found.rows, [p.column for p in pivots], found.dependent, found.accounted)
 
     @cached_property
     def finite_standing(self) -> Standing | None:

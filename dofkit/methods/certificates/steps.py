@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 from itertools import combinations
 from typing import Any
 
@@ -58,7 +59,7 @@ def _stand(scenery: Scenery, *steps: Step) -> bool:
 
 def _steps(label: str, name: str, left: Tree) -> list[Step]:
     """Steps to the bases of a power or a sum of squares, and back; none where it is no such thing."""
-    squares = [_square(term) for term in (left.below if left.head == "sum" else (left,))]
+    squares = [_square(term) for term in _operands(left, "sum")]
     pairs = [pair for pair in squares if pair is not None]
     signs = {coefficient > 0 for coefficient, *_ in pairs}
     if len(pairs) < len(squares) or len(signs) > 1 or (len(pairs) > 1 and any(k != 2 for *_, k in pairs)):
@@ -77,7 +78,7 @@ def _steps(label: str, name: str, left: Tree) -> list[Step]:
 
 def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
     """A term as a number times an even power of what is no number."""
-    factors = term.below if term.head == "product" else (term,)
+    factors = _operands(term, "product")
     coefficient, base, exponent = Fraction(1), None, 0
     for factor in factors:
         if isinstance(factor.value, Fraction):
@@ -96,9 +97,9 @@ def without_factor(scenery: Scenery, name: str) -> str:
     step, left = f"{scenery.label}{name} without its factor", scenery.evidence.relation(name).left
     if scenery.has_step(step):
         return step
-    terms = [_factors(term) for term in (left.below if left.head == "sum" else (left,))]
+    terms = [_operands(term, "product") for term in _operands(left, "sum")]
     for factor in terms[0]:
-        positive = _positive(factor)
+        positive = positive_sum(factor)
         if positive is None or not all(factor in term for term in terms):
             continue
         places = [term.index(factor) for term in terms]
@@ -111,20 +112,26 @@ def without_factor(scenery: Scenery, name: str) -> str:
     return name
 
 
-def _factors(term: Tree) -> list[Tree]:
-    return [one for part in term.below for one in _factors(part)] if term.head == "product" else [term]
+def _operands(tree: Tree, head: str) -> list[Tree]:
+    """Return the terms of a sum or the factors of a product, those of sums in sums and products in products too."""
+    return [one for part in tree.below for one in _operands(part, head)] if tree.head == head else [tree]
 
 
-def _positive(tree: Tree) -> tuple[str, list[tuple[str, Tree]]] | None:
-    """A sum as a positive number and squares of bases with positive coefficients."""
-    numbers = [part.value for part in tree.below if isinstance(part.value, Fraction)]
-    squares = [_square(part) for part in tree.below if not isinstance(part.value, Fraction)]
-    terms = [
-        (number_text(one[0]), power(one[1], number(one[2] // 2))) for one in squares if one is not None and one[0] > 0
+def positive_sum(tree: Tree, sign: Fraction = Fraction(1)) -> tuple[str, list[tuple[str, Tree]]] | None:
+    """Return a sum (times a number) as a positive number and squares of bases with positive coefficients."""
+    if tree.head == "product" and isinstance(tree.below[0].value, Fraction) and len(tree.below) == 2:
+        return positive_sum(tree.below[1], sign * tree.below[0].value)
+    terms = _operands(tree, "sum")
+    constant = sum((sign * term.value for term in terms if isinstance(term.value, Fraction)), Fraction(0))
+    squares = [_square(term) for term in terms if not isinstance(term.value, Fraction)]
+    positive = [
+        (number_text(sign * one[0]), power(one[1], number(one[2] // 2)))
+        for one in squares
+        if one is not None and sign * one[0] > 0
     ]
-    if tree.head != "sum" or len(terms) < len(squares) or not numbers or numbers[0] <= 0:
+    if tree.head != "sum" or len(positive) < len(squares) or constant <= 0:
         return None
-    return number_text(numbers[0]), terms
+    return number_text(constant), positive
 
 
 # Coordinates that finite relations give by others: put into a relation, they may leave nothing of it.
@@ -135,22 +142,27 @@ Order = list[list[str]]
 LARGEST_OF_PAIR = 30
 
 
-def puts(scenery: Scenery, names: Sequence[str]) -> Order:
-    """Finite relations with the coordinates that they give, in the order in which these are put into others.
-
-    The later one is put in, the fewer coordinates its relation holds that another one gives.
-    """
-    evidence, coordinates = scenery.evidence, scenery.problem.coordinates
-    lefts = {name: evidence.relation(name).left for name in names if evidence.relation(name).kind == "finite"}
-    held = {name: left.symbols.intersection(coordinates) for name, left in lefts.items()}
+def given_in_order(names: Iterable[str], scenery: Scenery, gives: Callable[[str, str], bool]) -> Order:
+    """Return relations with a coordinate each that those before do not hold, the ones with few coordinates first."""
+    coordinates, evidence = scenery.problem.coordinates, scenery.evidence
+    held = {name: evidence.relation(name).left.symbols.intersection(coordinates) for name in names}
     order: Order = []
     taken: set[str] = set()
     for name in sorted(held, key=lambda one: len(held[one])):
-        fit = [q for q in coordinates if q in held[name] - taken and _gives(scenery, name, q)]
-        if fit:
-            order.insert(0, [name, fit[0]])
+        fit = next((q for q in coordinates if q in held[name] - taken and gives(name, q)), None)
+        if fit is not None:
+            order.append([name, fit])
             taken |= held[name]
     return order
+
+
+def puts(scenery: Scenery, names: Sequence[str]) -> Order:
+    """Return finite relations with the coordinates that they give, in the order in which these are put into others.
+
+    The later one is put in, the fewer coordinates its relation holds that another one gives.
+    """
+    finite = [name for name in names if scenery.evidence.relation(name).kind == "finite"]
+    return given_in_order(finite, scenery, partial(_gives, scenery))[::-1]
 
 
 def _gives(scenery: Scenery, name: str, q: str) -> bool:

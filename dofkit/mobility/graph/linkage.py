@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from dofkit.base.display import Displayed
 from dofkit.base.wording import many
-from dofkit.mobility.graph.links import GraphAnswer, Joint, LineGraph, Link, LinkageError, Proof, Question, read
+from dofkit.mobility.graph.links import Joint, LineGraph, Link, LinkageError, Proof, Question, read
 from dofkit.mobility.graph.plane import PlaneGraph
 from dofkit.mobility.graph.space import SpaceGraph
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from dofkit.base.verdicts import Verdict
 
 #: The class that answers in each dimension.
-_GRAPHS: dict[int, type[GraphAnswer]] = {1: LineGraph, 2: PlaneGraph, 3: SpaceGraph}
+_GRAPHS: dict[int, type[LineGraph | PlaneGraph | SpaceGraph]] = {1: LineGraph, 2: PlaneGraph, 3: SpaceGraph}
 
 
 class Group(NamedTuple):
@@ -58,7 +58,7 @@ class Linkage(Displayed):
     dimension: int
     joints: tuple[Joint, ...]
     links: tuple[Link, ...]
-    _answer: GraphAnswer = field(repr=False)
+    _answer: LineGraph | PlaneGraph | SpaceGraph = field(repr=False)
 
     @property
     def rank(self) -> int:

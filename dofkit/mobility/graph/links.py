@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from dofkit.base.errors import DofkitError
 from dofkit.base.libraries import np, nx
@@ -40,29 +40,6 @@ class Graph(NamedTuple):
     joints: tuple[Joint, ...]
     links: Sequence[Link]
     ends: Any
-
-
-class GraphAnswer(Protocol):
-    """The answers for a graph of links in general position. Joints and links are numbers from 0."""
-
-    def __init__(self, joints: int, ends: Any) -> None:
-        """Take the number of joints, and the joints of all links in turn, an array."""
-
-    @property
-    def redundant(self) -> list[int]:
-        """The links that are implied by those before them, ascending."""
-
-    def circuits(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
-        """Yield redundant links, each with the earlier links with which it is a minimal dependent set."""
-
-    def groups(self) -> list[list[int]]:
-        """Return the classes of links of which any two lie in a minimal dependent set, without single links."""
-
-    def clusters(self) -> list[list[int]]:
-        """Return the maximal sets of joints that keep all their distances; every joint is in one at least."""
-
-    def proof(self, question: Question) -> Proof:
-        """Return how certain an answer is."""
 
 
 def read(links: Iterable[Link] | Any, joints: Iterable[Joint] = ()) -> Graph:
@@ -102,7 +79,11 @@ _PROOF = Proof("proved", "spanning forest: in one dimension a link is redundant 
 
 
 class LineGraph:
-    """Links along a line: one is redundant if and only if it closes a cycle [Kirchhoff1847]; see `GraphAnswer`."""
+    """Links along a line: one is redundant if and only if it closes a cycle [Kirchhoff1847].
+
+    Joints and links are numbers from 0; ``ends`` are the joints of all links in turn. ``redundant``: the links that are
+    implied by those before them, ascending.
+    """
 
     def __init__(self, joints: int, ends: Any) -> None:
         self._ends = list(zip(ends[::2].tolist(), ends[1::2].tolist(), strict=True))
@@ -118,6 +99,7 @@ class LineGraph:
                 self._forest.add_edge(a, b, number=i)
 
     def circuits(self, links: Sequence[int]) -> Iterator[tuple[int, list[int]]]:
+        """Yield redundant links, each with the earlier links with which it is a minimal dependent set."""
         parent: dict[int, int] = {}
         depth: dict[int, int] = {}
         for root in map(min, nx.connected_components(self._forest)):
@@ -135,6 +117,7 @@ class LineGraph:
             yield i, sorted(path)
 
     def groups(self) -> list[list[int]]:
+        """Return the classes of links of which any two lie in a minimal dependent set, without single links."""
         links: dict[frozenset[int], list[int]] = {}
         for i, pair in enumerate(self._ends):
             links.setdefault(frozenset(pair), []).append(i)
@@ -143,7 +126,9 @@ class LineGraph:
         return sorted(group for group in members if len(group) > 1)
 
     def clusters(self) -> list[list[int]]:
+        """Return the maximal sets of joints that keep all their distances; every joint is in one at least."""
         return sorted(map(sorted, nx.connected_components(self._forest)))
 
     def proof(self, question: Question) -> Proof:
+        """Return how certain an answer is."""
         return _PROOF

@@ -272,7 +272,7 @@ class PebbleGame:
 
 
 class PlaneGraph:
-    """A graph of links in two dimensions; see `dofkit.mobility.graph.links.GraphAnswer`."""
+    """A graph of links in two dimensions; see `dofkit.mobility.graph.links.LineGraph`."""
 
     def __init__(self, joints: int, ends: Any) -> None:
         self._joints = joints

@@ -28,7 +28,7 @@ _INDEPENDENT = "links are independent in general position where they are at one 
 
 
 class SpaceGraph:
-    """A graph of links in three dimensions; see `dofkit.mobility.graph.links.GraphAnswer`."""
+    """A graph of links in three dimensions; see `dofkit.mobility.graph.links.LineGraph`."""
 
     def __init__(self, joints: int, ends: Any) -> None:
         self._joints, self._ends = joints, list(zip(ends[::2].tolist(), ends[1::2].tolist(), strict=True))

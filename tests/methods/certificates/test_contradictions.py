@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib.util
 import sys
-from functools import partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -13,8 +12,7 @@ import pytest
 
 import dofkit
 from dofkit.methods.certificates.certificate import made
-from dofkit.methods.certificates.contradictions import Contradiction
-from dofkit.methods.certificates.lowering import document_of_scene, lowered, with_certificate
+from dofkit.methods.certificates.lowering import document_of_scene
 
 ROOT = Path(__file__).parents[3]
 SKATE = {"coordinates": ["x", "y", "theta"], "constraints": ["sin(theta) dx - cos(theta) dy = 0"]}
@@ -104,24 +102,6 @@ def test_another_part_of_the_set_contradicts_nothing() -> None:
     # The circle is told of: the point that lies beside it, at the origin, has no freedom.
     scene = {"coordinates": ["x", "y"], "constraints": ["(x^2 + y^2 - 1) (x^2 + y^2) = 0"]}
     assert contradicted(scene) == {}
-
-
-def test_what_points_over_a_field_say_as_well_is_probable() -> None:
-    scene = dofkit.load(HYPERBOLA)
-    wrong = dofkit.classify(scene).model_copy(update={"dof": 2})
-    found = with_certificate(scene, wrong, partial(dofkit.classify, scene, method="field"))
-    verdict = found.verdicts["dof"]
-    assert (found.dof, verdict.verdict) == (1, "probable")
-    assert verdict.bound is not None
-    assert any("/dof" in line and "it is probable" in line for line in found.warnings)
-
-
-def test_a_value_that_was_refuted_is_not_told_again() -> None:
-    report, field = dofkit.classify(HYPERBOLA), dofkit.classify(HYPERBOLA, method="field")
-    for told, shown in ((1, None), (2, 0)):
-        wrong = report.model_copy(update={"dof": told})
-        found = lowered(wrong, {"/dof": Contradiction("the evidence gives another value", shown)}, field)
-        assert (found.dof, found.verdicts["dof"].verdict) == (None, "undecided")
 
 
 @pytest.mark.sweep
