@@ -57,7 +57,7 @@ def template(prepared: Prepared, form: str) -> str:
     for problem in prepared.assignment.problems:
         lines.append(f"  {json.dumps(problem.id, ensure_ascii=False)}:")
         for question in problem.questions:
-            asked = " ".join(question.asked(", ".join(question.about)).told(prepared.assignment.language).split())
+            asked = " ".join(question.asked(", ".join(question.about)).translated(prepared.assignment.language).split())
             lines.append(f"    {json.dumps(question.id, ensure_ascii=False)}:  # {asked}")
     return "\n".join(lines) + "\n"
 
@@ -74,7 +74,7 @@ def best_questions(key: Key) -> Iterator[dict[str, Any]]:
 
 def _by_kind(every: Sequence[dict[str, Any]]) -> Iterator[list[dict[str, Any]]]:
     for kind in _KINDS:
-        if asked := [one for one in every if one["ask"] == kind]:
+        if asked := [question for question in every if question["ask"] == kind]:
             yield asked
 
 

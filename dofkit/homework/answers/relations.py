@@ -89,8 +89,8 @@ class AnswerReading(NamedTuple):
             Comparison(substitute(c.left, still), c.relation, substitute(c.right, still), c.column)
             for c in self.relations
         )
-        own = (*self.own, *(n for n, kinds in used.items() if kinds))
-        return self._replace(relations=relations, own=own, moving=self.moving | moving)
+        undeclared = (*self.own, *(n for n, kinds in used.items() if kinds))
+        return self._replace(relations=relations, own=undeclared, moving=self.moving | moving)
 
     def read(self, constants: frozenset[str] = frozenset()) -> Read:
         """As equations for a scene."""
@@ -122,7 +122,7 @@ class AnswerNames:
     rank: int = 0
     frequencies: bool = False
 
-    def known(self) -> Names:
+    def as_names(self) -> Names:
         """All of them as names of a text; `e` is Euler's number unless it is declared."""
         base = self.names
         more: dict[str, Expr] = {**({"e": E} if self.euler else {}), **self.usual}
@@ -181,8 +181,8 @@ class AnswerNames:
     def _twin(self, word: str) -> str | None:
         """The one declared name that differs by capitals and `_` only."""
         declared = (*self.names.coordinates, *self.names.parameters)
-        found = {name for name in declared if unmarked(name) == unmarked(word)}
-        return found.pop() if len(found) == 1 else None
+        twins = {name for name in declared if unmarked(name) == unmarked(word)}
+        return twins.pop() if len(twins) == 1 else None
 
     def _may_be_own(self, word: str) -> bool:
         """Is it a short name? ``x_A`` is none where x is declared, as z is none: they are meant for coordinates."""
@@ -199,20 +199,20 @@ class AnswerNames:
         """With the one letter of a word that is no name, where all the others are: `Cx` is C x, `Ce^x` C e^x."""
         if len(word) < 2 or spelled(word) in _LONG or "_" in word or _WHOLE.match(word):
             return None
-        found = []
+        candidates = []
         for base in (self, replace(self, euler="e" in word or self.euler)):
             for letter in dict.fromkeys(["", *(c for c in word if c.isalpha() and not base.declares(c))]):
                 if letter and not base._may_be_own(letter):
                     continue
                 grown = replace(base, own=(*base.own, letter)) if letter else base
                 try:
-                    read_word(word, grown.known().lookup, 1, False)
+                    read_word(word, grown.as_names().lookup, 1, False)
                 except TextError:
                     continue
-                found.append(grown)
-            if found:
+                candidates.append(grown)
+            if candidates:
                 break
-        return found[0] if len(found) == 1 else None
+        return candidates[0] if len(candidates) == 1 else None
 
 
 def with_explained_names(ways: Iterable[AnswerReading], names: DeclaredNames) -> list[AnswerReading]:
@@ -251,7 +251,7 @@ def readings_of(
     defined = {word for script in pieces.scripts for word in _defined_constants(script, vocabulary)}
     vocabulary = replace(vocabulary, own=(*vocabulary.own, *sorted(defined)))
     if lead is not None:
-        pieces = replace(pieces, scripts=tuple(lead(one) for one in pieces.scripts))
+        pieces = replace(pieces, scripts=tuple(lead(piece) for piece in pieces.scripts))
     return list(_readings(pieces, vocabulary))
 
 
@@ -262,19 +262,28 @@ def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading
         script = plainer(script, vocabulary.names)
         if pieces.derived and n + 1 < len(pieces.scripts) and not _readable(script, vocabulary):
             continue
-        for relations, bare, own in ways:
-            for found, grown in _ways(script, own):
-                alone = len(found) == 1 and not _RELATION.search(script.text)
-                more.append(((*relations, *found), (*bare, *[alone] * len(found)), grown))
+        for relations, bare, extended in ways:
+            for more_relations, grown in _ways(script, extended):
+                alone = len(more_relations) == 1 and not _RELATION.search(script.text)
+                more.append(((*relations, *more_relations), (*bare, *[alone] * len(more_relations)), grown))
         ways = more
         if len(ways) > MOST_READINGS:
             raise DoubtError("it can be read in many ways.", script.columns[0], "write parentheses")
-    for relations, bare, own in ways:
-        told = [c.left != c.right or not own.usual for c in relations]
-        if any(told) and not all(told):
-            relations = tuple(c for c, kept in zip(relations, told, strict=True) if kept)
-            bare = tuple(b for b, kept in zip(bare, told, strict=True) if kept)
-        yield AnswerReading(relations, bare, own.own, own.moving, own.meant, pieces.derived, own.places, own.rank)
+    for relations, bare, extended in ways:
+        informative = [c.left != c.right or not extended.usual for c in relations]
+        if any(informative) and not all(informative):
+            relations = tuple(c for c, kept in zip(relations, informative, strict=True) if kept)
+            bare = tuple(b for b, kept in zip(bare, informative, strict=True) if kept)
+        yield AnswerReading(
+            relations,
+            bare,
+            extended.own,
+            extended.moving,
+            extended.meant,
+            pieces.derived,
+            extended.places,
+            extended.rank,
+        )
 
 
 def _readable(script: Script, vocabulary: AnswerNames) -> bool:
@@ -293,7 +302,7 @@ def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Compa
     script = _with_both_signs(script)
     while True:
         try:
-            relations = parse_relations(script.text, vocabulary.known())
+            relations = parse_relations(script.text, vocabulary.as_names())
             if not (other := _of_other_meaning(script, vocabulary)):
                 yield relations, vocabulary
                 return
@@ -349,9 +358,9 @@ def _of_other_meaning(script: Script, vocabulary: AnswerNames) -> tuple[str, ...
     if not vocabulary.usual:
         return ()
     plain_names = replace(vocabulary, usual={}, own=(*vocabulary.own, *vocabulary.usual))
-    relations = parse_relations(script.text, plain_names.known())
+    relations = parse_relations(script.text, plain_names.as_names())
     written = {s for c in relations for e in (c.left, c.right) for s in e.symbols}
-    read = parse_relations(script.text, vocabulary.known())
+    read = parse_relations(script.text, vocabulary.as_names())
     if all(c.left == c.right for c in read):
         return ()  # `v = xdot` says what the name means
     return tuple(word for word, quantity in vocabulary.usual.items() if quantity in written)
@@ -364,7 +373,7 @@ def _with_both_signs(script: Script) -> Script:
     sides = script.text.split("=")
     if len(sides) != 2:
         return script
-    product = "*".join(f"(({one}) - ({other}))" for one, other in (_signed(sides, "+-"), _signed(sides, "-+")))
+    product = "*".join(f"(({upper}) - ({other}))" for upper, other in (_signed(sides, "+-"), _signed(sides, "-+")))
     return Script(f"{product} = 0", (script.columns[0],) * (len(product) + 5))
 
 

@@ -108,18 +108,18 @@ def posed_motion(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
     used = {n for c in way.relations for n in _names(c)} & key.also.keys()
     other = (*strange, *sorted(used))
     defining = [c for c in way.relations if c.relation == "=" and _defines(c, other)]
-    rest = [c for c in way.relations if c not in defining]
+    claims = [c for c in way.relations if c not in defining]
     defined = {n for c in defining for n in other if n in _names(c)}
-    if value and len(rest) != 1:
+    if value and len(claims) != 1:
         raise TextError("one expression is needed here", 1, "write the expression alone, such as L = ...")
     if used - defined:
         key = offered(key, sorted(used - defined))
         other = tuple(name for name in other if name not in used - defined)
     if defined and defined == set(other):
         key = extended(key, other, defining)
-    if defined == set(other) and rest:
+    if defined == set(other) and claims:
         table = {ex.parameter(n): ex.coordinate(n) for n in other}
-        return PosedMotion(key, tuple(_substituted(c, table) for c in rest), multipliers)
+        return PosedMotion(key, tuple(_substituted(c, table) for c in claims), multipliers)
     guesses = tuple(
         PosedMotion(key, guess.relations, multipliers)
         for guess, _ in renamed(way._replace(own=other), key.scene, key.declared.constants)
@@ -154,21 +154,21 @@ def _named_value(way: AnswerReading) -> AnswerReading:
     name = str(first.left.args[1]) if first.left.op == "sym" and first.relation == "=" else ""
     if len(way.relations) > 1 or name not in way.own or name in way.moving or first.left in first.right.symbols:
         return way
-    own = tuple(n for n in way.own if n != name)
-    return way._replace(relations=(Comparison(first.right, "=", ZERO, first.column),), bare=(True,), own=own)
+    undeclared = tuple(n for n in way.own if n != name)
+    return way._replace(relations=(Comparison(first.right, "=", ZERO, first.column),), bare=(True,), own=undeclared)
 
 
 def _names(c: Comparison) -> set[str]:
     return {str(s.args[1]) for e in (c.left, c.right) for s in e.symbols if len(s.args) > 1}
 
 
-def _defines(c: Comparison, own: Sequence[str]) -> bool:
+def _defines(c: Comparison, undeclared: Sequence[str]) -> bool:
     """Is it a relation between names of the answer's own and coordinates, without velocities?"""
     symbols = c.left.symbols | c.right.symbols
     return (
-        bool(_names(c) & set(own))
+        bool(_names(c) & set(undeclared))
         and all(s.args[0] in ("coordinate", "parameter", "time") for s in symbols)
-        and any(s.args[0] == "coordinate" and s.args[1] not in own for s in symbols)
+        and any(s.args[0] == "coordinate" and s.args[1] not in undeclared for s in symbols)
     )
 
 

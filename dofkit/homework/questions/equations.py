@@ -96,8 +96,8 @@ class IntegralQuestion(QuestionBase):
         if reading.value is None:
             if entry.holonomic is None:
                 return needs_review("none", "it is not known whether the constraint is integrable.")
-            told = "The constraint is integrable, on its own or together with the other constraints."
-            return wrong("none", told, "INTEGRABLE") if entry.holonomic else right("none")
+            hint = "The constraint is integrable, on its own or together with the other constraints."
+            return wrong("none", hint, "INTEGRABLE") if entry.holonomic else right("none")
         if entry.holonomic is False:
             return wrong(
                 reading.shown,
@@ -112,8 +112,8 @@ _STILL = re.compile(r"\A\s*diff\((?P<whole>.*), t\)\s*=\s*0\s*\Z")
 
 
 def _undifferentiated(script: Script) -> Script:
-    found = _STILL.match(script.text)
-    return script if found is None else script.cut(*found.span("whole"))
+    still = _STILL.match(script.text)
+    return script if still is None else script.cut(*still.span("whole"))
 
 
 #: What a differential is written with: an equation that holds one is a reason, no integral.
