@@ -26,8 +26,8 @@ ALL = "all"
 class TrialLine:
     """A trial answered by a method: a line of ``trials.csv``, or of ``sweeps.csv``.
 
-    ``told`` is None where nothing was; ``seconds`` of processor time, of what was cut short the limit; ``why`` says
-    in a sentence why it is not right. ``knob`` and ``value``: what was turned on the method, in sweeps.
+    ``answer`` is None where there was none; ``seconds`` of processor time, of what was cut short the limit; ``why``
+    says in a sentence why it is not right. ``knob`` and ``value``: what was turned on the method, in sweeps.
     """
 
     family: str
@@ -38,7 +38,7 @@ class TrialLine:
     traits: tuple[str, ...]
     swept: Mapping[str, Any]
     truth: Any
-    told: Any
+    answer: Any
     outcome: Outcome
     seconds: float
     why: str = ""
@@ -188,7 +188,7 @@ class Data:
 
 TRIALS, SWEEPS, SUMMARY = "trials.csv", "sweeps.csv", "chart.json"
 #: Columns that hold JSON, and those that hold numbers; the others are plain text.
-_JSON = ("traits", "swept", "truth", "told")
+_JSON = ("traits", "swept", "truth", "answer")
 _NUMBERS: dict[str, Callable[[str], Any]] = {"size": int, "seconds": float, "value": float}
 _COLUMNS = [column.name for column in fields(TrialLine)]
 

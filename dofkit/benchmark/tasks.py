@@ -84,12 +84,12 @@ def evenly(row: Sequence[Any], most: int) -> list[Any]:
     return [row[round(i * (len(row) - 1) / max(1, most - 1))] for i in range(most)]
 
 
-def _names(asked: Iterable[str], known: Sequence[str], what: str, plural: str) -> list[str]:
+def _names(asked: Iterable[str], available: Sequence[str], what: str, plural: str) -> list[str]:
     names = [name.strip() for text in asked for name in text.split(",") if name.strip()]
     for name in names:
-        if name not in known:
-            raise ChartError(f"there is no {what} '{name}': {suggestion(name, known, plural)}")
-    return [name for name in known if name in names] if names else list(known)
+        if name not in available:
+            raise ChartError(f"there is no {what} '{name}': {suggestion(name, available, plural)}")
+    return [name for name in available if name in names] if names else list(available)
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ by the passes of the table `PASSES` (`passes`, with the claim of each field), by
 
 Types
     `Study`, the relations of a system in blocks with their answers; `Outcome` (in `freedom`), the answer for one
-    choice of branches; `Redundancies` (in `dependence`), what depends on what; `Claim`, a verdict with its argument
+    choice of branches; `Redundancies` (from `relations`), what depends on what; `Claim`, a verdict with its argument
     and bound.
 
 Mechanisms, in the order in which a report is filled

@@ -114,7 +114,7 @@ def _rows_at_reference(block: Block, setting: Setting, result: Answer) -> tuple[
     Raises NoValueError.
     """
     known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
-    relations = state_relations(block.rows, result.hidden)
+    relations = [e for kind in state_relations(block.rows, result.hidden) for e in kind]
     if any(not is_zero(substitute(g, known), setting.positive) for g in relations if not velocities_of(g)):
         return None
     return rows_at(relations, known)

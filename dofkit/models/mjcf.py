@@ -109,7 +109,7 @@ class _MjcfScene:
         for equality in self.content["equalities"]:
             self._equality(equality)
         self._ranges()
-        self._rest()
+        self._remarks()
         return self.draft.document(self._tolerance(), self.loops)
 
     def _body(self, index: int, body: Mapping[str, Any]) -> None:
@@ -232,7 +232,7 @@ class _MjcfScene:
                 fields = bounds(JointSum(total.terms, tendon["length"]), tendon["range"])
                 self.draft.constraint(f"{name} range", "coupling", None, **fields)
 
-    def _rest(self) -> None:
+    def _remarks(self) -> None:
         """Add what enters the motion without being a constraint, and what was changed in the model."""
         entry = self.content
         if any(entry["gravity"]) and self.draft.bodies:

@@ -261,8 +261,8 @@ class JointSum(NamedTuple):
         return _joined(terms)
 
 
-def relation(left: JointSum, right: JointSum | None, polynomial: Sequence[float]) -> dict[str, Any]:
-    """Return the fields of a coupling: left = a0 + a1 right + a2 right^2 + ...
+def relation(driven: JointSum, driving: JointSum | None, polynomial: Sequence[float]) -> dict[str, Any]:
+    """Return the fields of a coupling: driven = a0 + a1 driving + a2 driving^2 + ...
 
     >>> relation(JointSum((("hip", 1.0),)), JointSum((("knee", 1.0),)), [0, 2, 0, 0, 0])
     {'joints': {'p': 'hip', 'q': 'knee'}, 'text': 'p = 2 q'}
@@ -270,10 +270,10 @@ def relation(left: JointSum, right: JointSum | None, polynomial: Sequence[float]
     'p = 2 (-q)^2'
     """
     letters: dict[str, str] = {}
-    first = left.text(letters)
+    first = driven.text(letters)
     terms = [_signed(figures(polynomial[0]))] if polynomial[0] else []
-    if right is not None:
-        other = right.text(letters)
+    if driving is not None:
+        other = driving.text(letters)
         base = other if other in letters.values() else f"({other})"
         for power, factor in enumerate(polynomial[1:], 1):
             if factor:

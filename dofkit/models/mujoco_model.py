@@ -64,7 +64,7 @@ def described_model(source: Mapping[str, Any]) -> dict[str, Any]:
         "contacts": bool(model.ngeom and np.any(model.geom_contype | model.geom_conaffinity)),
         "flexible": int(model.nflex),
         "nv": int(model.nv),
-        "left": _left(compiled),
+        "left": _freedom_by_rank(compiled),
         "notes": notes,
     }
 
@@ -143,7 +143,7 @@ def _equality_rows(compiled: Compiled) -> tuple[Any, Any]:
     return dense[is_equality], data.efc_pos[is_equality]
 
 
-def _left(compiled: Compiled) -> int:
+def _freedom_by_rank(compiled: Compiled) -> int:
     """Return MuJoCo's own count of the freedom: nv less the rank of the active equality rows."""
     rows, _ = _equality_rows(compiled)
     return int(compiled.model.nv - (np.linalg.matrix_rank(rows, tol=1e-8) if rows.size else 0))

@@ -115,7 +115,7 @@ class _UrdfScene:
             self._loop(loop, poses.pose)
         self._mimics()
         self._ranges()
-        self._rest()
+        self._remarks()
         loops = bool(robot.loops or poses.closing)
         return self.draft.document(tolerance, loops)
 
@@ -183,7 +183,7 @@ class _UrdfScene:
             fields = bounds(JointSum(((self.names[joint.name], 1.0),), stands + turns), between)
             self.draft.constraint(f"{joint.name} range", "coupling", joint.line, **fields)
 
-    def _rest(self) -> None:
+    def _remarks(self) -> None:
         if any(body.get("mass") for body in self.draft.bodies):
             self.draft.forces.append({"type": "gravity", "acceleration": [0, 0, -9.81]})
         for remark in (*self.robot.unread, *_rounded_angles(self.robot)):

@@ -38,7 +38,7 @@ def read_equations(answer: str | Sequence[str], names: Names, constants: bool) -
 
     Raises TextError, its column counted within the answer (of several, within the one at fault).
     """
-    texts = [t for text in ((answer,) if isinstance(answer, str) else answer) for t in _parts(text)]
+    texts = [t for text in ((answer,) if isinstance(answer, str) else answer) for t in _equations_in(text)]
     if not any(text.strip() for _, text in texts):
         raise TextError("there is no equation", 1, "write an equation such as x^2 + y^2 = l^2")
     if len(texts) > MAX_EQUATIONS:
@@ -51,7 +51,7 @@ def read_equations(answer: str | Sequence[str], names: Names, constants: bool) -
     return Read(tuple(text for text, _ in read), frozenset(constants_found), text_read, moving)
 
 
-def _parts(text: str) -> Iterator[tuple[int, str]]:
+def _equations_in(text: str) -> Iterator[tuple[int, str]]:
     """(characters before it, text) of every equation in a text."""
     start = 0
     for cut in _SEPARATED.finditer(text):

@@ -110,9 +110,9 @@ def catalog_folder() -> Traversable:
     packaged = package / "_catalog"
     if packaged.is_dir():
         return packaged
-    beside = Path(str(package)).parent / "catalog"
-    if beside.is_dir():
-        return beside
+    checkout = Path(str(package)).parent / "catalog"
+    if checkout.is_dir():
+        return checkout
     raise SceneError((Fault("the catalog is not installed", hint="install dofkit again"),), "catalog")
 
 
@@ -155,8 +155,8 @@ def _missing(name: str, path: Path) -> Fault:
         message = "this is the text of a scene, not a path or a name"
         return Fault(message, hint="read a text with dofkit.loads(text)")
     in_folder = path.parent != Path(".") or path.suffix in (".yaml", ".yml", ".json")
-    beside = _beside(path)
-    near = nearest_title(path.name, beside)
+    neighbours = _files_beside(path)
+    near = nearest_title(path.name, neighbours)
     message = f"there is no file '{_brief(name)}'"
     if not in_folder:
         message += ", and no scene of that name in the catalog"
@@ -167,7 +167,7 @@ def _missing(name: str, path: Path) -> Fault:
     return Fault(message, hint=nearest_hint(path.stem if in_folder else name))
 
 
-def _beside(path: Path) -> list[str]:
+def _files_beside(path: Path) -> list[str]:
     try:
         with os.scandir(path.parent) as entries:
             return [entry.name for entry, _ in zip(entries, range(2000), strict=False) if entry.is_file()]

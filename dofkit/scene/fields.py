@@ -67,23 +67,23 @@ _KEYS_MEANT: dict[str, tuple[str, ...]] = {
 
 
 @lru_cache(maxsize=4096)
-def meant_key(word: object, known: tuple[str, ...]) -> str | None:
-    """Return the key of ``known`` that a word most likely stands for, or None.
+def meant_key(word: object, keys: tuple[str, ...]) -> str | None:
+    """Return the key of ``keys`` that a word most likely stands for, or None.
 
     >>> meant_key("members", ("type", "between")), meant_key("lenght", ("between", "length"))
     ('between', 'length')
     """
-    return next((key for key in known if word in _KEYS_MEANT.get(key, ())), None) or nearest(word, known)
+    return next((key for key in keys if word in _KEYS_MEANT.get(key, ())), None) or nearest(word, keys)
 
 
-def suggestion(word: object, known: Sequence[str], what: str) -> str:
-    """Return a sentence that names the nearest of ``known``, or lists them."""
-    near = meant_key(word, tuple(known)) if what == "keys" else nearest(word, known)
+def suggestion(word: object, candidates: Sequence[str], what: str) -> str:
+    """Return a sentence that names the nearest of ``candidates``, or lists them."""
+    near = meant_key(word, tuple(candidates)) if what == "keys" else nearest(word, candidates)
     if near is not None:
         return f"did you mean '{near}'?"
-    if not known:
+    if not candidates:
         return f"there are no {what}"
-    listed = ", ".join(list(known)[:12]) + (", ..." if len(known) > 12 else "")
+    listed = ", ".join(list(candidates)[:12]) + (", ..." if len(candidates) > 12 else "")
     return f"the {what} are {listed}"
 
 
@@ -258,12 +258,12 @@ _NEEDS = {
 _AS = {"a particle": "a name or a mapping", "a body": "a name or a mapping"}
 
 
-def _message(detail: Mapping[str, Any], owner: str, known: Sequence[str]) -> tuple[str, str | None]:
+def _message(detail: Mapping[str, Any], owner: str, keys: Sequence[str]) -> tuple[str, str | None]:
     """Return one fault of Pydantic's in words for the person who wrote the scene, with a hint."""
     kind, place = detail["type"], detail["loc"]
     context = detail.get("ctx") or {}
     if kind == "extra_forbidden":
-        return f"unknown key '{place[-1]}' in {owner}", suggestion(place[-1], known, "keys")
+        return f"unknown key '{place[-1]}' in {owner}", suggestion(place[-1], keys, "keys")
     if kind == "invalid_key":
         return f"a key is a text, not {in_words(place[-1])}", "put it in quotes"
     if kind == "missing":
@@ -296,7 +296,7 @@ def fault_at(place: tuple[int | str, ...], message: str, hint: str | None = None
 def retold(
     error: ValidationError,
     owner: str,
-    known: Sequence[str],
+    keys: Sequence[str],
     place: Callable[[tuple[int | str, ...]], tuple[int | str, ...]] = lambda loc: loc,
 ) -> ValidationError:
     """Return the same faults in our words, those that are already ours left as they are; ``place`` maps each path."""
@@ -304,7 +304,7 @@ def retold(
     for detail in error.errors(include_url=False):
         context = dict(detail.get("ctx") or {})
         if detail["type"] != _OURS:
-            message, hint = _message(detail, owner, known)
+            message, hint = _message(detail, owner, keys)
             context = {"message": message, **({"hint": hint} if hint else {})}
         kind = PydanticCustomError(_OURS, "{message}", context)
         where = tuple(part for part in place(detail["loc"]) if part != "[key]")
@@ -346,19 +346,19 @@ class WrittenModel(BaseModel):
 class TaggedUnion:
     """Members of class ``base``, of which one is ``called`` so, by their ``key``.
 
-    ``known``: what the key may say, and ``names`` what that is called; ``listing`` stands before a list of it,
+    ``allowed``: what the key may say, and ``names`` what that is called; ``listing`` stands before a list of it,
     ``unknown`` says that {} is none of it; ``otherwise``: what is said, and hinted, of what is no mapping.
     """
 
     base: type
     called: str
     key: str
-    known: Collection[str]
+    allowed: Collection[str]
     names: str
     listing: str
     unknown: str
     otherwise: tuple[str, str | None]
-    #: The hint for a word that is none of ``known`` (None: it is missing), by the word and the mapping that holds it.
+    #: The hint for a word that is none of ``allowed`` (None: it is missing), by the word and the mapping that holds it.
     advise: Callable[[object, Mapping[str, Any]], str | None] = lambda word, entry: None
 
     def validated(self, value: object, handler: ValidatorFunctionWrapHandler) -> Any:
@@ -370,10 +370,10 @@ class TaggedUnion:
                     (self.key,), f"the `{self.key}` is a text, not {in_words(word)}", self.advise(None, value)
                 )
             if word is None:
-                hint = self.advise(None, value) or self.listing + ", ".join(self.known)
+                hint = self.advise(None, value) or self.listing + ", ".join(self.allowed)
                 raise fault_error(f"{self.called} needs its `{self.key}`", hint)
-            if word not in self.known:
-                hint = self.advise(word, value) or suggestion(word, list(self.known), self.names)
+            if word not in self.allowed:
+                hint = self.advise(word, value) or suggestion(word, list(self.allowed), self.names)
                 raise fault_at((self.key,), self.unknown.format(word), hint)
         elif not isinstance(value, self.base):
             raise fault_error(*self.otherwise)

@@ -51,9 +51,9 @@ class Ledger:
         """Record a fault at ``where`` within the entry that is being read."""
         self.faults.append(Fault(message, (*self.here, *where), column=column, hint=hint))
 
-    def unknown(self, what: str, name: str, known: Iterable[str], *where: str | int, plural: str = "") -> None:
+    def unknown(self, what: str, name: str, declared: Iterable[str], *where: str | int, plural: str = "") -> None:
         """Record that ``name`` is not declared, with the nearest name that is (of the first faults: it takes time)."""
-        hint = suggestion(name, tuple(known), plural or f"{what}s") if len(self.faults) < MOST_HINTS else None
+        hint = suggestion(name, tuple(declared), plural or f"{what}s") if len(self.faults) < MOST_HINTS else None
         self.fault(f"there is no {what} '{name}'", *where, hint=hint)
 
 

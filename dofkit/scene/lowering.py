@@ -142,17 +142,17 @@ def survey(scene: Scene, euler: bool = False) -> Survey:
     return Survey(world, tuple(constraints), tuple(connections), drawn, size, tuple(faults))
 
 
-def _repeat_faults(key: str, letter: str, given: Sequence[str | None]) -> Iterator[Fault]:
+def _repeat_faults(key: str, letter: str, written_names: Sequence[str | None]) -> Iterator[Fault]:
     """Yield a fault for each entry of ``key`` whose name, given or by position, is that of an entry before it."""
-    names = names_by_position(letter, given)
+    names = names_by_position(letter, written_names)
     repeated = {name for name, times in Counter(names).items() if times > 1}
     first: dict[str, int] = {}
     for i, name in enumerate(names):
         if name in repeated and first.setdefault(name, i) != i:
             message = f"the name '{name}' is given twice"
-            if given[i] is None or given[first[name]] is None:
-                message += f": it is the default name of entry {(i if given[i] is None else first[name]) + 1}"
-            where = (key, i) if given[i] is None else (key, i, "name")
+            if written_names[i] is None or written_names[first[name]] is None:
+                message += f": it is the default name of entry {(i if written_names[i] is None else first[name]) + 1}"
+            where = (key, i) if written_names[i] is None else (key, i, "name")
             yield Fault(message, where, hint=f"rename one of them: `name: {name}_2`")
 
 
@@ -278,7 +278,7 @@ def system_of(scene: Scene, surveyed: Survey) -> System:
         bodies=tuple(vocabulary.table.bodies),
         forces=tuple(ListedForce(name, force.reason) for name, force in zip(names, scene.forces, strict=True)),
         links=tuple(world.links),
-        distances={} if reference is not None else {i: tuple(parts) for i, parts in world.distances.items()},
+        distances={} if reference is not None else {i: tuple(pairs) for i, pairs in world.distances.items()},
         connections=surveyed.connections,
         starts={name: frame.start for name, frame in drawing.frames.items()},
         arms=_arms(drawing, centre_of(world.points) if drawing.tolerance else None),

@@ -61,9 +61,9 @@ def coordinate_table(scene: Declarations) -> NameTable:
     return NameTable(tuple(coordinates), *owned)
 
 
-def names_by_position(letter: str, given: Sequence[str | None]) -> tuple[str, ...]:
+def names_by_position(letter: str, written_names: Sequence[str | None]) -> tuple[str, ...]:
     """Return the names of constraints or forces: ``c1``, ``c2``, ... by position for those without a name."""
-    return tuple(f"{letter}{i + 1}" if name is None else name for i, name in enumerate(given))
+    return tuple(f"{letter}{i + 1}" if name is None else name for i, name in enumerate(written_names))
 
 
 def subscript(name: str) -> str:
@@ -157,12 +157,12 @@ def _declared_names(scene: Declarations, table: NameTable, parameters: Mapping[s
 
 def within_member(names: Names, letters: tuple[str, ...]) -> Names:
     """Return the same names with ``letters`` standing for a member's coordinates, whatever else they may be."""
-    own_names = frozenset(letters)
+    letter_names = frozenset(letters)
     return Names(
-        coordinates=names.coordinates | own_names,
-        parameters={name: value for name, value in names.parameters.items() if name not in own_names},
-        functions={name: arity for name, arity in names.functions.items() if name not in own_names},
-        arguments={name: given for name, given in names.arguments.items() if name not in own_names},
+        coordinates=names.coordinates | letter_names,
+        parameters={name: value for name, value in names.parameters.items() if name not in letter_names},
+        functions={name: arity for name, arity in names.functions.items() if name not in letter_names},
+        arguments={name: words for name, words in names.arguments.items() if name not in letter_names},
         allow_accelerations=True,
     )
 

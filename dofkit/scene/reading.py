@@ -131,9 +131,9 @@ def loads(data: bytes | str, name: str = "scene") -> Scene:
     return SceneFile.read(data, name).scene()
 
 
-def scene_or_system(given: SceneLike | System) -> Scene | System:
+def scene_or_system(source: SceneLike | System) -> Scene | System:
     """Return a System unchanged, and the Scene that anything else stands for. Raises as `load` does."""
-    return given if isinstance(given, System) else load(given)
+    return source if isinstance(source, System) else load(source)
 
 
 @dataclass(frozen=True)

@@ -54,7 +54,7 @@ def _kept_or_shown(name: str, folder: str, written: str, kept: Path) -> ShownSce
     if file.exists():
         fields = json.loads(file.read_text(encoding="utf-8"))
         return ShownScene(**{**fields, "types": tuple(fields["types"])})
-    scene = shown(name, folder, written)
+    scene = shown_scene(name, folder, written)
     file.write_text(json.dumps(scene._asdict()), encoding="utf-8")
     return scene
 
@@ -68,7 +68,7 @@ def _engine() -> str:
     return digest.hexdigest()
 
 
-def shown(name: str, folder: str, written: str) -> ShownScene:
+def shown_scene(name: str, folder: str, written: str) -> ShownScene:
     """Return a scene with its picture and its answers. Raises SceneError if it cannot be read."""
     scene = loads(written, name)
     report = classify(scene)

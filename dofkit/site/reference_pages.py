@@ -24,7 +24,7 @@ from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES, ConstraintBase
 from dofkit.scene.lowering import lower
 from dofkit.scene.reading import loads
-from dofkit.site.gallery import ShownScene, shown
+from dofkit.site.gallery import ShownScene, shown_scene
 from dofkit.site.markdown import SitePage, anchor, code, fence, folded, page, picture, prose, table
 
 FOLDER = "reference/types"
@@ -56,7 +56,7 @@ def constraint_pages(catalog: Sequence[ShownScene]) -> Iterator[SitePage]:
 
 def _pages_of(kind: str, cls: type[ConstraintBase], scenes: Sequence[ShownScene]) -> Iterator[SitePage]:
     written = scene_of(cls)
-    scene = shown(kind, FOLDER, written)
+    scene = shown_scene(kind, FOLDER, written)
     yield SitePage(f"{FOLDER}/{kind}.svg", scene.svg)
     first, *paragraphs = re.split(r"\n\s*\n", cleandoc(cls.__doc__ or ""))
     yield SitePage(
@@ -92,7 +92,7 @@ def scene_of(cls: type[ConstraintBase]) -> str:
     """
     spaces = [d for d in cls.examples if d] or [d for d in cls.dimensions if d > 1]
     dimension = 2 if 2 in spaces else max(spaces)
-    lines = (cls.example(dimension), *cls.beside.get(dimension, ()))
+    lines = (cls.example(dimension), *cls.example_joints.get(dimension, ()))
     words = {word for line in lines for word in re.findall(r"[A-Za-z]+", line)}
     sections = {key: [name for name in names if name in words] for key, names in DECLARED.items()}
     if sections["particles"] or sections["bodies"]:

@@ -79,7 +79,7 @@ def test_every_trial_has_its_line_whatever_the_method_does() -> None:
 @pytest.mark.sweep
 def test_workers_stay_warm() -> None:
     lines = ran(["process", "hangs"])
-    told = [line.told for line in lines if line.method == "process"]
+    told = [line.answer for line in lines if line.method == "process"]
     assert len(told) == 8
     assert len(set(told)) <= 2
     assert any(line.outcome == "timed out" for line in lines)
@@ -285,7 +285,7 @@ def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     assert back == DATA
     assert summary(back) == chart
     header, first = (tmp_path / "trials.csv").read_text(encoding="utf-8").splitlines()[:2]
-    assert header.startswith("family,trial,question,method,size,traits,swept,truth,told,outcome,seconds,why")
+    assert header.startswith("family,trial,question,method,size,traits,swept,truth,answer,outcome,seconds,why")
     assert first.startswith('boxes,b1,dof,auto,1,"[""large""]"')
     schema = json.loads(CliRunner().invoke(app, ["schema", "chart"]).output)
     assert set(schema["properties"]) == set(json.loads((tmp_path / "chart.json").read_text(encoding="utf-8")))

@@ -41,13 +41,13 @@ def fronts(chart: ChartRun) -> Figure | None:
     figure = sheet(6.3 * across, 3.5 * down, title, chart.captions["fronts"], _front_keys())
     grid = figure.subplots(down, 2 * across, squeeze=False, gridspec_kw={"width_ratios": [1, 0.4] * across})
     panels, tables = grid[:, ::2].ravel(), grid[:, 1::2].ravel()
-    for panel, beside, question in zip(panels, tables, asked, strict=False):
+    for panel, table, question in zip(panels, tables, asked, strict=False):
         members = [score for score in totals if score.question == question]
         front = next((front for front in chart.fronts if front.question == question), None)
         panel.set_title(f"{QUESTIONS[question]}   ({max(score.trials for score in members)} trials)")
         _front_axes(panel, totals)
         _front_panel(panel, members, front, look)
-        _front_table(beside, members, look)
+        _front_table(table, members, look)
     for axes in (*tables, *panels[len(asked) :]):
         axes.set_axis_off()
     return figure

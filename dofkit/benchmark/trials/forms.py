@@ -144,17 +144,17 @@ def many_blocks(quick: bool) -> Iterator[KnownScene]:
         yield _blocks(f"{n} of each", [*blocks] * n, "freedoms of separate parts add up", ("many-blocks",))
 
 
-def _blocks(name: str, parts: Sequence[Row], because: str, traits: tuple[str, ...]) -> KnownScene:
-    names = [f"{q}{k}" for k, part in enumerate(parts) for q in part["coordinates"].split()]
+def _blocks(name: str, blocks: Sequence[Row], because: str, traits: tuple[str, ...]) -> KnownScene:
+    names = [f"{q}{k}" for k, part in enumerate(blocks) for q in part["coordinates"].split()]
     rows = [
         {"name": f"part{k}_{i}", "type": "equation", "text": row.replace("{k}", str(k))}
-        for k, part in enumerate(parts)
+        for k, part in enumerate(blocks)
         for i, row in enumerate(part["rows"])
     ]
-    labels = {f"part{k}_{i}": value for k, part in enumerate(parts) for i, value in enumerate(part["holonomic"])}
-    over = [f"part{k}_{i}" for k, part in enumerate(parts) for i in part["redundant"]]
-    about = name, scene_of(names, *rows, parameters={"R": "positive"}), because, traits, len(parts)
-    return known_scene(*about, dof=sum(part["dof"] for part in parts), integrability=labels, redundancy=over)
+    labels = {f"part{k}_{i}": value for k, part in enumerate(blocks) for i, value in enumerate(part["holonomic"])}
+    over = [f"part{k}_{i}" for k, part in enumerate(blocks) for i in part["redundant"]]
+    about = name, scene_of(names, *rows, parameters={"R": "positive"}), because, traits, len(blocks)
+    return known_scene(*about, dof=sum(part["dof"] for part in blocks), integrability=labels, redundancy=over)
 
 
 # Long chains

@@ -17,7 +17,7 @@ Link = tuple[int, int]
 T = TypeVar("T", bound=Hashable)
 
 
-def _known(
+def _linked_scene(
     name: str, shape: tuple[int, int, Sequence[Link]], because: str, size: int, dof: int, over: Sequence[Link] | None
 ) -> KnownScene:
     """Return links l0, l1, ... of any length: ``shape`` is (joints, dimension, links), ``over`` the redundant ones."""
@@ -43,7 +43,9 @@ def cliques(quick: bool) -> Iterator[KnownScene]:
         needed = [(i, j) for i, j in links if i < d]
         for name, chosen in (("all pairs", links), ("only the links that are needed", needed)):
             over = [(i, j) for i, j in chosen if i >= d]
-            yield _known(f"{n} joints in dimension {d}, {name}", (n, d, chosen), because, n, d * (d + 1) // 2, over)
+            yield _linked_scene(
+                f"{n} joints in dimension {d}, {name}", (n, d, chosen), because, n, d * (d + 1) // 2, over
+            )
 
 
 #: (dimension, m, n, dof, redundant: None where it was not derived) of m joints linked with n others.
@@ -60,7 +62,7 @@ def complete_bipartite(quick: bool) -> Iterator[KnownScene]:
     for d, m, n, dof, over in BIPARTITE[:: 5 if quick else 1]:
         links = [(i, m + j) for j in range(n) for i in range(m)]
         redundant = None if over is None else links[len(links) - over :]
-        yield _known(f"{m} and {n} joints in dimension {d}", (m + n, d, links), because, m + n, dof, redundant)
+        yield _linked_scene(f"{m} and {n} joints in dimension {d}", (m + n, d, links), because, m + n, dof, redundant)
 
 
 def bananas(quick: bool) -> Iterator[KnownScene]:
@@ -84,7 +86,7 @@ def bananas(quick: bool) -> Iterator[KnownScene]:
         ]  # fmt: skip
         for how, joints, links, dof, over, because in members:
             if how != "in a ring" or n > 2:
-                scene = _known(f"{n} bananas {how}", (joints, 3, links), because, n, dof, over)
+                scene = _linked_scene(f"{n} bananas {how}", (joints, 3, links), because, n, dof, over)
                 yield replace(scene, traits=("banana",)) if over else scene
 
 
@@ -113,7 +115,7 @@ def henneberg(quick: bool) -> Iterator[KnownScene]:
             ("and links more", [*links, *extra], rigid, extra),
             ("one left out", links[:-1], rigid + 1, []),
         ):
-            yield _known(f"{n} joints in dimension {d}, {seed}, {name}", (n, d, chosen), because, n, dof, over)
+            yield _linked_scene(f"{n} joints in dimension {d}, {seed}, {name}", (n, d, chosen), because, n, dof, over)
 
 
 def henneberg_links(joints: int, dimension: int, rng: random.Random) -> list[Link]:
@@ -139,7 +141,7 @@ def trees_on_a_line(quick: bool) -> Iterator[KnownScene]:
         components, closing = union(range(n), links)
         tree = [link for link in links if link not in closing]
         for name, chosen, over in (("with circles", links, closing), ("without", tree, [])):
-            yield _known(f"{n} joints on a line, {name}", (n, 1, chosen), because, n, components, over)
+            yield _linked_scene(f"{n} joints on a line, {name}", (n, 1, chosen), because, n, components, over)
 
 
 def union(vertices: Iterable[T], edges: Iterable[tuple[T, T]]) -> tuple[int, list[tuple[T, T]]]:

@@ -105,12 +105,12 @@ def _in_text(rows: Sequence[str], zero_truth: Mapping[str, Any], other_truth: Ma
         }
         if finite and not trap.everywhere:  # the equation also states that T has a value
             truth.pop("redundant", None)
-        return _known(trap, t, [row.replace("{T}", t) for row in rows], truth)
+        return _scene_of_trap(trap, t, [row.replace("{T}", t) for row in rows], truth)
 
     return context
 
 
-def _known(trap: Trap, t: str, texts: Sequence[str], truth: Mapping[str, Any]) -> KnownScene:
+def _scene_of_trap(trap: Trap, t: str, texts: Sequence[str], truth: Mapping[str, Any]) -> KnownScene:
     parameters = dict.fromkeys(trap.parameters, "positive") or None
     made = scene_of(["x", "y", "z", *trap.coordinates], *texts, parameters=parameters)
     return KnownScene(made, truth, name=f"{t} in {'; '.join(texts)}", group=trap.name)
@@ -121,7 +121,7 @@ def with_time(trap: Trap, t: str, zero: bool) -> KnownScene | None:
     if trap.coordinates:
         return None
     truth = {"dof": 2, "velocity_dof": 2, "scleronomic": zero, "c1.scleronomic": zero, "c1.catastatic": zero}
-    return _known(trap, t, [f"dx + ({t})*dt = 0"], truth)
+    return _scene_of_trap(trap, t, [f"dx + ({t})*dt = 0"], truth)
 
 
 def triangle(trap: Trap, t: str, zero: bool) -> KnownScene | None:
@@ -214,12 +214,12 @@ def _in_context(trap: Trap, text: str, zero: bool, number: int) -> KnownScene | 
 
 def steps(quick: bool) -> Iterator[KnownScene]:
     """Forms and relations a tiny exact step away from integrable, dependent or consistent ones."""
-    for number, known in enumerate(tiny_steps()):
-        if number % 23 if quick else not known.name.endswith(TAKEN):
+    for number, scene in enumerate(tiny_steps()):
+        if number % 23 if quick else not scene.name.endswith(TAKEN):
             continue
-        contradictory = known.truth.get("consistent") is False
-        trait = "tiny-gap" if contradictory or any(word in known.group for word in FINITE) else "near-integrable"
-        yield replace(known, because="a step is exact, however small", traits=(trait,))
+        contradictory = scene.truth.get("consistent") is False
+        trait = "tiny-gap" if contradictory or any(word in scene.group for word in FINITE) else "near-integrable"
+        yield replace(scene, because="a step is exact, however small", traits=(trait,))
 
 
 def bases(quick: bool) -> Iterator[KnownScene]:

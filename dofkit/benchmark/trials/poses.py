@@ -50,13 +50,13 @@ class FrameworkPose:
             positions[end] = _stepped(positions[end], row["by"], step)
         return framework(joints, ground, row["bars"])
 
-    def known(self, name: str, drawn: Framework, freedom: Freedom, swept: Mapping[str, Any], **more: Any) -> KnownScene:
+    def scene(self, name: str, drawn: Framework, freedom: Freedom, swept: Mapping[str, Any], **more: Any) -> KnownScene:
         """Return the scene of a framework, one of this pose's or moved, with its truth."""
-        return _known(name, drawn.scene(**more), drawn.coordinates, len(drawn.bars), freedom, swept)
+        return _scene_of_pose(name, drawn.scene(**more), drawn.coordinates, len(drawn.bars), freedom, swept)
 
     def placed(self, name: str, step: Fraction, move: Move, swept: Mapping[str, Any], **more: Any) -> KnownScene:
         """Return the scene at a step, with all positions moved."""
-        return self.known(name, self.at(step).moved(move), self.freedom(step), swept, **more)
+        return self.scene(name, self.at(step).moved(move), self.freedom(step), swept, **more)
 
 
 class HingedPose(FrameworkPose):
@@ -71,7 +71,7 @@ class HingedPose(FrameworkPose):
             by = {key: row["by"] if (i, key) == (number, part) else [0, 0, 0] for key in ("place", "axis")}
             hinges.append((move(_stepped(place, by["place"], step)), _stepped(axis, by["axis"], step)))
         made = {**hinged_loop(hinges, row["bodies"]), **more}
-        return _known(name, made, 6 * row["bodies"], 5 * len(hinges), self.freedom(step), swept)
+        return _scene_of_pose(name, made, 6 * row["bodies"], 5 * len(hinges), self.freedom(step), swept)
 
 
 NEAR = [FrameworkPose(row) for row in tables("poses.yaml")["frameworks"]]
@@ -125,7 +125,7 @@ def shuffles() -> Iterator[KnownScene]:
             for step in (ZERO, STEPS[2]):
                 drawn = pose.at(step).shuffled(random.Random(f"{pose.name} {seed}"))
                 name = f"{pose.name}, {float(step):g} beside, shuffled by {seed}"
-                yield pose.known(name, drawn, pose.freedom(step), {"step": float(step)})
+                yield pose.scene(name, drawn, pose.freedom(step), {"step": float(step)})
 
 
 def turned(position: Position) -> Position:
@@ -151,7 +151,7 @@ def roundings() -> Iterator[KnownScene]:
             first = drawn.by_rank()
             regular = drawn.coordinates - first == len(drawn.bars)
             name = f"{pose.name}, {digits} digits"
-            yield pose.known(name, drawn, (first if regular else None, first), {"digits": digits})
+            yield pose.scene(name, drawn, (first if regular else None, first), {"digits": digits})
 
 
 def measured() -> Iterator[KnownScene]:
@@ -161,7 +161,7 @@ def measured() -> Iterator[KnownScene]:
             drawn = pose.at(ZERO).moved(turned).moved(rounded(digits))
             swept = {"digits": digits, "tolerance": 10.0**-digits}
             name = f"{pose.name}, {digits} digits with tolerance"
-            yield pose.known(name, drawn, pose.freedom(ZERO), swept, tolerance=f"1e-{digits}")
+            yield pose.scene(name, drawn, pose.freedom(ZERO), swept, tolerance=f"1e-{digits}")
 
 
 def measured_elsewhere() -> Iterator[KnownScene]:
@@ -172,7 +172,7 @@ def measured_elsewhere() -> Iterator[KnownScene]:
             yield from (_moved(p, step, how, tolerance=TOLERANCE) for p in JOINTED)
 
 
-def _known(
+def _scene_of_pose(
     name: str, scene: dict[str, Any], coordinates: int, equations: int, freedom: Freedom, swept: Mapping[str, Any]
 ) -> KnownScene:
     """Where the rows are independent at the reference configuration, no constraint can be dropped."""

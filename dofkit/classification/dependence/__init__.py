@@ -1,8 +1,8 @@
 """Dependence: which constraints are implied by others, which conflict, and is one set of equations the same as another?
 
 Types
-    `Redundancies` (`circuits`): independent equations, a maximal redundant set, groups and circuits, by the numbers of
-    the constraints. `Sameness` (`equivalence`): how an answer compares with the constraints that were asked for.
+    `Redundancies` (from `relations`): independent equations, a maximal redundant set, groups and circuits, by the
+    numbers of the constraints. `Sameness` (`equivalence`): how an answer compares with the constraints asked for.
 
 Mechanisms, in the order in which they are tried (`redundancy` is the driver)
     1. Each block removes as much freedom as it has equations: none is redundant.

@@ -6,7 +6,7 @@ some time each, and at no time together. And what was cancelled keeps its domain
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from types import MappingProxyType
@@ -20,7 +20,6 @@ from dofkit.base.verdicts import weakest
 from dofkit.configuration.variety import Witness, of_real_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealPoint, RealSearch
-from dofkit.exact.ring.program import values
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
@@ -101,7 +100,7 @@ def _point_within(chart: Chart, conditions: Sequence[DomainCondition], dof: int 
         if point is not None and point.certified and point.consistent:
             points.append(point)
     wanted = max((p.rank for p in points), default=0) if dof is None else chart.coordinates - dof
-    return next((p for p in points if p.rank == wanted and _is_strict_at(chart, p, conditions)), None)
+    return next((p for p in points if p.rank == wanted and _hold_strictly(conditions, p.point.symbols)), None)
 
 
 def _is_same_component(block: Block, result: Answer) -> bool:
@@ -117,17 +116,13 @@ def _is_strict_at_witness(block: Block, result: Answer) -> bool:
         configuration = {s: Fraction(text) for s, text in (result.witness or {}).items()}
     except ValueError:
         return False
-    balls = [(c, interval_of(c.expr, configuration)) for c in block.conditions] if configuration else []
+    return not configuration or _hold_strictly(block.conditions, configuration)
+
+
+def _hold_strictly(conditions: Iterable[DomainCondition], point: Mapping[Expr, arb | Fraction]) -> bool:
+    """Return whether conditions are proved to be satisfied at a point, and not as equations."""
+    balls = [(c, interval_of(c.expr, point)) for c in conditions]
     return all(v is not None and not v.contains(0) and (c.sense == "!=" or bool(v > 0)) for c, v in balls)
-
-
-def _is_strict_at(chart: Chart, point: RealPoint, conditions: Sequence[DomainCondition]) -> bool:
-    try:
-        at = values(chart.ring, point.point)
-    except NoValueError:
-        return False
-    balls = [arb(at[chart.ring.node(c.expr)]) for c in conditions]
-    return all(v > 0 if c.sense != "!=" else not v.contains(0) for v, c in zip(balls, conditions, strict=True))
 
 
 def _text(block: Block) -> str:
@@ -183,7 +178,7 @@ def at_one_point(
     if any(a.consistent is not True for a in result):
         return CommonPoint(kept, result)
     point = _point(result, setting)
-    outside = [(i, c) for i, c in domain if not _holds_strictly(c, point)]
+    outside = [(i, c) for i, c in domain if not _hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})]
     names = [*(_names(block) for block in written), *(_names_of(c, i) for i, c in outside)]
     own: dict[Expr, str] = {}
     failed: dict[bool | None, list[int]] = {False: [], None: []}
@@ -250,12 +245,6 @@ def _ball(text: str, exact: Expr | None) -> arb:
             ball = None
         return arb("nan") if ball is None else ball
     return value + arb(0, 1) * (1 + abs(value)) * DIGITS_BALL if {".", "e"} & {*text} else value
-
-
-def _holds_strictly(c: DomainCondition, point: Mapping[Expr, arb]) -> bool:
-    """Return whether a condition is proved to be satisfied at a point, and not as an equation; other symbols are 0."""
-    value = interval_of(c.expr, {s: point.get(s, arb(0)) for s in c.expr.symbols})
-    return value is not None and not value.contains(0) and (c.sense == "!=" or bool(value > 0))
 
 
 def simultaneous(blocks: Sequence[Block], answers: Sequence[Answer]) -> list[Answer]:

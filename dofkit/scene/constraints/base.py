@@ -36,7 +36,7 @@ class ConstraintBase(WrittenModel):
     #: and the coordinates x and y are declared.
     examples: ClassVar[Mapping[int, str]] = {}
     #: Lines of joints that the example names, by dimension.
-    beside: ClassVar[Mapping[int, tuple[str, ...]]] = {}
+    example_joints: ClassVar[Mapping[int, tuple[str, ...]]] = {}
     #: Other words for the type that are read; words that are understood, and only lead to a hint.
     synonyms: ClassVar[tuple[str, ...]] = ()
     understood: ClassVar[tuple[str, ...]] = ()

@@ -64,7 +64,7 @@ class Cam(ConstraintBase):
         world.mentioned.directions.append(None if drawn is None else drawn.tangent(bool(world.tolerance)))
         if drawn is not None:
             self._check(world, frame, point, drawn)
-        yield Relation(substitute(profile, _own(frame, point)), part="contact")
+        yield Relation(substitute(profile, _body_coordinates(frame, point)), part="contact")
 
     def _profile(self, world: World) -> Expr | None:
         """g; None after a fault."""
@@ -116,7 +116,7 @@ def _rotation(angle: Expr) -> Matrix:
     return ((c, mul(MINUS_ONE, s)), (s, c))
 
 
-def _own(frame: Frame, point: Placed) -> dict[Expr, Expr]:
+def _body_coordinates(frame: Frame, point: Placed) -> dict[Expr, Expr]:
     """x and y of the point in the body's own coordinates."""
     arm = minus(point.over, frame.position)
     if not frame.fixed:

@@ -63,7 +63,7 @@ class Coupling(ConstraintBase):
     examples: ClassVar[Mapping[int, str]] = {
         0: '{type: coupling, joints: [shoulder, elbow], text: "elbow = 2 shoulder"}'
     }
-    beside: ClassVar[Mapping[int, tuple[str, ...]]] = {
+    example_joints: ClassVar[Mapping[int, tuple[str, ...]]] = {
         2: (
             "{name: shoulder, type: revolute, between: [ground, crank], at: [0, 0]}",
             "{name: elbow, type: revolute, between: [crank, rod], at: [2, 0]}",
