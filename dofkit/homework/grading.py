@@ -200,7 +200,7 @@ class Grader:
             judgement = needs_review(understood, error.message)
         except TextError as error:  # no scene can hold what it says
             return self._unread(error, question, answer, key)
-        several = len({way.shown for way in readings}) > 1
+        several = len({way.text for way in readings}) > 1
         return replace(judgement, read_as=understood, certain=certain and not several)
 
     def _unread(self, error: TextError, question: QuestionBase, answer: Given, key: Key) -> Judgement:

@@ -34,12 +34,12 @@ class JudgedReading(NamedTuple):
 class Reading(NamedTuple):
     """One way to understand an answer, by its text, the question's kind and the declared names alone.
 
-    ``value``: what the question judges; ``shown``: the same in words or in the grammar of scenes. ``rank``: 0 for a
+    ``value``: what the question judges; ``text``: the same in words or in the grammar of scenes. ``rank``: 0 for a
     plain reading, larger for one that supposes more. ``certain``: False if it has names that nobody declared.
     """
 
     value: Any
-    shown: str
+    text: str
     rank: int = 0
     certain: bool = True
 
@@ -114,13 +114,13 @@ def verdict(readings: Sequence[Reading], judge: Callable[[Reading], Judgement]) 
     """
     judged: list[tuple[int, Judgement]] = []
     failure: TextError | None = None
-    for reading in sorted(readings, key=lambda one: one.rank):
+    for reading in sorted(readings, key=lambda candidate: candidate.rank):
         try:
             judgement = judge(reading)
         except TextError as error:
             failure = failure or error
             continue
-        judged.append((reading.rank, judgement if judgement.read_as else replace(judgement, read_as=reading.shown)))
+        judged.append((reading.rank, judgement if judgement.read_as else replace(judgement, read_as=reading.text)))
         if reading.rank > judged[0][0] and judgement.share != judged[0][1].share:
             break
     if not judged:
@@ -141,4 +141,4 @@ def verdict(readings: Sequence[Reading], judge: Callable[[Reading], Judgement]) 
 def shown_text_of(readings: Sequence[Reading]) -> str:
     """Return how an answer is understood: its plainest readings, with "or" between them."""
     least = min((reading.rank for reading in readings), default=0)
-    return " or ".join(dict.fromkeys(reading.shown for reading in readings if reading.rank == least))
+    return " or ".join(dict.fromkeys(reading.text for reading in readings if reading.rank == least))

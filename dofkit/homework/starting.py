@@ -65,7 +65,9 @@ def template(prepared: Prepared, form: str) -> str:
 def best_questions(key: Key) -> Iterator[dict[str, Any]]:
     """Yield the questions most worth asking of a scene: one of each kind, first those whose answers are not plain."""
     every = list(questions(key))
-    places = [every.index(max(asked, key=lambda one: _labels_that_fail(one, key))) for asked in _by_kind(every)]
+    places = [
+        every.index(max(asked, key=lambda question: _labels_that_fail(question, key))) for asked in _by_kind(every)
+    ]
     places += [n for n in range(len(every)) if n not in places]
     first = [n for n in places if not _is_plain(every[n], key)]
     chosen = [*first, *(n for n in places if n not in first)][:MOST]

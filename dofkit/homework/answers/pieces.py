@@ -268,7 +268,7 @@ def with_energies(answer: Given, names: Names) -> Given:
     energies = {step["name"]: f"({step['value'].strip()})" for step in definitions if step is not None}
     if any(names.lookup.meaning(name) is not None for name in energies):
         return answer
-    return _NAME.sub(lambda found: energies.get(found[0], found[0]), result["value"])
+    return _NAME.sub(lambda energy: energies.get(energy[0], energy[0]), result["value"])
 
 
 def plainer(script: Script, names: Names) -> Script:

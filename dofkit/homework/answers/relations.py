@@ -48,7 +48,7 @@ def is_constant_name(name: str) -> bool:
 class AnswerReading(NamedTuple):
     """One way to read an answer.
 
-    ``bare``: which relations were written without a sign, as `x y`; ``own``: names that nobody declared;
+    ``bare``: which relations were written without a sign, as `x y`; ``undeclared``: names that nobody declared;
     ``moving``: those of them whose derivatives occur; ``meant``: spelling -> the declared name it was read as;
     ``derived``: arrows stand between the equations; ``places``: the columns of the names of its own; ``rank``: how much
     the reading supposes, 0 for nothing.
@@ -56,7 +56,7 @@ class AnswerReading(NamedTuple):
 
     relations: tuple[Comparison, ...]
     bare: tuple[bool, ...]
-    own: tuple[str, ...] = ()
+    undeclared: tuple[str, ...] = ()
     moving: frozenset[str] = frozenset()
     meant: Mapping[str, str] = {}
     derived: bool = False
@@ -64,7 +64,7 @@ class AnswerReading(NamedTuple):
     rank: int = 0
 
     @property
-    def shown(self) -> str:
+    def text(self) -> str:
         """In the grammar of scenes."""
         return "; ".join(as_text(c) for c in self.relations)
 
@@ -77,7 +77,7 @@ class AnswerReading(NamedTuple):
     def on_coordinates(self) -> bool:
         """Does it say something of the scene's coordinates?"""
         symbols = {s for c in self.relations for e in (c.left, c.right) for s in e.symbols}
-        return any(s.args[0] != "parameter" and s.args[-1] not in self.own for s in symbols)
+        return any(s.args[0] != "parameter" and s.args[-1] not in self.undeclared for s in symbols)
 
     def with_own(self, names: Iterable[str]) -> AnswerReading:
         """Return the reading with these coordinates as names of the answer's own."""
@@ -89,14 +89,14 @@ class AnswerReading(NamedTuple):
             Comparison(substitute(c.left, still), c.relation, substitute(c.right, still), c.column)
             for c in self.relations
         )
-        undeclared = (*self.own, *(n for n, kinds in used.items() if kinds))
-        return self._replace(relations=relations, own=undeclared, moving=self.moving | moving)
+        undeclared = (*self.undeclared, *(n for n, kinds in used.items() if kinds))
+        return self._replace(relations=relations, undeclared=undeclared, moving=self.moving | moving)
 
     def read(self, constants: frozenset[str] = frozenset()) -> Read:
         """As equations for a scene."""
         symbols = {s for c in self.relations for side in (c.left, c.right) for s in side.symbols}
         moving = any(s.args[0] not in ("coordinate", "parameter", "time") for s in symbols)
-        return Read(tuple(as_text(c) for c in self.relations), constants, self.shown, moving)
+        return Read(tuple(as_text(c) for c in self.relations), constants, self.text, moving)
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ class AnswerNames:
     """
 
     names: Names
-    own: tuple[str, ...] = ()
+    undeclared: tuple[str, ...] = ()
     moving: frozenset[str] = frozenset()
     meant: Mapping[str, str] = field(default_factory=dict)
     places: Mapping[str, int] = field(default_factory=dict)
@@ -128,7 +128,7 @@ class AnswerNames:
         more: dict[str, Expr] = {**({"e": E} if self.euler else {}), **self.usual}
         for word, name in self.meant.items():
             more[word] = coordinate(name) if name in base.coordinates else base.parameters[name]
-        more.update({name: parameter(name) for name in self.own if name not in self.moving})
+        more.update({name: parameter(name) for name in self.undeclared if name not in self.moving})
         return Names(
             base.coordinates | self.moving,
             {**base.parameters, **more},
@@ -143,7 +143,7 @@ class AnswerNames:
         """Does a word mean something already?"""
         return (
             (self.euler and word == "e")
-            or word in self.own
+            or word in self.undeclared
             or word in self.usual
             or self.names.lookup.meaning(word) is not None
         )
@@ -155,7 +155,7 @@ class AnswerNames:
             return replace(self, euler=True)
         rate = _RATE.fullmatch(word)
         stem = rate[1] + (rate[2] or "") if rate else word[1:] if word[0] == "d" and len(word) > 1 else ""
-        if stem and stem in self.own and stem not in self.moving:
+        if stem and stem in self.undeclared and stem not in self.moving:
             return replace(self, moving=self.moving | {stem})
         twin = self._twin(word) or (stem and self._twin(stem))
         if twin and word not in self.meant:
@@ -163,16 +163,16 @@ class AnswerNames:
         quantity = None if word in self.usual else usual_name(word, self._names_with_accelerations)
         if quantity is not None:
             return replace(self, usual={**self.usual, word: quantity})
-        if not self.free or len(self.own) == MOST_OWN:
+        if not self.free or len(self.undeclared) == MOST_OWN:
             return None
         letter = self._letter(word)
         if letter is not None:
             return letter
         if stem and rate is not None and self._may_be_own(stem):
-            return replace(self, own=(*self.own, stem), moving=self.moving | {stem})
+            return replace(self, undeclared=(*self.undeclared, stem), moving=self.moving | {stem})
         if stem and self._may_be_own(stem) and spelled(stem) in _LONG:
-            return replace(self, own=(*self.own, stem), moving=self.moving | {stem})
-        return replace(self, own=(*self.own, word)) if self._may_be_own(word) else None
+            return replace(self, undeclared=(*self.undeclared, stem), moving=self.moving | {stem})
+        return replace(self, undeclared=(*self.undeclared, word)) if self._may_be_own(word) else None
 
     @property
     def _names_with_accelerations(self) -> Names:
@@ -204,7 +204,7 @@ class AnswerNames:
             for letter in dict.fromkeys(["", *(c for c in word if c.isalpha() and not base.declares(c))]):
                 if letter and not base._may_be_own(letter):
                     continue
-                grown = replace(base, own=(*base.own, letter)) if letter else base
+                grown = replace(base, undeclared=(*base.undeclared, letter)) if letter else base
                 try:
                     read_word(word, grown.as_names().lookup, 1, False)
                 except TextError:
@@ -223,7 +223,7 @@ def with_explained_names(ways: Iterable[AnswerReading], names: DeclaredNames) ->
     """
     kept, failure = [], None
     for way in ways:
-        strange = [name for name in way.own if name not in names.also and not is_constant_name(name)]
+        strange = [name for name in way.undeclared if name not in names.also and not is_constant_name(name)]
         sums = [c.left.symbols | c.right.symbols for c in way.relations]
         used = {str(s.args[1]) for symbols in sums for s in symbols if len(s.args) > 1}
         counts = {name: sum(any(s.args[-1] == name for s in symbols) for symbols in sums) for name in strange}
@@ -249,7 +249,7 @@ def readings_of(
     """
     pieces = pieces_of(answer, vocabulary.names)
     defined = {word for script in pieces.scripts for word in _defined_constants(script, vocabulary)}
-    vocabulary = replace(vocabulary, own=(*vocabulary.own, *sorted(defined)))
+    vocabulary = replace(vocabulary, undeclared=(*vocabulary.undeclared, *sorted(defined)))
     if lead is not None:
         pieces = replace(pieces, scripts=tuple(lead(piece) for piece in pieces.scripts))
     return list(_readings(pieces, vocabulary))
@@ -277,7 +277,7 @@ def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading
         yield AnswerReading(
             relations,
             bare,
-            extended.own,
+            extended.undeclared,
             extended.moving,
             extended.meant,
             pieces.derived,
@@ -307,7 +307,7 @@ def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Compa
                 yield relations, vocabulary
                 return
             usual = {word: e for word, e in vocabulary.usual.items() if word not in other}
-            vocabulary = replace(vocabulary, usual=usual, own=(*vocabulary.own, *other))
+            vocabulary = replace(vocabulary, usual=usual, undeclared=(*vocabulary.undeclared, *other))
         except AmbiguousError as error:
             if not error.readings:
                 raise script.moved(error) from None
@@ -328,7 +328,7 @@ def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Compa
                 moved = script.moved(error)
                 raise UnknownNameError(moved.message, moved.column, moved.hint) from None
             column = script.moved(error).column or 1
-            places = {**dict.fromkeys(set(grown.own) - set(vocabulary.own), column), **vocabulary.places}
+            places = {**dict.fromkeys(set(grown.undeclared) - set(vocabulary.undeclared), column), **vocabulary.places}
             vocabulary = replace(grown, places=places)
         except TextError as error:
             raise script.moved(error) from None
@@ -339,7 +339,9 @@ def _as_frequency(
 ) -> Iterator[tuple[tuple[Comparison, ...], AnswerNames]]:
     """Yield the readings in which omega is a frequency, and not the velocity of the only angle."""
     if vocabulary.frequencies and grown is not None and "omega" in set(grown.usual) - set(vocabulary.usual):
-        yield from _ways(script, replace(vocabulary, own=(*vocabulary.own, "omega"), rank=vocabulary.rank + 1))
+        yield from _ways(
+            script, replace(vocabulary, undeclared=(*vocabulary.undeclared, "omega"), rank=vocabulary.rank + 1)
+        )
 
 
 def _defined_constants(script: Script, vocabulary: AnswerNames) -> Iterator[str]:
@@ -357,7 +359,7 @@ def _of_other_meaning(script: Script, vocabulary: AnswerNames) -> tuple[str, ...
     """Return the words that cannot be the usual names of quantities which the same text writes in full."""
     if not vocabulary.usual:
         return ()
-    plain_names = replace(vocabulary, usual={}, own=(*vocabulary.own, *vocabulary.usual))
+    plain_names = replace(vocabulary, usual={}, undeclared=(*vocabulary.undeclared, *vocabulary.usual))
     relations = parse_relations(script.text, plain_names.as_names())
     written = {s for c in relations for e in (c.left, c.right) for s in e.symbols}
     read = parse_relations(script.text, vocabulary.as_names())

@@ -61,7 +61,7 @@ def identity(student: str) -> str:
     ('Ada B', 'ada�', '�ada�')
     """
     visible = _OTHER_SPACE.sub("�", _UNPRINTABLE.sub("�", _TURNING.sub("�", student)))
-    return _AROUND.sub(lambda found: "�" * len(found[0]), visible)
+    return _AROUND.sub(lambda blanks: "�" * len(blanks[0]), visible)
 
 
 def number(value: float) -> str:

@@ -126,7 +126,7 @@ def page_of(markdown: str, title: str, language: str, figures: Mapping[str, Shee
     """Return the page of a text; ``figures`` by their paths in it."""
     page = _TEMPLATE.read_text(encoding="utf-8")
     fields = {"language": language, "title": escape(line(title)), "body": reader().render(markdown, dict(figures))}
-    return re.sub(r"\{\{(language|title|body)\}\}", lambda found: fields[found[1]], page)
+    return re.sub(r"\{\{(language|title|body)\}\}", lambda place: fields[place[1]], page)
 
 
 #: Draws a scene, under a title, as SVG; None for a scene that has no places. Its report is known.

@@ -58,7 +58,7 @@ class PosedAnswer(NamedTuple):
     """A scene's mathematics with an answer in it, and the numbers of the answer's constraints."""
 
     system: System
-    own: range
+    numbers: range
 
 
 def with_answer(key: Key, read: Read, question: Callable[[PosedAnswer], Found]) -> Found:
@@ -80,16 +80,16 @@ class EquationComparison:
 
     def judgement(self, way: AnswerReading) -> Judgement:
         """Return what one reading of an answer is worth; names that nothing explains leave it open."""
-        verdict = self._found(way)
+        verdict = self._compared_reading(way)
         if verdict.status == "wrong" and any(map(_is_rounded, way.relations)):
-            return needs_review(way.shown, "it contains rounded numbers.")
+            return needs_review(way.text, "it contains rounded numbers.")
         if verdict.codes == (Sameness.EMPTY.value,) and len(way.relations) > 1 and not way.derived:
             return self._contradictory(way) or verdict
         if way.derived and verdict.status != "right":
-            last = self._found(way.claim)
+            last = self._compared_reading(way.claim)
             if last.status == "right":
                 return last
-            return needs_review(way.shown, "it is not clear whether only the last equation is meant.")
+            return needs_review(way.text, "it is not clear whether only the last equation is meant.")
         return verdict
 
     def _contradictory(self, way: AnswerReading) -> Judgement | None:
@@ -98,45 +98,43 @@ class EquationComparison:
         for relation, bare in zip(way.relations, way.bare, strict=True):
             single = way._replace(relations=(relation,), bare=(bare,))
             with suppress(TextError):
-                verdict = self._found(single)
+                verdict = self._compared_reading(single)
                 ways.append(JudgedReading(verdict.read_as, verdict.share))
         if all(share == NOTHING for _, share in ways):
             return None
-        return replace(needs_review(way.shown, "the answer contradicts itself."), ways=tuple(ways))
+        return replace(needs_review(way.text, "the answer contradicts itself."), ways=tuple(ways))
 
-    def _found(self, way: AnswerReading) -> Judgement:
-        if not way.own:
+    def _compared_reading(self, way: AnswerReading) -> Judgement:
+        if not way.undeclared:
             return self._declared(way)
         if not way.on_coordinates:
             return self._undecided(way)
         forms = any(self.key.constraints[name].form == "pfaffian" for name in self.names)
         if forms and not way.moving and not way.read().moving:
-            verdict = self._told(way.read(frozenset(way.own)), way.shown)
-            if verdict.status in ("right", "partly") or all(map(is_constant_name, way.own)):
+            verdict = self._verdict(way.read(frozenset(way.undeclared)), way.text)
+            if verdict.status in ("right", "partly") or all(map(is_constant_name, way.undeclared)):
                 return verdict
         gone = without_own(way, self.key.scene)
         if gone is not None:
-            return self._declared(gone, way.shown)
+            return self._declared(gone, way.text)
         for other, names in renamed(way, self.key.scene, self.key.declared.constants):
             verdict = self._declared(other)
             if verdict.status == "right":
                 listing = ", ".join(f"{undeclared_name} = {name}" for undeclared_name, name in names.items())
-                return right(
-                    other.shown, say("The names were matched to those of the problem: {names}.", names=listing)
-                )
+                return right(other.text, say("The names were matched to those of the problem: {names}.", names=listing))
         return self._undecided(way)
 
     def _undecided(self, way: AnswerReading) -> Judgement:
         """Return that an equation needs a review: in coordinates that the assignment offers, or in unknown names."""
-        strange = [name for name in way.own if name not in self.key.also]
-        return needs_review(way.shown, undeclared(strange[0]) if strange else _UNDECIDED)
+        strange = [name for name in way.undeclared if name not in self.key.also]
+        return needs_review(way.text, undeclared(strange[0]) if strange else _UNDECIDED)
 
     def _declared(self, way: AnswerReading, text: str = "") -> Judgement:
         if not way.on_coordinates and any(e.symbols for c in way.relations for e in (c.left, c.right)):
             raise TextError("the answer contains no coordinates", 1, "write an equation between the coordinates")
         if any(s.args[0] == "acceleration" for c in way.relations for e in (c.left, c.right) for s in e.symbols):
-            return needs_review(way.shown, "it contains accelerations.")
-        verdict = self._told(way.read(), text or way.shown)
+            return needs_review(way.text, "it contains accelerations.")
+        verdict = self._verdict(way.read(), text or way.text)
         if verdict.status == "right":
             return verdict
         region = self._region(way)
@@ -171,15 +169,15 @@ class EquationComparison:
         comparison = compared_regions(self._others(), wanted, answer)
         if not comparison.beyond and not comparison.lacking:
             same = None not in (comparison.beyond, comparison.lacking)
-            return right(way.shown) if same else needs_review(way.shown, _UNDECIDED)
+            return right(way.text) if same else needs_review(way.text, _UNDECIDED)
         allows = "Your inequality allows {point}, which the constraint forbids."
         forbids = "Your inequality forbids {point}, which the constraint allows."
         hint = say(allows if comparison.beyond else forbids, point=comparison.point) if comparison.point else ""
         both = comparison.beyond and comparison.lacking
         sameness = Sameness.DIFFERENT if both else Sameness.WEAKER if comparison.beyond else Sameness.STRONGER
-        return wrong(way.shown, hint, sameness.value)
+        return wrong(way.text, hint, sameness.value)
 
-    def _told(self, read: Read, text: str) -> Judgement:
+    def _verdict(self, read: Read, text: str) -> Judgement:
         comparison = self.key.once((self.names, read.texts, read.constants), lambda: self._compared(read))
         if comparison.sameness is Sameness.UNDECIDED:
             return needs_review(text, _UNDECIDED)
@@ -219,7 +217,7 @@ class EquationComparison:
         return with_answer(
             self.key,
             read,
-            lambda posed: compare(posed.system, posed.system.numbers_of(*self.names), posed.own, read.constants),
+            lambda posed: compare(posed.system, posed.system.numbers_of(*self.names), posed.numbers, read.constants),
         )
 
     def _in_part(self, comparison: Compared, read: Read, text: str, hint: str, code: str) -> Judgement:

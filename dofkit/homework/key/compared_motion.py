@@ -96,31 +96,31 @@ class Followed(NamedTuple):
     while no accelerations satisfy all of them.
     """
 
-    told: list[MotionSameness]
+    sameness: list[MotionSameness]
     rank: int
     contradictory: bool
 
 
 @dataclass(frozen=True)
 class AnsweredMotion:
-    """Equations of an answer (each is 0) beside those that are right; ``own``: the answer's names for multipliers."""
+    """Equations of an answer (each is 0) beside those that are right; ``multipliers``: the answer's names for them."""
 
-    known: RightMotion
+    motion: RightMotion
     equations: tuple[Expr, ...]
-    own: tuple[Expr, ...] = ()
+    multipliers: tuple[Expr, ...] = ()
 
     @cached_property
     def columns(self) -> list[Expr]:
         """The accelerations of the coordinates kept."""
-        return [ex.sym("acceleration", n) for n in self.known.names]
+        return [ex.sym("acceleration", n) for n in self.motion.names]
 
     @cached_property
     def rows(self) -> list[list[Expr]] | None:
         """Coefficients of accelerations and own multipliers, and the rest; None where the equations are not linear."""
         linear_rows = []
-        unknown = [*self.columns, *self.own]
+        unknown = [*self.columns, *self.multipliers]
         for e in self.equations:
-            e = self.known.on_constraints(self.known.in_kept(in_time(e)))
+            e = self.motion.on_constraints(self.motion.in_kept(in_time(e)))
             row = linear(e, unknown)
             if row is None:
                 return None
@@ -130,14 +130,14 @@ class AnsweredMotion:
     @cached_property
     def right(self) -> list[list[Expr]]:
         """The same of the scene's equations with their multipliers, and the constraints' accelerations."""
-        unknown = [*self.columns, *self.known.multipliers]
-        expressions = [*self.known.equations.values(), *self.known.rows]
-        return [row for e in expressions if (row := linear(self.known.on_constraints(e), unknown)) is not None]
+        unknown = [*self.columns, *self.motion.multipliers]
+        expressions = [*self.motion.equations.values(), *self.motion.rows]
+        return [row for e in expressions if (row := linear(self.motion.on_constraints(e), unknown)) is not None]
 
     @property
     def decidable(self) -> bool:
         """Can it be decided at points: is everything linear?"""
-        whole = len(self.known.names) + len(self.known.multipliers)
+        whole = len(self.motion.names) + len(self.motion.multipliers)
         return self.rows is not None and len(self.right) == whole
 
     def follow(self) -> Followed | None:
@@ -149,10 +149,10 @@ class AnsweredMotion:
         rows = self.rows
         if rows is None or not self.decidable:
             return None
-        ring = Ring([*(e for row in (*rows, *self.right) for e in row), *self.known.relations], self.known.positive)
+        ring = Ring([*(e for row in (*rows, *self.right) for e in row), *self.motion.relations], self.motion.positive)
         nodes = [[ring.node(e) for e in row] for row in rows]
         right = [[ring.node(e) for e in row] for row in self.right]
-        findings = list(_at_points(ring, right, nodes, len(self.columns), self.known))
+        findings = list(_at_points(ring, right, nodes, len(self.columns), self.motion))
         if not findings:
             return None
         sound = [all(t.sound[i] for t in findings) for i in range(len(rows))]

@@ -33,7 +33,7 @@ class ChosenCoordinates(NamedTuple):
     """The coordinates that an answer names, and those of its own that it defines by relations."""
 
     names: tuple[str, ...]
-    own: tuple[str, ...] = ()
+    undeclared: tuple[str, ...] = ()
     relations: tuple[Comparison, ...] = ()
 
 
@@ -58,16 +58,16 @@ def _defined(answer: str, names: DeclaredNames) -> ChosenCoordinates | None:
         return None
     definitions = answer[cut.end() :].rstrip().removesuffix(")") if cut[0][0] == "(" else answer[cut.end() :]
     way = readings_of(definitions, AnswerNames(names.names))[0]
-    if way.moving or not way.own or any(way.bare):
+    if way.moving or not way.undeclared or any(way.bare):
         return None
-    chosen = names_of(answer[: cut.start()], [*names.coordinates, *way.own], "coordinate", names.others)
-    return ChosenCoordinates(tuple(chosen), way.own, way.relations)
+    chosen = names_of(answer[: cut.start()], [*names.coordinates, *way.undeclared], "coordinate", names.others)
+    return ChosenCoordinates(tuple(chosen), way.undeclared, way.relations)
 
 
 def with_chosen(key: Key, chosen: ChosenCoordinates) -> Key:
     """Return the key with the coordinates that an answer defines, or that the assignment offers and it names."""
-    if chosen.own:
-        return extended(key, chosen.own, chosen.relations)
+    if chosen.undeclared:
+        return extended(key, chosen.undeclared, chosen.relations)
     offers = [name for name in chosen.names if name in key.also]
     return offered(key, offers) if offers else key
 

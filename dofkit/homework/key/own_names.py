@@ -39,15 +39,15 @@ def without_own(reading: AnswerReading, scene: Scene) -> AnswerReading | None:
     if any(c.relation != "=" for c in reading.relations):
         return None
     sums = [c.left - c.right for c in reading.relations]
-    if any(sum(_mentions(e, name) for e in sums) < 2 for name in reading.own):
+    if any(sum(_mentions(e, name) for e in sums) < 2 for name in reading.undeclared):
         return None
-    for name in reading.own:
+    for name in reading.undeclared:
         symbol = ex.coordinate(name) if name in reading.moving else ex.parameter(name)
         remaining = _eliminated(sums, symbol, scene)
         if remaining is None:
             return None
         sums = remaining
-    names = set(reading.own)
+    names = set(reading.undeclared)
     if not sums or any(s.args[1] in names for e in sums for s in e.symbols if len(s.args) > 1):
         return None
     relations = tuple(Comparison(e, "=", ZERO, 1) for e in sums)
@@ -207,17 +207,17 @@ def renamed(
     reading: AnswerReading, scene: Scene, constants: Sequence[str]
 ) -> Iterator[tuple[AnswerReading, dict[str, str]]]:
     """The reading with names of its own taken for declared ``constants`` that it does not mention, in every way."""
-    if any(map(is_constant_name, reading.own)):
+    if any(map(is_constant_name, reading.undeclared)):
         return
-    if not reading.own or reading.moving or len(reading.own) > MOST_RENAMED:
+    if not reading.undeclared or reading.moving or len(reading.undeclared) > MOST_RENAMED:
         return
     used = {str(s.args[1]) for c in reading.relations for e in (c.left, c.right) for s in e.symbols if len(s.args) > 1}
     free = [name for name in constants if name not in used]
-    for chosen in permutations(free, len(reading.own)):
-        names = dict(zip(reading.own, chosen, strict=True))
+    for chosen in permutations(free, len(reading.undeclared)):
+        names = dict(zip(reading.undeclared, chosen, strict=True))
         table = {ex.parameter(undeclared): ex.parameter(name) for undeclared, name in names.items()}
         relations = tuple(
             Comparison(substitute(c.left, table), c.relation, substitute(c.right, table), c.column)
             for c in reading.relations
         )
-        yield reading._replace(relations=relations, own=()), names
+        yield reading._replace(relations=relations, undeclared=()), names

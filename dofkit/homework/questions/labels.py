@@ -83,7 +83,7 @@ class LabelQuestion(QuestionBase):
     def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
         claims, entry = reading.value, key.constraints[self.constraint]
-        truth, text = truths(entry), reading.shown
+        truth, text = truths(entry), reading.text
         if any(truth[p] is None for p in self.parts):
             return needs_review(text, "the classification of this constraint is not known for certain.")
         twice = [p for p in self.parts if len(claims.get(p, ())) > 1]

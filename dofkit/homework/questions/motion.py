@@ -40,7 +40,7 @@ class _MotionQuestion(QuestionBase):
 
     def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        return self._judged(posed_motion(reading.value, key, isinstance(self, _Value)), reading.shown)
+        return self._judged(posed_motion(reading.value, key, isinstance(self, _Value)), reading.text)
 
     def _judged(self, posed: PosedMotion, text: str) -> Judgement:
         for guess in posed.guesses:
@@ -197,13 +197,13 @@ class MotionQuestion(_MotionQuestion):
         if followed.contradictory:
             return needs_review(text, "the answer contradicts itself.")
         single = self.coordinate is not None and self.coordinate in motion.names
-        if Found.NOT in followed.told and _are_linearized(answered, None if single else len(motion.names)):
+        if Found.NOT in followed.sameness and _are_linearized(answered, None if single else len(motion.names)):
             return wrong(text, _LINEARIZED, "SMALL_ANGLES")
-        return self._single(answered, followed.told, motion, text) if single else _all(followed, motion, text)
+        return self._single(answered, followed.sameness, motion, text) if single else _all(followed, motion, text)
 
     def _single(self, answered: AnsweredMotion, sameness: Sequence[Found], motion: RightMotion, text: str) -> Judgement:
         """One coordinate's equation: it holds that coordinate's acceleration, and is not the equation of another."""
-        if answered.own or motion.multipliers:
+        if answered.multipliers or motion.multipliers:
             return needs_review(text, "a single equation with multipliers can be written in many ways.")
         if Found.NOT in sameness:
             return wrong(text, "This equation is not satisfied by the motion.", Found.NOT.value)
@@ -235,14 +235,14 @@ _LINEARIZED = "This is the approximation for small oscillations (small angles); 
 
 def _are_linearized(answered: AnsweredMotion, rank: int | None) -> bool:
     """Return whether all equations are implied by the linearized ones, and determine ``rank`` accelerations."""
-    linearized = answered.known.linearized()
-    followed = None if linearized is None else replace(answered, known=linearized).follow()
-    return followed is not None and all(t is Found.FOLLOWS for t in followed.told) and rank in (None, followed.rank)
+    linearized = answered.motion.linearized()
+    followed = None if linearized is None else replace(answered, motion=linearized).follow()
+    return followed is not None and all(t is Found.FOLLOWS for t in followed.sameness) and rank in (None, followed.rank)
 
 
 def _all(followed: Followed, motion: RightMotion, text: str) -> Judgement:
     """All equations: as many points as accelerations are fixed by those that follow."""
-    sameness, rank = followed.told, followed.rank
+    sameness, rank = followed.sameness, followed.rank
     wanted = len(motion.names) - len(motion.rows)
     good = Found.NOT not in sameness
     if good and rank >= wanted:

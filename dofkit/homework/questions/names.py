@@ -26,7 +26,7 @@ class Coordinates(QuestionBase):
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         chosen = [chosen_coordinates(part, names) for part in alternatives(answer)]
-        return [Reading(choice, ", ".join(choice.names) or "none", certain=not choice.own) for choice in chosen]
+        return [Reading(choice, ", ".join(choice.names) or "none", certain=not choice.undeclared) for choice in chosen]
 
     def solution(self, key: Key) -> Sentence:
         names = key.report.generalized_coordinates
@@ -34,7 +34,7 @@ class Coordinates(QuestionBase):
 
     def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        dof, text, names = key.report.dof, reading.shown, list(reading.value.names)
+        dof, text, names = key.report.dof, reading.text, list(reading.value.names)
         key = with_chosen(key, reading.value)
         if dof is None:
             return needs_review(text, "the number of degrees of freedom is not known for certain.")
@@ -75,7 +75,7 @@ class Redundant(QuestionBase):
 
     def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        names, report, text = reading.value, key.report, reading.shown
+        names, report, text = reading.value, key.report, reading.text
         if report.dof is None or report.redundant is None:
             return needs_review(text, "it is not known for certain which constraints are redundant.")
         if set(names) == set(report.redundant):

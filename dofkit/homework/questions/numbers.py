@@ -81,7 +81,7 @@ class NumberQuestion(QuestionBase):
         return "" if amount is None else say("The correct answer is {number}.", number=amount)
 
     def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
-        amount, truth, text = reading.value, self.truth(key), reading.shown
+        amount, truth, text = reading.value, self.truth(key), reading.text
         if truth is None:
             return needs_review(text, "the correct number is not known for certain.")
         if amount == truth:
