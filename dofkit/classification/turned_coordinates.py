@@ -155,7 +155,7 @@ def _right_angles(e: Expr) -> int | None:
 
 
 def are_coordinates(group: TurnedGroup, chosen: Collection[str], setting: Setting, turning: Sequence[Rotation]) -> bool:
-    """Is there a certified configuration at which the chosen coordinates are independent, and enough?
+    """Return whether the chosen coordinates are a local chart at some certified configuration.
 
     Their differentials and the rows of the relations have full rank there: a minor's ball excludes 0.
     """

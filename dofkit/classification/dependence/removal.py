@@ -249,7 +249,7 @@ class _Counting:
         return result
 
     def _by_one(self, owner: int, rows: Sequence[int]) -> bool:
-        """Do several rows of a constraint hold where one of them does beside those before, as far as numbers tell?"""
+        """Return whether, in numbers, several rows of a constraint hold where one of them and those before do."""
         if len(rows) < 2:
             return False
         pivots = [k for k, o in enumerate(self._owners) if o <= owner and k not in self._dependent]
@@ -264,7 +264,7 @@ class _Counting:
         return False
 
     def _by_freedom(self, rows: Sequence[int]) -> bool:
-        """Does each of some rows take freedom away, the first of all apart? They are independent then."""
+        """Return whether each of some rows removes freedom, the first of all apart: they are independent then."""
         for i in rows:
             if self.bent and not self._takes_freedom(i):
                 return False
@@ -272,7 +272,7 @@ class _Counting:
         return True
 
     def _takes_freedom(self, row: int) -> bool:
-        """Do the rows before this one, but for those that follow, leave less freedom with it than without it?"""
+        """Return whether the rows before this one that are not implied leave less freedom with it than without it."""
         rows = [self.block.rows[k] for k in range(row + 1) if k not in self.following]
         before, after = (freedom(self.block.coordinates, some, self.setting) for some in (rows[:-1], rows))
         return before is not None and after is not None and after < before

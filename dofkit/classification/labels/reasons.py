@@ -172,7 +172,7 @@ def in_words(relation: Relation, otherwise: str) -> str:
 
 
 def _is_specific(vector: tuple[Expr, ...]) -> bool:
-    """Is nothing in general position?"""
+    """Return whether nothing is in general position."""
     return not any(str(s.args[1]).startswith("_") for part in vector for s in part.symbols)
 
 
