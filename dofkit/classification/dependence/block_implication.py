@@ -61,7 +61,7 @@ class BlockImplication:
         return [frozenset(whose.get(name, name) for name in names) for names in self._coordinates]
 
     def linearly(self, row: int, others: Sequence[int]) -> bool | None:
-        """Return whether a linear relation is a combination of others over the rationals; None if not all are linear."""
+        """Return whether a linear relation is a combination of others over Q; None if not all are linear."""
         pieces = [self.block.rows[i].piece for i in (*others, row)]
         relations = [p.expr for p in pieces if isinstance(p, Finite) and linear(p.expr) is not None]
         return len(others) in presolve(relations).superfluous if len(relations) == len(pieces) else None
