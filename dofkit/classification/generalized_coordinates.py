@@ -253,7 +253,7 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
 
 
 def _dependent_at_drawing(block: Block, a: Answer, setting: Setting) -> tuple[str, ...]:
-    """Coordinates that the rows at the drawing can be solved for, the last ones where there is a choice.
+    """Coordinates that the rows at the reference can be solved for, the last ones where there is a choice.
 
     Of bodies whose joints close no loop places are solved for before angles.
     """

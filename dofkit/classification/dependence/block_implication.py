@@ -68,7 +68,7 @@ class BlockImplication:
 
 
 class NearDrawing(BlockImplication):
-    """Of finite relations that hold at the drawing: what they imply near it. The others are independent there."""
+    """Of finite relations that hold at the reference: what they imply near it. The others are independent there."""
 
     @cached_property
     def _relations(self) -> ImpliedRelations:

@@ -3,7 +3,7 @@
 Where leaving a constraint out gives freedom, it is needed. Where it gives none, what the constraint says must follow
 from what is left: the set may lose a part and keep its dimension.
 
-How many equations are independent of all before them where relations are dependent at the drawing only.
+How many equations are independent of all before them where relations are dependent at the reference only.
 
 An equation is independent of others where it is no combination of them, with coefficients that are analytic near the
 drawing. One after another they are held against those before. A row that is no sum of rows before it at the drawing is
@@ -178,7 +178,7 @@ class EquationCount(NamedTuple):
 
 
 def counted(block: Block, setting: Setting, a: Answer, numbered: Sequence[int]) -> EquationCount | None:
-    """The count for a block that was answered at the drawing; ``numbered``: the equation that each row is of.
+    """The count for a block that was answered at the reference; ``numbered``: the equation that each row is of.
 
     None where it was not decided, or is not what the freedom says.
     """
@@ -200,7 +200,7 @@ def counted(block: Block, setting: Setting, a: Answer, numbered: Sequence[int]) 
 
 @dataclass
 class _Counting:
-    """What follows from what, row by row; ``bent``: rows dependent at the drawing only; ``seen``: as in the count."""
+    """What follows from what, row by row; ``bent``: rows dependent at the reference only; ``seen``: as in the count."""
 
     block: Block
     setting: Setting
@@ -219,7 +219,7 @@ class _Counting:
 
     @cached_property
     def _dependent(self) -> Mapping[int, Sequence[int]]:
-        """Rows that are sums of rows before them at the drawing, and of which."""
+        """Rows that are sums of rows before them at the reference, and of which."""
         return echelon(self.a.matrix, self.a.modulus, supports=True).supports
 
     def supports(self) -> dict[int, list[int]] | None:

@@ -25,7 +25,7 @@ METHOD = "rank over GF(p) at the given configuration"
 def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer | None:
     """The answer of a block by its parts, each of which ``solve`` answers; None where it has to be looked at whole.
 
-    So it has where a part does not hold at the drawing, or something else is asked of it than finite relations; and
+    So it has where a part does not hold at the reference, or something else is asked of it than finite relations; and
     where it does not move, which may be seen at once.
     """
     joints = [row for row in block.rows if row.constraint in setting.bridges]

@@ -147,7 +147,7 @@ _SAYS = {
     "drive": "the prescribed motion",
     "length": "the distance {}",
 }
-#: Of those that are about a direction or a place of the drawing.
+#: Of those that are about a direction or a place of the reference configuration.
 _ABOUT = {
     "point": " {}",
     "axis": "no rotation about {}",
