@@ -99,7 +99,7 @@ def guess(word: str, known: Iterable[str]) -> str:
     return "" if near is None else f" (did you mean '{near}'?)"
 
 
-def no_such(word: str, known: Iterable[str], what: str, plural: str = "") -> str:
+def no_such(word: str, known: Iterable[str], what: str) -> str:
     """Return a sentence about a ``word`` that is unknown, with the nearest known word and the first dozen.
 
     >>> no_such("exakt", ["count", "exact"], "method")
@@ -107,7 +107,7 @@ def no_such(word: str, known: Iterable[str], what: str, plural: str = "") -> str
     """
     names = list(known)
     listed = ", ".join(names[:_MOST_LISTED]) + (", ..." if len(names) > _MOST_LISTED else "")
-    return f"there is no {what} '{word}'{guess(word, names)}: the {plural or what + 's'} are {listed or 'none'}"
+    return f"there is no {what} '{word}'{guess(word, names)}: the {what}s are {listed or 'none'}"
 
 
 def nearest_title(name: str, known: Sequence[str]) -> str | None:

@@ -85,7 +85,7 @@ class CountsBeside:
     def _dependent_sets(self) -> list[list[int]]:
         """The constraints of minimal dependent sets of rows at the drawing, of circuits too; none holds another."""
         sets: list[list[int]] = []
-        for block, a in self.outcome.parts:
+        for block, a in self.outcome.answered_parts:
             if len(a.matrix) != len(block.rows):
                 continue
             for row, support in list(echelon(a.matrix, a.modulus, supports=True).supports.items())[:MOST_SETS]:
@@ -128,7 +128,7 @@ def _if_it_has_a_value(work: Callable[[], T]) -> T | None:
 
 def counts_beside(study: Study, instantaneous: int | None) -> tuple[dict[str, Generic | Mobility | None], str | None]:
     """``generic`` and ``mobility``, and what to say of a near-dependence; ``instantaneous``: at the drawing."""
-    beside = CountsBeside(study, instantaneous)
+    counts = CountsBeside(study, instantaneous)
     with part(SHARE):
-        generic = _if_it_has_a_value(beside.generic)
-    return {"generic": generic, "mobility": _if_it_has_a_value(beside.mobility)}, _if_it_has_a_value(beside.nearly)
+        generic = _if_it_has_a_value(counts.generic)
+    return {"generic": generic, "mobility": _if_it_has_a_value(counts.mobility)}, _if_it_has_a_value(counts.nearly)

@@ -9,7 +9,7 @@ apart.
 
 Two rows are in one class if a minimal dependent set holds both. Together with a class those equations are kept that
 mention its coordinates only: without them a bar across a square could not tell that the square is held. Where that is
-not enough, all equations on its bodies are looked at (`widened`).
+not enough, all equations are looked at together.
 """
 
 from __future__ import annotations
@@ -143,7 +143,7 @@ def _by_parts(
 ) -> tuple[LocalDimension, FollowedClasses] | None:
     """The local dimension where every class of dependent relations gives a manifold, and what was looked at.
 
-    See `dependent_classes`. None where one does not, or is not known to, or is all there is: then all have to be
+    None where one does not, or is not known to, or is all there is: then all have to be
     looked at together.
     """
     dimension = len(chart.columns) - rank
@@ -159,8 +159,6 @@ def _by_parts(
     for part in parts:
         own = chart_of_rows(chart, part.rows)
         local, spared = _of_part(own, known, part.rank)
-        if local is None:
-            own, local, spared = _of_wider_part(chart, known, part, reduced)
         if local is None:
             return None
         found.append(local)
@@ -194,17 +192,6 @@ def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[Local
         return LocalDimension(left, "proved", _rigid(), argument="rigid to first order"), 0
     local, spared = _with_fewer(chart, known, point, fields)
     return (local if local.dimension == left else None), spared
-
-
-def _of_wider_part(
-    chart: Chart, known: Mapping[Expr, Expr], part: DependentClass, found: Echelon
-) -> tuple[Chart, LocalDimension | None, int]:
-    """A class with all that is said of its bodies, where that is more and not all there is."""
-    wide = widened(chart, part, found)
-    if not len(part.rows) < len(wide.rows) < len(chart.relations) + chart.within:
-        return chart, None, 0
-    own = chart_of_rows(chart, wide.rows)
-    return own, *_of_part(own, known, wide.rank)
 
 
 def _at_fixed_time(local: LocalDimension, timed: int) -> LocalDimension:
@@ -314,17 +301,3 @@ def dependent_parts(chart: Chart, found: Echelon) -> list[DependentClass]:
         rows = tuple(sorted(component | beside))
         parts.append(DependentClass(rows, len(rows) - sum(r in found.supports for r in rows)))
     return sorted(parts, key=lambda part: part.rows)
-
-
-def widened(chart: Chart, part: DependentClass, found: Echelon) -> DependentClass:
-    """The class with all that is said of the bodies and particles that it mentions: a loop with all of its joints.
-
-    The height alone of hinges whose axes are upright closes round a loop to first order only; beside the other
-    equations of these hinges it follows from them. Dependent rows of other classes come along with their own.
-    """
-    owners = {c.name: c.owner for c in chart.roles if c.owner is not None}
-    mentioned = [frozenset(owners.get(s.args[1], s) for s in g.symbols) for g in chart.relations]
-    held = frozenset[object]().union(*(mentioned[i] for i in part.rows))
-    within = {i for i, those in enumerate(mentioned) if those <= held}
-    rows = {i for i in within if i not in found.supports or within.issuperset(found.supports[i])} | {*part.rows}
-    return DependentClass(tuple(sorted(rows)), len(rows) - sum(i in found.supports for i in rows))

@@ -7,25 +7,16 @@ theta_B = theta_A), z = 0. Coordinates and independent relations go together, so
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Mapping
 
 from dofkit.configuration.generic_points import chart_of_relations
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.tree import Expr
 from dofkit.relations.blocks import Chart, linear
-from dofkit.relations.setting import ReductionName
 
 #: Coordinates are not replaced by longer sums than this: what they stand in would fill up.
 TERMS = 5
-
-
-class ReducibleRelation(NamedTuple):
-    """A relation, and the reduction that may use it."""
-
-    relation: Expr
-    kind: ReductionName
 
 
 def smaller(chart: Chart) -> tuple[Chart, int]:
@@ -33,29 +24,28 @@ def smaller(chart: Chart) -> tuple[Chart, int]:
 
     Free are those that no relation mentions any more: the set is a product with a line for each.
     """
-    said = [ReducibleRelation(g, k) for g, k in zip(chart.relations, chart.kinds, strict=True)]
-    if len(said) != len(chart.nodes) or chart.time is not None:
+    if len(chart.relations) != len(chart.nodes) or chart.time is not None:
         return chart, 0
-    gone, left = _without_explicit(chart, said)
+    gone, left = _without_explicit(chart)
     if not gone:
         return chart, 0
-    small = chart_of_relations(chart, [s.relation for s in left], [s.kind for s in left])
+    small = chart_of_relations(chart, [*left.values()], [chart.kinds[i] for i in left])
     return small, len(chart.symbols) - len(gone) - len(small.symbols)
 
 
-def _without_explicit(chart: Chart, said: Sequence[ReducibleRelation]) -> tuple[set[Expr], list[ReducibleRelation]]:
-    """The coordinates that relations give explicitly, and what is left of the relations without them."""
+def _without_explicit(chart: Chart) -> tuple[set[Expr], dict[int, Expr]]:
+    """Return the coordinates that relations give explicitly, and the other relations, by number, without them."""
     own = frozenset(chart.symbols)
-    left: dict[int, ReducibleRelation] = dict(enumerate(said))
+    left: dict[int, Expr] = dict(enumerate(chart.relations))
     users: dict[Expr, set[int]] = {}
-    for i, s in left.items():
-        for symbol in s.relation.symbols & own:
+    for i, relation in left.items():
+        for symbol in relation.symbols & own:
             users.setdefault(symbol, set()).add(i)
     gone: set[Expr] = set()
-    waiting = [i for i, s in left.items() if s.kind in chart.reductions][::-1]
+    waiting = [i for i in left if chart.kinds[i] in chart.reductions][::-1]
     while waiting:
         i = waiting.pop()
-        found = _explicit(left[i].relation, own, users) if i in left else None
+        found = _explicit(left[i], own, users) if i in left else None
         if found is None:
             continue
         q, value = found
@@ -64,15 +54,15 @@ def _without_explicit(chart: Chart, said: Sequence[ReducibleRelation]) -> tuple[
         for k in users.pop(q) - {i}:
             if k not in left:
                 continue
-            changed = substitute(left[k].relation, {q: value})
+            changed = substitute(left[k], {q: value})
             for symbol in changed.symbols & own:
                 users.setdefault(symbol, set()).add(k)
-            left[k] = left[k]._replace(relation=changed)
-            if left[k].kind in chart.reductions:
+            left[k] = changed
+            if chart.kinds[k] in chart.reductions:
                 waiting.append(k)
             if changed.is_zero:
                 del left[k]
-    return gone, list(left.values())
+    return gone, left
 
 
 def _explicit(e: Expr, own: frozenset[Expr], users: Mapping[Expr, set[int]]) -> tuple[Expr, Expr] | None:

@@ -146,9 +146,7 @@ def _by_field_alone(chart: Chart, found: Variety) -> Variety:
     if independent_on_set(chart.ring, chart.nodes):
         found.verdict = weakest(found.verdict, "probable")
         return found
-    found.consistent, found.dimension, found.verdict = None, None, "undecided"
-    found.reasons.append("the functions that occur may satisfy an identity that points over GF(p) do not detect")
-    return found
+    return _left_open(found, "the functions that occur may satisfy an identity that points over GF(p) do not detect")
 
 
 def _without_reality(chart: Chart, found: Variety) -> Variety:
@@ -158,8 +156,12 @@ def _without_reality(chart: Chart, found: Variety) -> Variety:
         found.verdict = weakest(found.verdict, "probable")
         found.reasons.append(ALLOWING)
         return found
+    return _left_open(found, "no real configuration was found, and none was excluded")
+
+
+def _left_open(found: Variety, why: str) -> Variety:
     found.consistent, found.dimension, found.verdict = None, None, "undecided"
-    found.reasons.append("no real configuration was found, and none was excluded")
+    found.reasons.append(why)
     return found
 
 
@@ -168,10 +170,8 @@ def near_singular_point(chart: Chart, found: Variety) -> Variety:
     real = found.real
     local = None if real is None else numeric_local(chart, real)
     if local is None or local.dimension is None or local.confined:
-        found.consistent = None
-        found.verdict, found.dimension = "undecided", None
-        found.reasons.append("every real configuration that was found is singular; the motions there were not decided")
-        return found
+        why = "every real configuration that was found is singular; the motions there were not decided"
+        return _left_open(found, why)
     found.dimension = local.dimension - (len(chart.columns) - chart.coordinates)
     found.verdict, found.argument = weakest(found.verdict, "numeric"), local.argument
     found.reasons.append(f"every real configuration that was found is singular: {local.reason}")

@@ -37,60 +37,47 @@ _ENTIRE = frozenset({"sin", "cos", "exp", "sinh", "cosh", "tanh", "atan"})
 
 
 @dataclass(frozen=True)
-class LinearRelations:
-    """Rows over a block's coordinates, by their numbers, and what else stands in each: ``rests`` in time."""
+class LinearElimination:
+    """Rows over a block's coordinates, by their numbers.
+
+    ``supports``: what every dependent row is a sum of; ``contradictory``: the first that contradicts these.
+    """
 
     rows: Sequence[RationalRow]
-    rests: Sequence[Expr]
-    finite: Sequence[bool]
-
-    def sum_of_rests(self, i: int, factors: Mapping[int, fmpq]) -> Expr:
-        """What is left where row i = sum f_k row_k: of finite ones the rests, beside forms their rates."""
-        beside = [(fmpq(-1), i), *((v, k) for k, v in factors.items())]
-        rates = not all(self.finite[k] for _, k in beside)
-        told = ((v, diff(self.rests[k], ex.TIME) if rates and self.finite[k] else self.rests[k]) for v, k in beside)
-        return ex.add(*(ex.mul(ex.num(_fraction(v)), e) for v, e in told if not e.is_zero))
-
-
-@dataclass(frozen=True)
-class LinearElimination:
-    """``supports``: what every dependent row is a sum of; ``contradictory``: the first that contradicts these."""
-
-    relations: LinearRelations
     supports: Mapping[int, RationalRow]
-    contradictory: int | None
+    contradictory: int | None = None
 
     @property
     def rank(self) -> int:
         """Independent rows."""
-        return len(self.relations.rows) - len(self.supports)
+        return len(self.rows) - len(self.supports)
 
 
 def elimination(block: Block, positive: frozenset[Expr]) -> LinearElimination | None:
     """The rows of a block by exact elimination, finite ones first, as written; None where it is not linear, or open."""
-    relations = _linear_relations(block)
-    found = None if relations is None else dependences(relations.rows)
-    if relations is None or found is None:
-        return None
-    for i, factors in found.items():
-        left = relations.sum_of_rests(i, factors)
-        if not linear_terms(left) or zero_and_verdict(left, positive) == (True, "proved"):
-            continue
-        return LinearElimination(relations, found, i) if certainly_nonzero(left, positive) else None
-    return LinearElimination(relations, found, None)
-
-
-def _linear_relations(block: Block) -> LinearRelations | None:
     finite = [isinstance(r.piece, Finite) for r in block.rows]
     order = [(not f, r.constraint) for f, r in zip(finite, block.rows, strict=True)]
     if block.nonlinear or block.conditions or order != sorted(order):
         return None
     place = {ex.coordinate(name): k for k, name in enumerate(block.coordinates)}
-    parts = [_linear_row(r.piece, place) for r in block.rows]
-    rows = [p for p in parts if p is not None]
-    if len(rows) < len(parts) or not all(_entire(rest) for _, rest in rows):
+    parts = [p for r in block.rows if (p := _linear_row(r.piece, place)) is not None]
+    if len(parts) < len(block.rows) or not all(_entire(rest) for _, rest in parts):
         return None
-    return LinearRelations([row for row, _ in rows], [rest for _, rest in rows], finite)
+    rows, rests = [row for row, _ in parts], [rest for _, rest in parts]
+    supports = dependences(rows)
+    for i, factors in () if supports is None else supports.items():
+        left = _sum_of_rests(rests, finite, {i: fmpq(-1), **factors})
+        if not linear_terms(left) or zero_and_verdict(left, positive) == (True, "proved"):
+            continue
+        return LinearElimination(rows, supports or {}, i) if certainly_nonzero(left, positive) else None
+    return None if supports is None else LinearElimination(rows, supports)
+
+
+def _sum_of_rests(rests: Sequence[Expr], finite: Sequence[bool], factors: Mapping[int, fmpq]) -> Expr:
+    """What is left of a sum of rows that is 0: of finite ones the rests, beside forms their rates."""
+    rates = not all(finite[k] for k in factors)
+    told = ((v, diff(rests[k], ex.TIME) if rates and finite[k] else rests[k]) for k, v in factors.items())
+    return ex.add(*(ex.mul(ex.num(_fraction(v)), e) for v, e in told if not e.is_zero))
 
 
 def _linear_row(piece: Piece, place: Mapping[Expr, int]) -> tuple[RationalRow, Expr] | None:
@@ -159,7 +146,7 @@ def eliminated(block: Block, setting: Setting) -> Answer | None:
         minimal = tuple(sorted(guilty)) if max(Counter(owners).values()) == 1 else ()
         return Answer(False, argument="linear contradiction", reasons=[CONTRADICTION], conflict=minimal, method=METHOD)
     p, n = prime_for(1, (), 0), len(block.coordinates)
-    matrix = _modulo(found.relations.rows, p)
+    matrix = _modulo(found.rows, p)
     if matrix is None:
         return None
     kept = [row for i, row in enumerate(matrix) if i not in found.supports]
@@ -224,7 +211,7 @@ def _agrees(found: LinearElimination, a: Answer, n: int, alone: bool) -> bool:
     if numbers != {free} or not (grown and derived and holonomic) or a.hidden or a.degenerate:
         return False
     matrix = without_time(a.matrix, n)
-    same = len(a.dependent) == found.rank and matrix == _modulo(found.relations.rows, a.modulus)
+    same = len(a.dependent) == found.rank and matrix == _modulo(found.rows, a.modulus)
     return same and _same_dependence(found, matrix, a.modulus, alone)
 
 
@@ -241,7 +228,7 @@ def _same_dependence(found: LinearElimination, matrix: Sequence[SparseRow], p: i
     core = sorted({k for i, f in found.supports.items() for k in (i, *f)})
     if alone or not core:
         return True
-    rows = [_primitive(found.relations.rows[i]) for i in core]
+    rows = [_primitive(found.rows[i]) for i in core]
     small = math.prod(sum(v * v for v in row) for row in rows) < p * p
     return small or all(sorted(row) in ([-1], [1], [-1, 1]) for row in rows)
 

@@ -59,10 +59,7 @@ class States:
         more: Sequence[Expr] = (),
         still: bool = False,
     ) -> None:
-        pieces = [r.piece for r in rows]
-        finite = [*(p.expr for p in pieces if isinstance(p, Finite)), *hidden]
-        linear = [*(rate(g) for g in finite), *(form_rate(p) for p in pieces if isinstance(p, Pfaffian))]
-        nonlinear = [p.expr for p in pieces if isinstance(p, Nonlinear)]
+        finite, linear, nonlinear = state_relations(rows, hidden)
         if still:
             linear, nonlinear = [], []
         everything = [*finite, *linear, *nonlinear, *more]
@@ -181,9 +178,9 @@ class States:
     def _search(self, nodes: Sequence[int], unknowns: Sequence[Expr]) -> RealSearch:
         return RealSearch(self.ring, nodes, unknowns, self.setting.positive)
 
-    def certain(self, count: int, first: int = 0) -> Iterator[BallPoint]:
-        """Real states that are certified, at generic configurations; of so many searches, from the ``first`` on."""
-        for k in range(first, first + count):
+    def certain(self, count: int) -> Iterator[BallPoint]:
+        """Real states that are certified, at generic configurations, of so many searches."""
+        for k in range(count):
             found = self.real(k)
             if found is not None and found.certified and found.consistent:
                 whole, moving, finite = self.ranks(found.point)
@@ -212,11 +209,11 @@ class States:
         )
 
 
-def state_relations(rows: Sequence[Row], hidden: Sequence[Expr]) -> list[Expr]:
-    """Finite relations, their rates, forms on velocities and nonlinear relations."""
+def state_relations(rows: Sequence[Row], hidden: Sequence[Expr]) -> tuple[list[Expr], list[Expr], list[Expr]]:
+    """Return the finite relations, those linear in the velocities (their rates, then forms), and the nonlinear ones."""
     finite = [*(r.piece.expr for r in rows if isinstance(r.piece, Finite)), *hidden]
     forms = [form_rate(r.piece) for r in rows if isinstance(r.piece, Pfaffian)]
-    return [*finite, *map(rate, finite), *forms, *(r.piece.expr for r in rows if isinstance(r.piece, Nonlinear))]
+    return finite, [*map(rate, finite), *forms], [r.piece.expr for r in rows if isinstance(r.piece, Nonlinear)]
 
 
 def rows_at(relations: Sequence[Expr], known: Mapping[Expr, Expr]) -> tuple[Row, ...]:

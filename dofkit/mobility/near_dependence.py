@@ -7,7 +7,6 @@ its points, its turn measured by how far they reach, so that a small body in a l
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import pairwise
 from math import ceil, floor, log10
 from typing import Any
@@ -70,16 +69,12 @@ def _about_middles(j: Any, placement: Placement, dimension: int) -> Any:
 def _points(placement: Placement) -> dict[int, tuple[Member, Any]]:
     """The places at which each member is held, by its first column."""
     found: dict[int, tuple[Member, list[Any]]] = {}
-    for member, at in _places_held(placement):
-        if member.column is not None:
-            found.setdefault(member.column, (member, []))[1].append(at)
-    return {column: (member, np.array(points, dtype=float)) for column, (member, points) in found.items()}
-
-
-def _places_held(placement: Placement) -> Iterator[tuple[Member, tuple[Any, ...]]]:
     for connection in placement.located:
-        yield from connection.points
-        yield from ((member, at) for at in connection.places for member in connection.members)
+        joined = ((member, at) for at in connection.places for member in connection.members)
+        for member, at in (*connection.points, *joined):
+            if member.column is not None:
+                found.setdefault(member.column, (member, []))[1].append(at)
+    return {column: (member, np.array(points, dtype=float)) for column, (member, points) in found.items()}
 
 
 def _rows_of_length_1(j: Any) -> Any:

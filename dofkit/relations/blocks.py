@@ -167,18 +167,18 @@ def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block],
 
 def _linked(rows: Sequence[Row], touched: Sequence[frozenset[str]]) -> Iterator[Iterable[Hashable]]:
     """What joins rows: the coordinates that they mention, and the joint, of which one equation names them for all."""
-    known: set[int] = set()
+    grouped: set[int] = set()
     for row, mentioned in zip(rows, touched, strict=True):
         if not isinstance(row.piece, JointEquation):
             yield mentioned
             continue
         joint = id(row.piece.joint)
-        yield (joint,) if joint in known else (joint, *mentioned)
-        known.add(joint)
+        yield (joint,) if joint in grouped else (joint, *mentioned)
+        grouped.add(joint)
 
 
-def _all(parts: Iterable[frozenset[str]]) -> frozenset[str]:
-    return frozenset[str]().union(*parts)
+def _all(sets: Iterable[frozenset[str]]) -> frozenset[str]:
+    return frozenset[str]().union(*sets)
 
 
 def blocks_of(coordinates: Sequence[str], rows: Sequence[Row], reductions: Reductions) -> tuple[list[Block], list[str]]:

@@ -10,13 +10,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from flint import arb, ctx, nmod
+from flint import ctx
 from shared.germs import SYMBOLS, manifolds, on_plane, through
 
 import dofkit
 from dofkit.configuration.local.criteria import local_dimension, numeric_dimension
 from dofkit.configuration.local.manifold import LocalDimension
-from dofkit.configuration.local.quadratic_cone import bound, definite_combination, signature_of
 from dofkit.exact.points.balls import PRECISION
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr
@@ -169,52 +168,6 @@ def test_arrangements_are_never_answered_wrong_and_mostly_answered() -> None:
         open_ones += told.dimension is None
         assert told.dimension in (truth, None), (seed, told)
     assert open_ones < total / 2
-
-
-# Quadratic forms
-
-
-@pytest.mark.parametrize(
-    ("form", "signature"),
-    [
-        ([[1, 0], [0, 1]], (2, 0)),
-        ([[0, 1], [1, 0]], (1, 1)),
-        ([[1, 2], [2, 4]], (1, 0)),
-        ([[-3, 1], [1, -3]], (0, 2)),
-        ([[0, 0], [0, 0]], (0, 0)),
-    ],
-)
-def test_signatures(form: list[list[int]], signature: tuple[int, int]) -> None:
-    assert signature_of(balls(form)) == signature
-
-
-def balls(form: list[list[int]]) -> Any:
-    return [[arb(v) for v in row] for row in form]
-
-
-def modular(form: list[list[int]]) -> Any:
-    return [[nmod(v, P) for v in row] for row in form]
-
-
-@pytest.mark.parametrize(
-    ("forms", "dimension"),
-    [
-        ([[[1, 0], [0, 1]]], 1),  # two complex lines
-        ([[[1, 0], [0, 0]], [[0, 0], [0, 1]]], 0),
-        ([[[0, 1], [1, 0]], [[1, 0], [0, 0]]], 1),  # x y = x^2 = 0
-        ([[[0, 1, 0], [1, 0, 0], [0, 0, 0]], [[0, 0, 1], [0, 0, 0], [1, 0, 0]]], 2),  # x y = x z = 0
-        ([[[1, 0, 0], [0, 1, 0], [0, 0, 1]], [[1, 0, 0], [0, 2, 0], [0, 0, 3]]], 1),
-    ],
-)
-def test_the_complex_cone_is_bounded(forms: list[list[list[int]]], dimension: int) -> None:
-    assert bound([modular(f) for f in forms], 0) == dimension
-
-
-def test_a_definite_combination_is_found_where_no_form_alone_is_definite() -> None:
-    """diag(3, -1, -1), diag(-1, 3, -1), diag(-1, -1, 3): their sum is the identity, no sum of two is definite."""
-    forms = [balls([[3 if i == j == k else -int(i == j) for j in range(3)] for i in range(3)]) for k in range(3)]
-    assert definite_combination(forms, 3)
-    assert not definite_combination(forms[:2], 3)
 
 
 # Scenes

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
 
 import pytest
 import sympy
@@ -15,11 +14,10 @@ from hypothesis import strategies as st
 
 import dofkit
 from dofkit.base.errors import TextError
-from dofkit.exact.matrices.certified import independent_part
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import PRECISION, BallPoint
 from dofkit.exact.points.field import field_point
-from dofkit.exact.points.frames import FormRows, Pivots, certified_rank, field_frame
+from dofkit.exact.points.frames import FormRows, certified_rank, field_frame
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.points.series import Series, SeriesPoint
 from dofkit.exact.ring.canonical import is_identically_zero
@@ -28,7 +26,7 @@ from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
 from dofkit.exact.zero import is_zero
 from dofkit.expressions import tree as ex
-from dofkit.expressions.text import Names, parse_expression, parse_relations, to_text
+from dofkit.expressions.text import Names, parse_expression, parse_relations
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.growth_vector import growth
 from dofkit.integrability.lie_algebra import lie_span
@@ -56,14 +54,6 @@ def classified(coordinates: str, *constraints: str) -> Report:
 
 
 # The ring
-
-
-def test_angles_have_a_common_basis() -> None:
-    ring = Ring([read("sin(x + 2 y)"), read("cos(y/3)")])
-    for text in ("sin(x + 2 y)", "cos(y/3)"):
-        ring.node(read(text))
-    kinds = sorted((var.kind, str(to_text(var.key[0])), var.key[1]) for var in ring.vars if var.kind in ("cos", "sin"))
-    assert kinds == [("cos", "x", 1), ("cos", "y", 3), ("sin", "x", 1), ("sin", "y", 3)]
 
 
 ZERO = [
@@ -232,27 +222,6 @@ def test_ranks_agree_with_sympy(matrix: list[list[Fraction]], weights: list[Frac
     assert certified_rank(exact[:1]) == any(matrix[0])
 
 
-@settings(max_examples=40, deadline=None)
-@given(st.integers(1, 4), st.randoms(use_true_random=False))
-def test_a_certified_rank_is_found_where_pivots_are_far_from_zero(n: int, rng: Any) -> None:
-    matrix = [[rng.randint(-2, 2) + (9 if i == j else 0) for j in range(n)] for i in range(n)]
-    assert certified_rank([[arb(v) for v in row] for row in matrix]) == n
-
-
-def test_a_frame_solves_for_the_last_columns() -> None:
-    one, zero = nmod(1, P), nmod(0, P)
-    matrix = [[one, one, zero], [one + one, one + one, zero], [zero, one, one]]
-    assert field_frame(matrix, 3, P) == Pivots((0, 2), (1, 2), (0,))
-
-
-def test_numerical_rank_scales_rows() -> None:
-    import numpy as np
-
-    rank, gap, rows, _ = independent_part(np.array([[1e-12, 0.0], [0.0, 1e9], [1e-12, 1e-12]]))
-    assert (rank, rows) == (2, [0, 1])
-    assert gap == math.inf
-
-
 # Points on a variety
 
 
@@ -284,13 +253,6 @@ def test_drawn_points_satisfy_the_relations(texts: Sequence[str]) -> None:
     assert [int(v) for v in values(ring, other)] != [int(v) for v in at]
 
 
-def test_what_contradicts_itself_has_no_point() -> None:
-    relations = [read("x + y - 1"), read("2 x + 2 y - 3")]
-    ring = Ring(relations)
-    solver = TriangularSolver(ring, [ring.node(g) for g in relations])
-    assert solver.plan.contradictory or solver.draw(1) is None
-
-
 def test_a_real_point_is_certified() -> None:
     relations = [read("x^2 + y^2 + z^2 - 1"), read("x - y")]
     ring = Ring(relations)
@@ -303,13 +265,6 @@ def test_a_real_point_is_certified() -> None:
     assert all(at[n].contains(0) for n in nodes)
     assert ctx.prec < PRECISION
     assert max(float(at[n].rad()) for n in nodes) < 1e-30
-
-
-def test_no_real_point_where_there_is_none() -> None:
-    relations = [read("x^2 + y^2 - 1"), read("x - 2")]
-    ring = Ring(relations)
-    found = RealSearch(ring, [ring.node(g) for g in relations], [X, Y], frozenset()).search(1)
-    assert found is None or not found.certified
 
 
 # Series

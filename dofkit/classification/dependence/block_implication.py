@@ -44,7 +44,7 @@ class BlockImplication:
                 users.setdefault(name, set()).add(i)
         return users
 
-    def beside(self, rows: Iterable[int]) -> set[int]:
+    def adjacent_rows(self, rows: Iterable[int]) -> set[int]:
         """The rows that share a coordinate with some rows, those among them."""
         named = frozenset[str]().union(*(self._coordinates[i] for i in rows))
         return set[int]().union(*(self._users[name] for name in named))
@@ -117,7 +117,7 @@ class Everywhere(BlockImplication):
         answer = self.linearly(row, others)
         if answer is not None:
             return answer
-        if self.beside([row, *others]) <= {row, *others}:
+        if self.adjacent_rows([row, *others]) <= {row, *others}:
             return True
         return follows(_alone(self.block.rows[row]), [_alone(self.block.rows[i]) for i in others], self.setting)
 
@@ -186,7 +186,7 @@ class SufficientSets:
         grown = set(support)
         near = self.implication.within([row, *grown])
         if near.intersection(among) <= grown:
-            near = self.implication.beside([row, *grown])
+            near = self.implication.adjacent_rows([row, *grown])
         while True:
             more = {i for i in among if i in near} | grown
             if more == grown or not self._ask(sorted(more)):
@@ -194,7 +194,7 @@ class SufficientSets:
             grown = more
             if self.implication.seems(row, sorted(grown)):
                 return sorted(grown)
-            near = self.implication.beside([row, *grown])
+            near = self.implication.adjacent_rows([row, *grown])
 
     def _fewest(self, row: int, rows: Sequence[int], needed: Sequence[int]) -> list[int]:
         """Rows of which the row follows, less those of constraints without which it does too, the last written first.

@@ -42,16 +42,16 @@ from dofkit.relations.velocity_reductions import eliminated, form_rate
 _ENTIRE = frozenset({"symbol", "cos", "sin", "exp", "pi"})
 
 
-def same_up_to_numbers(given: Sequence[Reduced], wanted: Sequence[Reduced], positive: frozenset[Expr]) -> bool:
+def same_up_to_numbers(submitted: Sequence[Reduced], wanted: Sequence[Reduced], positive: frozenset[Expr]) -> bool:
     """Is every equation given a number times one that is wanted, as it was written, and each of those met?
 
     True is a proof that they say the same and are as regular; False says nothing.
     """
     asked = [_terms(n) for r in wanted for n in r.normals]
-    answer = [terms for r in given for terms in _written(r)]
+    answer = [terms for r in submitted for terms in _written(r)]
     if not answer or [] in asked or [] in answer:
         return False
-    table = [[_proportional(one, other, positive) for other in asked] for one in answer]
+    table = [[_proportional(terms_of_one, other, positive) for other in asked] for terms_of_one in answer]
     return all(map(any, table)) and all(any(row[k] for row in table) for k in range(len(asked)))
 
 
@@ -117,16 +117,16 @@ class Regularity:
 
     others: Sequence[Normal]
     wanted: Sequence[Normal]
-    given: Sequence[Reduced]
+    submitted: Sequence[Reduced]
     setting: Setting
     coordinates: Sequence[str]
 
     def irregular(self) -> bool | None:
         """Does the answer's gradient lose rank where that of what was asked for does not? None: not decided."""
-        answer = [n for r in self.given for n in r.normals]
+        answer = [n for r in self.submitted for n in r.normals]
         if any(isinstance(p, Pfaffian) for n in (*answer, *self.wanted) for p in n.pieces):
             choices = list(cartesian(*(n.branches for n in self.wanted if n.branches)))[:MAX_BRANCHES]
-            return any(_is_flat(r, choice, self.setting.positive) for r in self.given for choice in choices)
+            return any(_is_flat(r, choice, self.setting.positive) for r in self.submitted for choice in choices)
         if _lost(answer) and not _lost(self.wanted):
             return True
         branches = list(cartesian(*(n.branches for n in (*self.others, *self.wanted) if n.branches)))
@@ -143,7 +143,7 @@ class Regularity:
         wanted = [p.expr for branch in finite[others:] for p in branch]
         if not wanted:
             return True
-        raw = [e.expr for r in self.given for e in r.constraint.relations]
+        raw = [e.expr for r in self.submitted for e in r.constraint.relations]
         ranks = self._ranks([*chain(*finite)], [*before, *raw], [*before, *wanted])
         return None if ranks is None else ranks[0] >= ranks[1]
 
@@ -203,7 +203,7 @@ def same_side(a: Inequality, b: Inequality, others: Sequence[Normal], setting: S
     seen = list(_signs(a.expr, b.expr, finite, setting))
     if not seen and others:
         return same_side(a, b, (), setting)
-    if any(one != other for one, other in seen):
+    if any(first != other for first, other in seen):
         return False
     sides = [follows(_boundary(x), [*others, _boundary(y)], setting) for x, y in ((a, b), (b, a))]
     if False in sides:
@@ -257,9 +257,9 @@ def bounds(wanted: Sequence[Normal], others: Sequence[Reduced]) -> list[Inequali
     return [q for r in others for q in r.inequalities if moving & q.expr.symbols]
 
 
-def unsound(given: Sequence[Reduced], sound: Sequence[bool | None]) -> list[Expr]:
+def unsound(submitted: Sequence[Reduced], sound: Sequence[bool | None]) -> list[Expr]:
     """The equations as written that do not follow; none where they are not one for each relation."""
-    written = [relation.expr for r in given for relation in r.constraint.relations]
+    written = [relation.expr for r in submitted for relation in r.constraint.relations]
     return [e for e, s in zip(written, sound, strict=True) if not s] if len(written) == len(sound) else []
 
 
@@ -267,10 +267,10 @@ def loses_nothing(
     e: Expr, wanted: Sequence[Normal], others: Sequence[Normal], sides: Iterable[Inequality], setting: Setting
 ) -> bool:
     """Is e = 0, with one root in it, all that is ``wanted`` where the inequalities hold? False says nothing."""
-    parts = _by_root(e)
-    if parts is None:
+    rooted = _by_root(e)
+    if rooted is None:
         return False
-    a, b, under = parts
+    a, b, under = rooted
     squared = Normal(((Finite(b * b - a * a * under),),))
     if follows(squared, [*others, *wanted], setting) is not True:
         return False

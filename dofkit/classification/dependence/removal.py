@@ -142,7 +142,9 @@ class Removal:
 
     def _is_same_set(self, removed: frozenset[int], kept: frozenset[int]) -> bool | None:
         """Return whether what is removed is implied: always where only rigid motions of the system are left."""
-        rows, others = ([i for i, r in enumerate(self.block.rows) if r.constraint in own] for own in (removed, kept))
+        rows, others = (
+            [i for i, r in enumerate(self.block.rows) if r.constraint in constraints] for constraints in (removed, kept)
+        )
         if not is_drawn(self.block, self.whole, self.setting):
             self.verdict = weakest(self.verdict, "probable")
             return all_of(Everywhere(self.block, self.setting).follows(i, others) for i in rows)
@@ -226,12 +228,12 @@ class _Counting:
         The rows of one constraint stand in no order: of those that say the same beside others any may be the first.
         """
         for owner, rows in groupby(sorted(self._dependent), key=self._owners.__getitem__):
-            remaining = self._left(rows)
+            remaining = self._independent_rows(rows)
             if remaining is None or not (self._by_one(owner, remaining) or self._by_freedom(remaining)):
                 return None
         return self.following
 
-    def _left(self, rows: Iterable[int]) -> list[int] | None:
+    def _independent_rows(self, rows: Iterable[int]) -> list[int] | None:
         """Those of some dependent rows that follow from no independent ones; None where that is not known of one."""
         result = []
         for i in rows:
@@ -253,10 +255,10 @@ class _Counting:
         pivots = [k for k, o in enumerate(self._owners) if o <= owner and k not in self._dependent]
         for first in rows:
             others = [i for i in rows if i != first]
-            given = [*pivots, *self.bent, first]
-            if self._near.seem_to_imply(given, others) and (not self.bent or self._takes_freedom(first)):
+            premises = [*pivots, *self.bent, first]
+            if self._near.seem_to_imply(premises, others) and (not self.bent or self._takes_freedom(first)):
                 self.bent.append(first)
-                self.following |= dict.fromkeys(others, given)
+                self.following |= dict.fromkeys(others, premises)
                 self.seen.append(owner)
                 return True
         return False

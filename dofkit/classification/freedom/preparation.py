@@ -121,7 +121,7 @@ class _Normals:
     def __init__(self, system: System, positive: frozenset[Expr]) -> None:
         self._positive = positive
         self._fresh = _fresh(system)
-        self._known: dict[Hashable, NormalTemplate] = {}
+        self._templates: dict[Hashable, NormalTemplate] = {}
 
     def normal(self, e: Expr, written: bool) -> Normal:
         """What ``e = 0`` says. Raises TextError where it can be no relation."""
@@ -134,10 +134,10 @@ class _Normals:
             return without_instants(normalise(e, self._positive, written), self._positive)
         shape = shape_of(e)
         key = (shape.skeleton, shape.order)
-        if key in self._known:
-            return self._known[key].of(shape.names)
+        if key in self._templates:
+            return self._templates[key].of(shape.names)
         result = without_instants(normalise(e, self._positive, written), self._positive)
-        self._known[key] = NormalTemplate(result, shape.names)
+        self._templates[key] = NormalTemplate(result, shape.names)
         return result
 
 

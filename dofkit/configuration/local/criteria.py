@@ -20,6 +20,7 @@ from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.points.balls import BallPoint, precision
 from dofkit.exact.points.field import FieldPoint
+from dofkit.exact.points.frames import Pivots
 from dofkit.relations.blocks import Chart
 
 UNDECIDED = LocalDimension(
@@ -198,17 +199,21 @@ def local_at(
     ``time``: the number of that column, where it matters whether time moves on. A point that was ``drawn`` may be one
     where a relation is flat: what is 0 along a curve is looked at from a distance, if balls may be asked.
     """
-    frame = frame_at(chart, point)
     try:
-        field_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, point)
-        ball_manifold = None
-        if ball is not None:
-            ball_manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
-        return local_dimension(field_manifold, ball_manifold, rigid, time, drawn and "balls" in chart.engines)
+        field, over_balls = _manifolds(chart, frame_at(chart, point), point, ball)
+        return local_dimension(field, over_balls, rigid, time, drawn and "balls" in chart.engines)
     except NoValueError:
         return LocalDimension(
             None, "undecided", "the equations could not be evaluated along a curve through this configuration"
         )
+
+
+def _manifolds(
+    chart: Chart, frame: Pivots, point: FieldPoint, ball: BallPoint | None
+) -> tuple[Manifold, Manifold | None]:
+    """Return the manifold of the frame's relations over GF(p), and over balls where there is a ball."""
+    program = chart.ring, chart.nodes, chart.columns, frame
+    return Manifold(*program, point), None if ball is None else Manifold(*program, ball, chart.scales)
 
 
 def vanish_near(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, rank: int) -> bool | None:
@@ -221,11 +226,7 @@ def vanish_near(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: 
     if len(frame.rows) != rank:
         return False
     try:
-        on_field = Manifold(chart.ring, chart.nodes, chart.columns, frame, point)
-        on_balls = None
-        if ball is not None:
-            on_balls = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
-        return _vanish(Germ(on_field, on_balls, rigid, distance=ball is not None))
+        return _vanish(Germ(*_manifolds(chart, frame, point, ball), rigid, distance=ball is not None))
     except (ArithmeticError, NoValueError):
         return None
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import random
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from typing import Any
@@ -107,24 +107,10 @@ class Echelon:
 
 def echelon(rows: Sequence[Mapping[int, int]], p: int, supports: bool = False) -> Echelon:
     """Return the greedy basis of the rows over GF(p)."""
-    weight = Counter(c for row in rows for c in row)
-    alone = private(rows)
-    reduction = _Reduction(p, weight)
-    independent = []
-    dependent: dict[int, tuple[int, ...]] = {}
-    for i, row in enumerate(rows):
-        if i % LOOK == 0:
-            check()
-        if i in alone:
-            independent.append(i)
-            continue
-        rest, used = reduction.reduced(row)
-        if rest:
-            reduction.add(i, rest, used)
-            independent.append(i)
-        elif supports:
-            dependent[i] = tuple(sorted(reduction.support(used)))
-    return Echelon(tuple(independent), dependent)
+    reduction = _Reduction(rows, p, private(rows))
+    sums = reduction.dependent
+    independent = tuple([i for i in range(len(rows)) if i not in sums])
+    return Echelon(independent, {i: tuple(sorted(reduction.support(sums[i]))) for i in sums} if supports else {})
 
 
 def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
@@ -133,20 +119,8 @@ def vanishing(rows: Sequence[Mapping[int, int]], p: int) -> list[SparseRow]:
     >>> vanishing([{0: 1}, {0: 1, 1: 1}, {1: 2}], 7)
     [{2: 1, 1: 5, 0: 2}]
     """
-    alone = private(rows)
-    reduction = _Reduction(p, Counter(c for row in rows for c in row))
-    sums = []
-    for i, row in enumerate(rows):
-        if i % LOOK == 0:
-            check()
-        if i in alone:
-            continue
-        rest, used = reduction.reduced(row)
-        if rest:
-            reduction.add(i, rest, used)
-        else:
-            sums.append({i: 1} | {k: -v % p for k, v in reduction.support(used).items()})
-    return sums
+    reduction = _Reduction(rows, p, private(rows))
+    return [{i: 1} | {k: -v % p for k, v in reduction.support(used).items()} for i, used in reduction.dependent.items()]
 
 
 def dependences(rows: Sequence[Mapping[int, fmpq]]) -> dict[int, RationalRow] | None:
@@ -191,15 +165,8 @@ def _is_sum(rows: Sequence[Mapping[int, fmpq]], i: int, factors: RationalRow) ->
 
 def vector_in_kernel(rows: Sequence[Mapping[int, int]], p: int, rng: random.Random) -> SparseRow:
     """Return a random vector on which all rows vanish, with a value for each column that occurs."""
-    weight = Counter(c for row in rows for c in row)
-    reduction = _Reduction(p, weight)
-    for i, row in enumerate(rows):
-        if i % LOOK == 0:
-            check()
-        rest, used = reduction.reduced(row)
-        if rest:
-            reduction.add(i, rest, used)
-    return reduction.completed({c: rng.randrange(p) for c in weight})
+    columns = dict.fromkeys(c for row in rows for c in row)
+    return _Reduction(rows, p).completed({c: rng.randrange(p) for c in columns})
 
 
 def rank_of_rows(rows: Sequence[Mapping[int, int]], p: int) -> int:
@@ -238,15 +205,29 @@ def private(rows: Sequence[Mapping[int, int]]) -> set[int]:
 
 
 class _Reduction:
-    """Pivot rows with a 1 in their pivot column, each free of the pivots before it."""
+    """Pivot rows with a 1 in their pivot column, each free of the pivots before it, of all rows but some.
 
-    def __init__(self, p: int, weight: Mapping[int, int]) -> None:
-        self.p, self._weight = p, weight
+    ``dependent``: for every row that depends on rows before it, the multiples of pivot rows that it is the sum of.
+    """
+
+    def __init__(self, rows: Sequence[Mapping[int, int]], p: int, without: Set[int] = frozenset()) -> None:
+        self.p, self._weight = p, Counter(c for row in rows for c in row)
         self._rows: list[list[tuple[int, int]]] = []
         self._sources: list[tuple[int, int, SparseRow]] = []
         self._of: dict[int, int] = {}
+        self.dependent: dict[int, SparseRow] = {}
+        for i, row in enumerate(rows):
+            if i % LOOK == 0:
+                check()
+            if i in without:
+                continue
+            rest, used = self._reduced(row)
+            if rest:
+                self._add(i, rest, used)
+            else:
+                self.dependent[i] = used
 
-    def reduced(self, row: Mapping[int, int]) -> tuple[SparseRow, SparseRow]:
+    def _reduced(self, row: Mapping[int, int]) -> tuple[SparseRow, SparseRow]:
         """Return what is left of a row, and the multiples of pivot rows that were taken from it."""
         p, of, work, used = self.p, self._of, dict(row), SparseRow()
         pending = [of[c] for c in work if c in of]
@@ -275,7 +256,7 @@ class _Reduction:
                         del work[c]
         return work, used
 
-    def add(self, row: int, rest: SparseRow, used: SparseRow) -> None:
+    def _add(self, row: int, rest: SparseRow, used: SparseRow) -> None:
         """A new pivot row: ``rest`` is the row less ``used`` multiples of earlier ones, then scaled."""
         column = min(rest, key=lambda c: (self._weight[c], c))
         inverse = pow(rest[column], -1, self.p)
@@ -330,14 +311,9 @@ class FactoredMatrix:
 
     def __init__(self, rows: Sequence[Mapping[int, int]], p: int) -> None:
         self.p = p
-        self._found = _Reduction(p, Counter(c for row in rows for c in row))
-        for i, row in enumerate(rows):
-            if i % LOOK == 0:
-                check()
-            rest, used = self._found.reduced(row)
-            if not rest:
-                raise PoleError("the matrix is singular")
-            self._found.add(i, rest, used)
+        self._found = _Reduction(rows, p)
+        if self._found.dependent:
+            raise PoleError("the matrix is singular")
 
     def solve(self, right: Sequence[int]) -> list[int]:
         """Return the x with A x = ``right``: what was done to the rows is done to it, then the pivots backwards."""

@@ -8,7 +8,7 @@ the unit circle; exp, log, inverse and unknown functions are independent; roots 
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from fractions import Fraction
@@ -383,9 +383,7 @@ class FieldPoint:
         return total if prime % 4 == 1 else total / self._imaginary
 
 
-def field_point(
-    rings: Sequence[Ring], seed: int, given: Mapping[Var, Scalar] | None = None, beside: str = ""
-) -> FieldPoint:
+def field_point(rings: Sequence[Ring], seed: int, beside: str = "") -> FieldPoint:
     """A fresh random point for programs that share their symbols, modulo a prime where the roots of numbers exist.
 
     Primes and values are drawn by a hash of the programs, and of what stands ``beside`` them: a coefficient that is
@@ -393,7 +391,4 @@ def field_point(
     """
     order, roots, own = circle_order(rings), number_roots(rings), " ".join((*(ring.digest for ring in rings), beside))
     p = prime_for(order, roots, f"{seed % 3} {own}")
-    point = FieldPoint(p, random.Random(f"dofkit point {seed} {own}"), order)
-    for var, value in (given or {}).items():
-        point.set(var, value)
-    return point
+    return FieldPoint(p, random.Random(f"dofkit point {seed} {own}"), order)

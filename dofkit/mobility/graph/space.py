@@ -14,6 +14,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
+from itertools import combinations
 from typing import Any, NamedTuple
 
 from dofkit.base.libraries import components, np, nx
@@ -79,12 +80,12 @@ class SpaceGraph:
             chance = chance_of_error(len(uncounted), len(self._ends))
             why = f"{_INDEPENDENT}; some dependences are probable, with a chance of error below {chance:.1e}"
             return Proof("probable", why)
-        if question == "clusters" and not all(_is_rigid(body, self._pairs) for body in self._clusters):
+        if question == "clusters" and not _are_rigid_by_count(self._clusters, self._pairs):
             why = "some clusters keep their distances in a random motion, but not because of their own links alone"
             return Proof("probable", why)
         if not circuits:
             return Proof("proved", _INDEPENDENT)
-        return Proof("proved", f"{_INDEPENDENT}, and more than 3n - 6 links on n joints depend")
+        return Proof("proved", f"{_INDEPENDENT}, and more than 3n - 6 links on n joints, or hinged bodies, depend")
 
 
 class _Matrix(NamedTuple):
@@ -154,11 +155,33 @@ def _fixed_pairs(pairs: Sequence[Ends], joints: Sequence[int]) -> list[Ends]:
 
 
 def _is_counted(circuit: Sequence[Ends]) -> bool:
-    """Return whether Maxwell's count proves that links depend [Maxwell1864]."""
-    return len(circuit) > 3 * len({v for pair in circuit for v in pair}) - 6
+    """Return whether a count proves that links depend: Maxwell's [Maxwell1864], or that of hinged bodies."""
+    joints = {v for pair in circuit for v in pair}
+    return len(circuit) > 3 * len(joints) - 6 or len(circuit) > hinged_bound(rigid_sets(circuit))
 
 
-def _is_rigid(body: Sequence[int], links: Sequence[Ends]) -> bool:
-    """Return whether some joints are rigid by the links between them alone."""
-    joints = set(body)
-    return _rank([pair for pair in links if joints.issuperset(pair)]) == _full_rank(len(body))
+def hinged_bound(bodies: Sequence[Sequence[int]]) -> int:
+    """Return a bound of the rank of links in general position, each of them in one of the bodies.
+
+    r <= r(H) + sum of (3|X| - 6 - r(H in X)) over bodies X, for the pairs H of joints that two of them share: by
+    submodularity [Whitney1935], once all pairs of every body are linked. The double banana: 1 + 8 + 8 = 17.
+    """
+    shared = (x & y for x, y in combinations(map(frozenset, bodies), 2))
+    hinges = sorted({(min(pair), max(pair)) for pair in shared if len(pair) == 2})
+    bound = len(hinges)
+    for body in map(frozenset, bodies):
+        bound += _full_rank(len(body)) - _rank([pair for pair in hinges if body.issuperset(pair)])
+    return bound
+
+
+def _are_rigid_by_count(bodies: Iterable[Sequence[int]], links: Iterable[Ends]) -> bool:
+    """Return whether every body is rigid by its own links, and by pairs that it shares with bodies that are."""
+    sure = nx.Graph(list(links))
+    undecided = [frozenset(body) for body in bodies]
+    while undecided:
+        rigid = [body for body in undecided if _rank(list(sure.subgraph(body).edges)) == _full_rank(len(body))]
+        if not rigid:
+            return False
+        undecided = [body for body in undecided if body not in rigid]
+        sure.add_edges_from(tuple(body & other) for body in rigid for other in undecided if len(body & other) == 2)
+    return True

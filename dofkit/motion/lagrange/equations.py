@@ -100,14 +100,14 @@ def lagrange(scene: SceneLike, linearize: bool = False, budget: float | None = N
     >>> dofkit.lagrange({**pendulum, "energies": energies}).equations
     ['m*l^2*thetaddot + m*g*l*sin(theta) = 0']
     """
-    seconds, given = DEFAULT_SECONDS if budget is None else seconds_of(budget), load(scene)
+    seconds, read_scene = DEFAULT_SECONDS if budget is None else seconds_of(budget), load(scene)
     try:
         with limited(seconds):
-            derived = derived_of(given)
-            report = _report(derived, *(_small(given, derived) if linearize else (None, ())))
+            derived = derived_of(read_scene)
+            report = _report(derived, *(_small(read_scene, derived) if linearize else (None, ())))
     except OutOfTimeError as error:
         raise NoEquationsError(f"no equations of motion are given: {error}") from None
-    report._companion.about = given
+    report._companion.about = read_scene
     return report
 
 
@@ -148,11 +148,11 @@ def _by_joints(source: MotionSource) -> Derived | None:
     terms = written_length(energy.lagrangian)
     if terms > MOST_WRITTEN:
         raise NoEquationsError(TOO_LONG.format(len(scene.coordinates), terms, MOST_WRITTEN))
-    found = survey(scene)
-    own = replace(source, system=system_of(scene, found), energy=energy, names=found.names)
+    surveyed = survey(scene)
+    joint_source = replace(source, system=system_of(scene, surveyed), energy=energy, names=surveyed.names)
     try:
         with by_processor(min(JOINTS_TRYING, 0.5 * left())):
-            derived = derive(_sorted(own.model()))
+            derived = derive(_sorted(joint_source.model()))
     except OutOfTimeError:
         check()
         raise NoEquationsError(TOO_LONG.format(len(scene.coordinates), terms, "fewer")) from None
@@ -220,10 +220,10 @@ class MotionSource:
 
 def read(scene: Scene) -> MotionSource:
     """The scene's energies and what is known of its constraints. Raises SceneError with all its faults."""
-    found = survey(scene, euler=True)
-    if found.faults:
-        raise SceneError(found.faults, scene.name)
-    energy, faults = energy_of(scene, found.drawing)
+    surveyed = survey(scene, euler=True)
+    if surveyed.faults:
+        raise SceneError(surveyed.faults, scene.name)
+    energy, faults = energy_of(scene, surveyed.drawing)
     if faults:
         raise SceneError(faults, scene.name)
     if not _tells_of_motion(scene):
@@ -232,7 +232,7 @@ def read(scene: Scene) -> MotionSource:
         )
         hint = "add `energies: {kinetic: ..., potential: ...}`, or a `mass` to its particles and bodies"
         raise SceneError((Fault(message, hint=hint),), scene.name)
-    return MotionSource(scene, system_of(scene, found), energy, found.names, found.drawing)
+    return MotionSource(scene, system_of(scene, surveyed), energy, surveyed.names, surveyed.drawing)
 
 
 def _tells_of_motion(scene: Scene) -> bool:
@@ -322,10 +322,10 @@ def conserved(derived: Derived) -> Iterator[Conserved]:
 
 def energy_function(derived: Derived) -> tuple[Expr, bool]:
     """h = sum qdot dL/dqdot - L, and whether that is T + V, as it is where T is quadratic in the velocities."""
-    own = derived.model.energy
+    energies = derived.model.energy
     powers = ex.add(*(ex.velocity(n) * p for n, p in derived.momenta.items()))
     function = powers - derived.lagrangian
-    total = own.kinetic + own.potential
+    total = energies.kinetic + energies.potential
     whole = _zero(derived, function - total)
     tidy = Tidier(Bridge(derived.model.names, derived.model.positive), derived.model.positive, SECONDS)
     return tidy.shorter(total if whole else function), whole

@@ -54,12 +54,12 @@ def _inside(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
         e.op == "pow" and e.args[1].op == "num" and e.args[1].args[0].denominator == 1
     )
     if not (rational and outermost):
-        yield from _own(e, outermost)
+        yield from _required_by(e, outermost)
     for part in ex.children(e):
         yield from _inside(part, outermost and rational)
 
 
-def _own(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
+def _required_by(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
     if e.op == "pow":
         yield from (DomainCondition(*required) for required in of_power(*e.args))
     elif e.op == "fn" and not (outermost and e.args[0] in ("tan", "sec", "cot", "csc")):
@@ -135,11 +135,11 @@ def with_absolute_values(e: Expr, positive: frozenset[Expr]) -> Expr:
         return e
 
     def folded(node: Expr) -> Expr:
-        parts = ex.children(node)
+        operands = ex.children(node)
         base = square_root(node.args[0], positive) if _root_of_sum(node) else None
         if base is not None:
             return ex.power(ex.fn("abs", base), ex.num(2 * node.args[1].args[0]))
-        return ex.rebuild(node, tuple(map(folded, parts))) if parts else node
+        return ex.rebuild(node, tuple(map(folded, operands))) if operands else node
 
     return folded(e)
 
@@ -225,5 +225,5 @@ def with_signs(e: Expr, signs: Mapping[Expr, int]) -> Expr:
     if _root_of_square(e) and e.args[0].args[0] in signs:
         inner = e.args[0].args[0]
         return ex.power(with_signs(inner, signs) * signs[inner], ex.num(2 * e.args[1].args[0]))
-    parts = ex.children(e)
-    return ex.rebuild(e, tuple(with_signs(part, signs) for part in parts)) if parts else e
+    operands = ex.children(e)
+    return ex.rebuild(e, tuple(with_signs(part, signs) for part in operands)) if operands else e

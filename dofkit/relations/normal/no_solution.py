@@ -164,23 +164,23 @@ def _polynomials(relations: Sequence[Expr], positive: frozenset[Expr]) -> Polyno
     ring = Ring(relations, positive)
     nodes = [ring.node(e) for e in relations]
     canon = Canon(ring)
-    own = [canon.quotient(node)[0] for node in nodes]
-    if any(p == 0 for p in own):
-        own = [p for p in own if p != 0]
-    present = {i for p in own for i in canon.generators_in(p)}
-    own += [g for g in canon.relations if not present.isdisjoint(canon.generators_in(g))]
-    everything = _resultants(_combined(canon, own))
+    numerators = [canon.quotient(node)[0] for node in nodes]
+    if any(p == 0 for p in numerators):
+        numerators = [p for p in numerators if p != 0]
+    present = {i for p in numerators for i in canon.generators_in(p)}
+    numerators += [g for g in canon.relations if not present.isdisjoint(canon.generators_in(g))]
+    everything = _resultants(_combined(canon, numerators))
     count = len(ring.vars)
     symbols = tuple(ex.parameter(f"generator {count - 1 - i}") for i in range(count))
     ranges = {symbols[count - 1 - v.index]: _range(v, ring) for v in ring.vars}
-    if any(_known(canon, p) and never_vanishes(canon.to_expr(p), positive) for p in everything):
+    if any(_without_hidden_numbers(canon, p) and never_vanishes(canon.to_expr(p), positive) for p in everything):
         raise EmptyError
     if any(_without_real_roots(p) for p in everything):
         raise EmptyError
     return PolynomialSystem(tuple(everything), symbols, ranges)
 
 
-def _known(canon: Canon, p: Poly) -> bool:
+def _without_hidden_numbers(canon: Canon, p: Poly) -> bool:
     """No generator is a number of its own: such numbers may be related, and their polynomials hidden zeros."""
     return all(canon.ring.var_expr[i].symbols for i in canon.generators_in(p))
 

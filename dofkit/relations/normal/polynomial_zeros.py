@@ -74,8 +74,8 @@ def _plain(canon: Canon, index: int, variables: frozenset[Expr]) -> bool:
         return False
     argument = canon.ring.var_expr[index].args[1]
     moving = argument.symbols & variables
-    known = all(s.args[0] in ("coordinate", "time", "parameter") for s in argument.symbols)
-    return bool(moving) and known and all(node.op != "call" for node in ex.nodes(argument))
+    declared = all(s.args[0] in ("coordinate", "time", "parameter") for s in argument.symbols)
+    return bool(moving) and declared and all(node.op != "call" for node in ex.nodes(argument))
 
 
 def _regular(canon: Canon, index: int, value: int) -> Expr:
