@@ -15,9 +15,7 @@ from dofkit.interface.output import failures_of
 assignment_app = typer.Typer(
     help="Write assignments, handouts and a variant per student.", no_args_is_help=True, rich_markup_mode="rich"
 )
-export_app = typer.Typer(
-    help="Export assignments for course platforms.", no_args_is_help=True, rich_markup_mode="rich"
-)
+export_app = typer.Typer(help="Export assignments for course platforms.", no_args_is_help=True, rich_markup_mode="rich")
 
 
 @assignment_app.command("new")
