@@ -50,7 +50,7 @@ def handout(
     """
     from dofkit.homework.assignment import load_assignment
     from dofkit.homework.handout.sheets import HANDOUTS, remarks, write_sheet, written_sheet
-    from dofkit.homework.variants import own
+    from dofkit.homework.variants import sheet_of
 
     with failures_of(assignment):
         form = form or "html" if out is None else format_of_path(out, HANDOUTS, form)
@@ -59,7 +59,7 @@ def handout(
         if target.resolve() == Path(assignment).resolve():
             raise typer.BadParameter("it would overwrite the assignment", param_hint="--out")
         if student is not None:
-            prepared = own(prepared, student)
+            prepared = sheet_of(prepared, student)
         write_sheet(written_sheet(prepared, drawing(), student), form, target)
     for remark in remarks(prepared):
         typer.echo(f"{assignment}: {remark}", err=True)

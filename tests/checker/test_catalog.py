@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from shared.known_scenes import CATALOG, OURS, few, report_of, scene_of, stem
 
+import dofkit
 from dofkit.checker import verify
 from dofkit.methods.certificates.certificate import made
 from dofkit.methods.certificates.lowering import document_of_scene
@@ -74,3 +75,18 @@ def test_most_of_what_is_proved_of_the_test_scenes_verifies() -> None:
         counts[True] += verified
         counts[False] += sum(1 for one in uncovered if not one.startswith("/verdicts/"))
     assert counts[True] >= LEAST * counts.total()
+
+
+def test_hyphens_of_particles_and_bodies() -> None:
+    """The coordinates of `k-1` are x_k_1 and y_k_1, for the checker too."""
+    scene = {
+        "dimension": 2,
+        "particles": ["k-1", "k-2"],
+        "constraints": [{"type": "link", "between": ["k-1", "k-2"], "length": 1}, "y_k_1 = 0"],
+    }
+    report = dofkit.classify(scene, certificate=True)
+    assert report.certificate is not None
+    assert report.dof == 2
+    found = dofkit.verify(scene, report.certificate)
+    assert found.verified > 0
+    assert not found.failed

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
-from checker.certified import certificate, faults
+from checker.certified import certificate
 from checker.test_problem import agrees, read
 from checker.values import of_tree
 
@@ -74,29 +72,3 @@ def test_a_type_that_is_not_known_is_told() -> None:
     found = verify(document, certificate(document, claims, uncovered=["/dof"]))
     assert (found.claims, found.verified, found.failed) == (2, 0, [])
     assert found.uncovered == ["/dof", *(one["path"] for one in claims)]
-
-
-def test_what_is_false_of_a_coupling_is_refused() -> None:
-    """The belt leaves one of two angles, and the third says the same thrice."""
-    arms: dict[str, Any] = {
-        "dimension": 2,
-        "bodies": ["A", "B"],
-        "constraints": [
-            {"name": "shoulder", "type": "revolute", "between": ["ground", "A"], "at": [0, 0]},
-            {"name": "elbow", "type": "revolute", "between": ["A", "B"], "at": [1, 0]},
-            {"name": "belt", "type": "coupling", "joints": ["shoulder", "elbow"], "text": "elbow = 2 shoulder"},
-            {"name": "again", "type": "coupling", "joints": ["shoulder", "elbow"], "text": "3 elbow = 6 shoulder"},
-        ],
-    }
-    rows = ["shoulder.1", "shoulder.2", "elbow.1", "elbow.2", "belt"]
-    minor = {"at": "P", "rows": rows, "columns": ["x_A", "y_A", "x_B", "y_B", "theta_B"]}
-    point = {"id": "P", "values": dict.fromkeys(("x_A", "y_A", "theta_A", "x_B", "y_B", "theta_B"), "0")}
-    step = {"id": "k", "by": "implied", "of": "again", "c": {"belt": "3"}}
-    dof = {"path": "/dof", "rule": "regular", "about": "reference", "minor": minor}
-    assert faults(arms, [{**dof, "value": 1}], points=[point], relations=[step]) == {}
-    assert "the evidence gives 1" in faults(arms, [{**dof, "value": 2}], points=[point], relations=[step])["/dof"]
-    twice = {**step, "c": {"belt": "2"}}
-    assert "not shown to follow" in faults(arms, [{**dof, "value": 1}], points=[point], relations=[twice])["/dof"]
-    for constraint in arms["constraints"][2:]:
-        constraint["text"] = "elbow = 3 shoulder" if constraint["name"] == "again" else constraint["text"]
-    assert faults(arms, [{**dof, "value": 1}], points=[point], relations=[step])
