@@ -85,13 +85,14 @@ class Scenery:
     def functions(self) -> dict[str, dict[str, Any]]:
         """A polynomial for every unknown function."""
         return {
-            name: _polynomial(len(own), i) for i, (name, own) in enumerate(self.problem.world.names.functions.items())
+            name: _polynomial(len(arguments), i)
+            for i, (name, arguments) in enumerate(self.problem.world.names.functions.items())
         }
 
     @cached_property
     def parameters(self) -> dict[str, Fraction]:
         """A value for every parameter that occurs."""
-        used = {name for one in self.problem.relations for name in one.left.symbols}
+        used = {name for relation in self.problem.relations for name in relation.left.symbols}
         used |= {name for tree in self.problem.reference.values() for name in tree.symbols}
         names = [name for name in self.problem.world.signs if name in used]
         return {name: _CHOICES[i % len(_CHOICES)] for i, name in enumerate(names)}
@@ -99,7 +100,7 @@ class Scenery:
     @cached_property
     def timed(self) -> bool:
         """Whether time occurs in any relation, inequalities included."""
-        return any(not {"t", "tdot"}.isdisjoint(one.left.symbols) for one in self.problem.relations)
+        return any(not {"t", "tdot"}.isdisjoint(relation.left.symbols) for relation in self.problem.relations)
 
     def linear(self, name: str) -> bool:
         """Whether a relation is a linear form in the velocities; False where that cannot be told."""
