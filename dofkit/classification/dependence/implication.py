@@ -46,7 +46,7 @@ class AskedBranch(NamedTuple):
 
 
 def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool | None:
-    """Does a relation hold on every branch of the others? None where that was not decided."""
+    """Return whether a relation is satisfied on every branch of the others; None if undecided."""
     here = replace(setting, reference=None, pose={}, grows=False, flag=False)
     relation = branches_at_reference(normal, setting)
     if conditional(relation):
@@ -69,7 +69,7 @@ def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool 
 
 
 def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
-    """Does one of the relation's branches hold wherever the rows do?"""
+    """Return whether one of the relation's branches is satisfied wherever the rows are."""
     names = sorted({n for r in way.rows for n in coordinates_of(r.piece)})
     blocks, _ = split(names, way.rows)
     answers = [in_time(b, setting) for b in blocks]
@@ -78,12 +78,12 @@ def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
     hidden = [g for a in answers for g in a.hidden]
     if _undefined(relation, names, way.rows, setting):
         return False
-    known = all(a.consistent for a in answers)
-    given = [r.piece for r in way.rows if isinstance(r.piece, DomainCondition)]
+    all_consistent = all(a.consistent for a in answers)
+    domain = [r.piece for r in way.rows if isinstance(r.piece, DomainCondition)]
     branches = [
         AskedBranch(
             tuple(at_state(p) for p in b if isinstance(p, RELATIONS)),
-            tuple(p for p in b if isinstance(p, DomainCondition) and p not in given),
+            tuple(p for p in b if isinstance(p, DomainCondition) and p not in domain),
         )
         for b in relation.branches
         if not _beyond(b, way.rows, hidden, setting)
@@ -91,36 +91,36 @@ def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
     still = all(isinstance(p, Finite) for p in relation.pieces)
     written = [s.written.piece.expr for s in way.slots if isinstance(s.written.piece, Nonlinear) and not still]
     more = [*(e for b in branches for e in b.relations), *(c.expr for b in branches for c in b.conditions)]
-    more += [c.expr for c in given]
+    more += [c.expr for c in domain]
     moving = {str(s.args[1]) for e in more for s in e.symbols if s.args[0] in ("coordinate", "velocity")}
     try:
         states = States(sorted({*names, *moving}), way.rows, hidden, setting, [*more, *written], still)
         smaller = any(a.degenerate or a.dof is None for a in answers)
-        held = _vanishes_on_states(states, branches, written, given, smaller)
+        held = _vanishes_on_states(states, branches, written, domain, smaller)
     except (OutOfTimeError, ArithmeticError):
         return None
-    return held if held or known else None
+    return held if held or all_consistent else None
 
 
 def _beyond(branch: Sequence[Piece], rows: Sequence[Row], hidden: Sequence[Expr], setting: Setting) -> bool:
-    """Do the conditions of a branch hold nowhere where some rows do?"""
+    """Return whether the conditions of a branch are satisfied nowhere where some rows are."""
     asked = [p for p in branch if isinstance(p, DomainCondition)]
     finite = [r.piece.expr for r in rows if isinstance(r.piece, Finite)]
     return bool(asked) and hold_nowhere([*finite, *hidden], asked, setting.positive)
 
 
 def _undefined(relation: Normal, names: Sequence[str], rows: Sequence[Row], setting: Setting) -> bool:
-    """Is there a configuration of the rows at which a logarithm of a finite relation has no value? True is certified.
+    """Return whether a logarithm has no value at some configuration of the rows; True is certified.
 
     Where u > 0 does not hold, u = -s^2 for some s.
     """
     standing = [r for r in rows if isinstance(r.piece, Finite)]
-    own, theirs = (
+    asked, theirs = (
         {c.expr for p in pieces if isinstance(p, Finite) for c in conditions_of(p.expr, setting.positive) if c.strict}
         for pieces in (relation.pieces, [r.piece for r in standing])
     )
-    moved = {*names, *(str(s.args[1]) for u in own for s in u.symbols if s.args[0] == "coordinate")}
-    for u in sorted(own - theirs, key=repr):
+    moved = {*names, *(str(s.args[1]) for u in asked for s in u.symbols if s.args[0] == "coordinate")}
+    for u in sorted(asked - theirs, key=repr):
         beyond = ex.add(u, ex.power(ex.coordinate(SLACK), ex.num(2)))
         if no_solution([*(r.piece.expr for r in standing if isinstance(r.piece, Finite)), beyond], setting.positive):
             continue
@@ -139,10 +139,10 @@ def _vanishes_on_states(
     states: States,
     branches: Sequence[AskedBranch],
     written: Sequence[Expr],
-    given: Sequence[DomainCondition],
+    domain: Sequence[DomainCondition],
     smaller: bool,
 ) -> bool | None:
-    """Does a branch hold at every state that is drawn? ``given`` conditions hold there.
+    """Return whether a branch is satisfied at every state that is drawn, where the ``domain`` conditions are.
 
     ``smaller``: over the reals the set may be smaller than over GF(p), where nothing is refuted then. Nor is it where
     the set may have parts without real points.
@@ -156,7 +156,7 @@ def _vanishes_on_states(
             seen.append(_some_vanish(states, p, branches))
             if seen[-1] is False:
                 break
-    plain = not written and not given and states.independent and not smaller
+    plain = not written and not domain and states.independent and not smaller
     if plain and False in seen and states.rational:
         return False
     if seen and all(seen) and not asked and not states.chosen:
@@ -164,7 +164,7 @@ def _vanishes_on_states(
     answer = [
         _some_hold(states, p, branches)
         for p in states.certain(MANY_STATES if asked or False in seen else STATES)
-        if _all_vanish(states, p, written) and all(_satisfied(states, p, c) is not False for c in given)
+        if _all_vanish(states, p, written) and all(_satisfied(states, p, c) is not False for c in domain)
     ]
     if False in answer:
         return False
@@ -173,12 +173,12 @@ def _vanishes_on_states(
 
 
 def _some_vanish(states: States, point: FieldPoint, branches: Sequence[AskedBranch]) -> bool | None:
-    """Does one of the branches vanish? None where some expression has no value."""
+    """Return whether one of the branches vanishes; None where some expression has no value."""
     return _any([_all_vanish(states, point, b.relations) for b in branches])
 
 
 def _some_hold(states: States, point: BallPoint, branches: Sequence[AskedBranch]) -> bool | None:
-    """Does one of the branches vanish where its conditions hold? None where a ball does not tell."""
+    """Return whether one of the branches vanishes where its conditions hold; None where a ball does not decide."""
     return _any(
         [
             all_of((_all_vanish(states, point, b.relations), *(_satisfied(states, point, c) for c in b.conditions)))
@@ -187,18 +187,18 @@ def _some_hold(states: States, point: BallPoint, branches: Sequence[AskedBranch]
     )
 
 
-def _any(found: Sequence[bool | None]) -> bool | None:
-    return True if True in found else None if None in found else False
+def _any(answers: Sequence[bool | None]) -> bool | None:
+    return True if True in answers else None if None in answers else False
 
 
 def _all_vanish(states: States, point: FieldPoint | BallPoint, expressions: Sequence[Expr]) -> bool | None:
-    """Are the expressions 0 at a state (where a ball does not tell)? None where one has no value."""
+    """Return whether the expressions are 0 at a state (or a ball holds 0); None where one has no value."""
     result = [value_at(states.ring, point, states.extra[e]) for e in expressions]
     return all_of(None if v is None else vanishes(v) for v in result)
 
 
 def _satisfied(states: States, point: BallPoint, condition: DomainCondition) -> bool | None:
-    """Does a condition hold at a real state? None where a ball does not tell."""
+    """Return whether a condition is satisfied at a real state; None where a ball does not decide."""
     value = value_at(states.ring, point, states.extra[condition.expr])
     if value is None or value.contains(0):
         return None

@@ -229,8 +229,11 @@ def _as_equation(script: Script) -> Script:
     for i in range(match.end() + 1, end):
         depth += (script.text[i] in "([{") - (script.text[i] in ")]}")
         if script.text[i] == "," and depth == 0:
-            left, right = script.cut(match.end() + 1, i), script.cut(i + 1, end)
-            return Script(f"{left.text} = {right.text}", (*left.columns[:-1], *left.columns[-1:] * 3, *right.columns))
+            left_side, right = script.cut(match.end() + 1, i), script.cut(i + 1, end)
+            return Script(
+                f"{left_side.text} = {right.text}",
+                (*left_side.columns[:-1], *left_side.columns[-1:] * 3, *right.columns),
+            )
     return script
 
 

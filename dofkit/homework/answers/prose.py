@@ -133,8 +133,8 @@ def takes_back(remark: str) -> bool:
     >>> takes_back("not sure"), takes_back("it would be 2 without the rod")
     (True, False)
     """
-    told = re.findall(r"[^\W\d_]+(?:['’-][^\W\d_]+)*", plain(remark))
-    doubted = len(told) <= _DOUBTFUL_WORDS and not _TAKING_BACK.isdisjoint(told)
+    remark_words = re.findall(r"[^\W\d_]+(?:['’-][^\W\d_]+)*", plain(remark))
+    doubted = len(remark_words) <= _DOUBTFUL_WORDS and not _TAKING_BACK.isdisjoint(remark_words)
     return "?" in remark or doubted or _UNSURE.search(plain(remark)) is not None
 
 

@@ -71,10 +71,10 @@ def _html(sheet: WrittenSheet, out: Path) -> None:
 def _markdown(sheet: WrittenSheet, out: Path) -> None:
     out.write_text(with_latex(sheet.markdown), encoding="utf-8")
     for path, figure in sheet.figures.items():
-        _beside(out, path, figure.data)
+        _write_figure(out, path, figure.data)
 
 
-def _beside(out: Path, path: str, data: bytes) -> None:
+def _write_figure(out: Path, path: str, data: bytes) -> None:
     target = out.parent / path
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_bytes(data)

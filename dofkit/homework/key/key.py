@@ -57,7 +57,7 @@ class Key:
             self._answers[question] = value
         return cast(Answer, self._answers[question])
 
-    def known(self, what: Chosen, names: Iterable[str]) -> bool | None:
+    def decided(self, what: Chosen, names: Iterable[str]) -> bool | None:
         """Return ``what(scene, names, report)``, in whatever order the names come."""
         chosen = frozenset(names)
         return self.once((what, chosen), lambda: what(self.scene, sorted(chosen), self.report))

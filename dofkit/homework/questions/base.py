@@ -23,14 +23,14 @@ FEWEST_POINTS, MOST_POINTS = Fraction(1, 1000), 1_000_000
 
 
 def _points(value: object) -> object:
-    found = exact(value)
-    if found < 0:
+    points = exact(value)
+    if points < 0:
         raise fault_error(f"points are not negative, as {value} is", "write 0 or more")
-    if found > MOST_POINTS or 0 < found < FEWEST_POINTS:
+    if points > MOST_POINTS or 0 < points < FEWEST_POINTS:
         raise fault_error(
             f"a question cannot be worth {value} points", f"write 0, or {float(FEWEST_POINTS)} to {MOST_POINTS}"
         )
-    return found
+    return points
 
 
 def identifier(value: object) -> object:
@@ -67,8 +67,8 @@ class QuestionBase(WrittenModel):
     @property
     def about(self) -> tuple[str, ...]:
         """The names of the scene that it is about."""
-        found = getattr(self, "constraint", None) or getattr(self, "coordinate", None) or ()
-        return (found,) if isinstance(found, str) else tuple(found)
+        names = getattr(self, "constraint", None) or getattr(self, "coordinate", None) or ()
+        return (names,) if isinstance(names, str) else tuple(names)
 
     def asked(self, about: str) -> Said:
         """Return the question in words; ``about``: how the names that it is about are shown."""
@@ -98,9 +98,9 @@ class QuestionBase(WrittenModel):
         """Return the answer as it is understood, the plainest readings only. Raises TextError if it cannot be read."""
         return shown_text_of(self.readings(answer, names))
 
-    def reveals(self, found: Judgement) -> bool:
+    def reveals(self, judgement: Judgement) -> bool:
         """Would an example that is judged so tell of the answer? What is half right does."""
-        return found.status not in ("wrong", "unreadable")
+        return judgement.status not in ("wrong", "unreadable")
 
     def solution(self, key: Key) -> Sentence:
         """What is right, in words; empty where dofkit does not know it."""
