@@ -253,7 +253,7 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
 
 
 def _dependent_at_drawing(block: Block, a: Answer, setting: Setting) -> tuple[str, ...]:
-    """Coordinates that the rows at the drawing can be solved for, the last ones where there is a choice.
+    """Coordinates that the rows at the reference can be solved for, the last ones where there is a choice.
 
     Of bodies whose joints close no loop places are solved for before angles.
     """
@@ -277,7 +277,7 @@ def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit 
 
 
 def regular_at_witness(names: Sequence[str], a: Answer, chosen: Sequence[str]) -> bool | None:
-    """Have the finite relations, by the coordinates that are not chosen, their full rank at the witness?
+    """Return whether the finite relations, by the coordinates that are not chosen, have full rank at the witness.
 
     None where no rows are known there. What divides by a coefficient may divide by 0 on the part of the witness.
     """
@@ -288,7 +288,7 @@ def regular_at_witness(names: Sequence[str], a: Answer, chosen: Sequence[str]) -
 
 
 def _is_regular(block: Block, a: Answer, chosen: Sequence[str], setting: Setting) -> bool:
-    """Have the relations, by the coordinates that are not chosen, their full rank at the point that was looked at?
+    """Return whether the relations, by the coordinates that are not chosen, have full rank at the examined point.
 
     A coefficient that was divided by may be 0 all over the set; at a reference these are numbers. Of what was answered
     by parts no rows are known.

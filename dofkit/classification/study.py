@@ -136,7 +136,7 @@ def instantaneous_dof(study: Study) -> int | None:
 
 
 def singular(study: Study) -> bool | None:
-    """Does the drawing allow other velocities than finite motions have? None without a drawing."""
+    """Return whether the reference allows other velocities than finite motions have; None without a reference."""
     here, velocities = instantaneous_dof(study), study.outcome.velocity_dof
     return None if here is None or velocities is None else here != velocities
 

@@ -1,4 +1,4 @@
-"""Coordinates that are independent on the tangent space of a configuration space at a point near the drawing."""
+"""Coordinates that are independent on the tangent space of a configuration space at a point near the reference."""
 
 from __future__ import annotations
 

@@ -95,7 +95,7 @@ def _stays(a: Answer) -> bool:
 
 
 def rows_at_drawing(group: TurnedGroup, setting: Setting, most: float = math.inf) -> NamedRows | None:
-    """The rows of the relations at the drawing; None where they do not hold there.
+    """The rows of the relations at the reference; None where they do not hold there.
 
     Where not all are those of joints they are written out for at ``most`` so many coordinates.
     """
@@ -115,7 +115,7 @@ def rows_at_drawing(group: TurnedGroup, setting: Setting, most: float = math.inf
 
 
 def chosen_at_drawing(group: TurnedGroup, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:
-    """The first coordinates whose differentials complete the rows of the relations at the drawing.
+    """The first coordinates whose differentials complete the rows of the relations at the reference.
 
     Over GF(p), where a minor that is not 0 is not 0 over the numbers either. The others are those that the rows can be
     solved for, the last ones where there is a choice [Whitney1935]. None where angles are singular there or drawn at
@@ -155,7 +155,7 @@ def _right_angles(e: Expr) -> int | None:
 
 
 def are_coordinates(group: TurnedGroup, chosen: Collection[str], setting: Setting, turning: Sequence[Rotation]) -> bool:
-    """Is there a certified configuration at which the chosen coordinates are independent, and enough?
+    """Return whether the chosen coordinates are a local chart at some certified configuration.
 
     Their differentials and the rows of the relations have full rank there: a minor's ball excludes 0.
     """

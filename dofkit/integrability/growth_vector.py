@@ -35,7 +35,7 @@ MAX_CURVES = 24
 
 
 def is_free(growth: Sequence[int]) -> bool:
-    """Does it grow as fast as brackets of so many fields can, until the end [Witt1937]?
+    """Return whether it grows as fast as brackets of so many fields can, until the end [Witt1937].
 
     Of brackets of length k in m fields (1/k) sum_(d | k) mu(d) m^(k/d) are independent at most.
 
@@ -270,7 +270,7 @@ def _dimensions(flows: Sequence[AdmissibleCurve], terminal: int | None = None) -
 
 
 def _complete(curves: Sequence[tuple[AdmissibleCurve, Variation]], dimensions: Sequence[int], terminal: int) -> bool:
-    """Does no bracket across the curves leave S_k+1, for every k before the Lie algebra is reached?"""
+    """Return whether no bracket across the curves leaves S_k+1, for every k before the Lie algebra is reached."""
     flows = [f for f, _ in curves]
     vectors = [v for f in flows for v in columns_of(f.pulled[0])]
     for k in range(1, len(dimensions)):

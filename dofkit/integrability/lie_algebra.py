@@ -256,7 +256,7 @@ class Span:
 
     @property
     def grows_at_once(self) -> bool:
-        """Does the dimension stop once only? Else the point is no generic one."""
+        """Return whether the dimension stops once only, as it does at a generic point."""
         last = self.dimensions.index(self.dimension)
         return all(a < b for a, b in pairwise(self.dimensions[: last + 1]))
 

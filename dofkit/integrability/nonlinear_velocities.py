@@ -121,7 +121,7 @@ def _rows_at_reference(block: Block, setting: Setting, result: Answer) -> tuple[
 
 
 def _moves_at_reference(block: Block, setting: Setting, result: Answer, moving: int) -> bool:
-    """Are there real velocities at the reference, regular as those are elsewhere? True where none is given or is met.
+    """Return whether real velocities at the reference are as regular as elsewhere; True without a reference on the set.
 
     xdot^2 + ydot^2 = z zdot^2 has them where z > 0, and leaves all at rest where z < 0.
     """
@@ -176,7 +176,7 @@ def _open_labels(result: Answer, why: str) -> None:
 
 
 def _bends(states: States, point: BallPoint) -> bool:
-    """Does no affine space hold the allowed velocities but the one that the linear relations cut out?
+    """Return whether the allowed velocities span the affine space that the linear relations cut out.
 
     The derivatives of curves through a velocity lie in the smallest affine space around them; balls prove how many are
     independent.
@@ -321,7 +321,7 @@ def _why(slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer])
 
 
 def _on_the_kernel(f: Expr, joint: Block, hidden: Sequence[Expr], setting: Setting) -> HolonomyLabel:
-    """Does f vanish on the kernel of the largest integrable part?"""
+    """Return whether f vanishes on the kernel of the largest integrable part."""
     forms = codistribution(joint, setting, hidden, [f])
     variety = find(forms.chart, setting.pose)
     ring = forms.chart.ring
@@ -384,7 +384,7 @@ def _moving(ring: Ring, point: FieldPoint | BallPoint, moved: dict[Expr, Scalar]
 
 
 def _rational(ring: Ring, node: int) -> bool:
-    """Do velocities stand in no root and no function?"""
+    """Return whether velocities stand in no root and no function."""
     code = ring.code
     used = {code[i][1] for i in reachable(ring, [node]) if code[i][0] == VAR}
     return all(ring.vars[i].kind == "symbol" or not moves(ring, i) for i in used)

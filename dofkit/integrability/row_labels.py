@@ -214,7 +214,7 @@ def _flat(forms_at_points: SampledForms, forms: Sequence[Pfaffian]) -> list[Pfaf
 
 
 def _label(place: int, forms_at_points: SampledForms, proof_of: Certificate | None) -> HolonomyLabel:
-    """Is the row in the largest integrable part: does it annihilate the Lie algebra of D [HermannNagano]?"""
+    """Return whether the row annihilates the Lie algebra of D, so is in the largest integrable part [HermannNagano]."""
     zero = [all(v == 0 for v in pairing(s.matrix[place], s.span.vectors)) for _, s in forms_at_points.samples]
     if all(zero):
         line = forms_at_points.columns - forms_at_points.rank <= 1
@@ -231,7 +231,7 @@ def _label(place: int, forms_at_points: SampledForms, proof_of: Certificate | No
 
 
 def _modulo_the_others(place: int, sampled: SampledSpan, p: int) -> bool:
-    """Is the row a sum of one in the largest integrable part and of the other rows, and independent of these?
+    """Return whether the row is one of the largest integrable part plus other rows, and independent of these.
 
     So it is where it annihilates what both allow: the Lie algebra's vectors that the other rows annihilate.
     """

@@ -333,7 +333,7 @@ class CurlAtPoint:
 
     @cached_property
     def is_curved(self) -> bool:
-        """Is d(omega) ^ omega something else than 0? Then the form does not integrate by itself [Frobenius1877].
+        """Return whether d(omega) ^ omega is not 0, so that the form does not integrate by itself [Frobenius1877].
 
         With a coefficient a_k that is not 0 that holds where a component (i, j, k) is not 0 for some i and j.
         """

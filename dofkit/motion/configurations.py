@@ -177,7 +177,7 @@ class _Sampled:
         return poses, False
 
     def _stopped(self, pose: Pose) -> bool:
-        """Is an inequality broken that held at the beginning?"""
+        """Return whether an inequality is violated that was satisfied at the beginning."""
         pairs = zip(self.relations.margins(self.start), self.relations.margins(pose), strict=False)
         return any(now < -STILL <= before for before, now in pairs)
 

@@ -48,7 +48,7 @@ class Follower:
         self.clock = relations.time if relations.timed else None
 
     def holds(self, pose: Pose) -> bool:
-        """Do the finite relations hold?"""
+        """Return whether the finite relations are satisfied."""
         f, _ = self.relations.at(pose)
         reach = 1 + float(np.max(np.abs(pose.plain / self.relations.scales), initial=0.0))
         return f.size == 0 or float(np.max(np.abs(f))) < HELD * reach

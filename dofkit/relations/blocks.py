@@ -210,7 +210,7 @@ def expressions(block: Block) -> list[Expr]:
 
 
 def uses_time(block: Block) -> bool:
-    """Does t or dt occur? It does not in the equations of joints that are not written out."""
+    """Return whether t or dt occurs, which it does not in equations of joints that are not written out."""
     rows = tuple(row for row in block.rows if not isinstance(row.piece, JointEquation))
     dt = any(isinstance(r.piece, Pfaffian) and not r.piece.dt.is_zero for r in rows)
     return dt or any(ex.TIME in e.symbols for e in expressions(Block(block.coordinates, rows)))
@@ -229,7 +229,7 @@ def names_in(rows: Sequence[Row], constants: Mapping[str, Row]) -> list[str]:
 
 
 def about_constants(g: Expr, constants: Sequence[str]) -> bool:
-    """Does a relation hold between constants of integration only?"""
+    """Return whether a relation is one between constants of integration only."""
     return all(s.args[0] == "parameter" or s.args[1] in constants for s in g.symbols)
 
 

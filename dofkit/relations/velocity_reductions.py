@@ -197,7 +197,7 @@ def _branches(
 
 
 def _divides(g: Expr, divisors: Sequence[Expr]) -> bool:
-    """Is a factor that an elimination multiplied with, and no relation of the row's, what is left of it?"""
+    """Return whether what remains is a factor that an elimination multiplied with, and no relation of the row's."""
     if not divisors or g == ex.ONE:
         return False
     ring = Ring([g, *divisors])

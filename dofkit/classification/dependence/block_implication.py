@@ -61,26 +61,26 @@ class BlockImplication:
         return [frozenset(whose.get(name, name) for name in names) for names in self._coordinates]
 
     def linearly(self, row: int, others: Sequence[int]) -> bool | None:
-        """Is a linear relation a sum of others, by elimination over the rationals? None where not all are linear."""
+        """Return whether a linear relation is a combination of others over Q; None if not all are linear."""
         pieces = [self.block.rows[i].piece for i in (*others, row)]
         relations = [p.expr for p in pieces if isinstance(p, Finite) and linear(p.expr) is not None]
         return len(others) in presolve(relations).superfluous if len(relations) == len(pieces) else None
 
 
 class NearDrawing(BlockImplication):
-    """Of finite relations that hold at the drawing: what they imply near it. The others are independent there."""
+    """Of finite relations that hold at the reference: what they imply near it. The others are independent there."""
 
     @cached_property
     def _relations(self) -> ImpliedRelations:
         return ImpliedRelations(make_chart(self.block, self.setting), self.setting, self.setting.reference or {})
 
     def follows(self, row: int, others: Sequence[int]) -> bool | None:
-        """Does a relation that is dependent at the drawing vanish near it where the others do?"""
+        """Return whether a relation that is dependent at the reference vanishes near it where the others do."""
         answer = self.linearly(row, others)
         return self._relations.follows(row, others) if answer is None else answer
 
     def seems(self, row: int, others: Sequence[int]) -> bool:
-        """Does it vanish to some order near the drawing?"""
+        """Return whether it vanishes to some order near the reference."""
         answer = self.linearly(row, others)
         return bool(self._relations.follows(row, others, False) if answer is None else answer)
 
@@ -89,17 +89,17 @@ class NearDrawing(BlockImplication):
         return self._relations.needed(row, others)
 
     def imply(self, others: Sequence[int], rows: Sequence[int], a: Answer) -> bool:
-        """Do some relations imply others near the drawing, as far as those that are independent there tell?"""
+        """Return whether some relations imply others near the reference, by those that are independent there."""
         result = echelon([a.matrix[i] for i in others], a.modulus).independent
         pivots = [others[k] for k in result]
         return all(self.follows(i, pivots) for i in rows)
 
     def seem_to_imply(self, others: Sequence[int], rows: Sequence[int]) -> bool:
-        """Do others hold at all points that are found near the drawing where some relations do?"""
+        """Return whether others are satisfied at all sampled points near the reference at which some relations are."""
         return self._relations.seem_to_follow(rows, others)
 
     def is_orbit(self, rows: Sequence[int], dof: int | None) -> bool:
-        """Is the set that some relations leave of ``dof`` dimensions one of motions of the whole, near the drawing?
+        """Return whether the set of ``dof`` dimensions that some relations leave is an orbit near the reference.
 
         It is a union of orbits of the whole, finitely many of that dimension, and all of them pass through the drawing.
         """
@@ -110,7 +110,7 @@ class Everywhere(BlockImplication):
     """Of any rows: what holds at every state of motion that the others leave, on all parts of their set."""
 
     def follows(self, row: int, others: Sequence[int]) -> bool | None:
-        """Does what a row says hold wherever the others do?
+        """Return whether what a row says is satisfied wherever the others are.
 
         A row that depends on others at a generic point follows there, where no other row shares a coordinate with them.
         """
@@ -141,7 +141,7 @@ def implication_of(block: Block, a: Answer, setting: Setting) -> NearDrawing | E
 
 
 def is_drawn(block: Block, a: Answer, setting: Setting) -> bool:
-    """Are all rows finite, and were they answered at the drawing?"""
+    """Return whether all rows are finite, and were answered at the reference."""
     return setting.reference is not None and a.instantaneous is not None and len(block.finite) == len(block.rows)
 
 
@@ -173,7 +173,7 @@ class SufficientSets:
         return None
 
     def _ask(self, rows: Sequence[int]) -> bool:
-        """May one more question about so many rows be asked?"""
+        """Return whether one more question about so many rows may be asked."""
         check()
         self._asked += len(rows) + 1
         return self._asked <= WORK

@@ -118,7 +118,7 @@ class _Basis:
                 self.uncounted |= {self.owners[i], *later} if later else set()
 
     def implies(self, kept: set[int], owner: int) -> bool:
-        """Do the rows of some constraints imply those of another one that depend on others?"""
+        """Return whether the rows of some constraints imply those of another one that depend on others."""
         answer = self.implication
         if answer is None:
             return True
@@ -133,7 +133,7 @@ class _Basis:
         return [numbers[k] for k in echelon([self._rows.matrix[i] for i in numbers], self._rows.p).independent]
 
     def whole(self, owners: set[int]) -> bool:
-        """Are all rows of these constraints pivots?"""
+        """Return whether all rows of these constraints are pivots."""
         return not any(self.owners[i] in owners for i in self.supports)
 
     @staticmethod
@@ -173,7 +173,7 @@ def _groups(bases: Sequence[_Basis]) -> list[tuple[int, list[int]]]:
 
 
 def _spans(matrices: Sequence[OwnedRows], kept: set[int], everything: set[int]) -> bool:
-    """Do the kept constraints imply the others? Finite ones only by finite ones: a rate does not fix a constant."""
+    """Return whether the kept constraints imply the others, finite ones by finite ones: a rate fixes no constant."""
     return all(
         rank_of_rows(part.of(kept, only), part.p) == rank_of_rows(part.of(everything, only), part.p)
         for part in matrices
@@ -242,7 +242,7 @@ class _Dispensable:
                 self._tables.append((of, len(sums), part.p))
 
     def can_go(self, owners: Sequence[int]) -> bool:
-        """Do the others imply these? Finite ones only by finite ones: a rate does not fix a constant."""
+        """Return whether the others imply these, finite ones by finite ones only: a rate does not fix a constant."""
         for of, most, p in self._tables:
             rows = [row for owner in owners for row in of.get(owner, ())]
             if len(rows) > most or rank_of_rows(rows, p) < len(rows):

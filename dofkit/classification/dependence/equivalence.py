@@ -88,7 +88,7 @@ def compare(
 
 
 def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> bool | None:
-    """Are the constraints numbered ``answer`` finite relations to which those numbered ``asked`` integrate?
+    """Return whether the constraints ``answer`` are finite relations to which those numbered ``asked`` integrate.
 
     Are the differentials of the answer and the forms the same in the presence of the others? None: undecided.
     """
@@ -97,7 +97,7 @@ def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> 
 
 
 def leaves(system: System, asked: Sequence[int], answer: Sequence[int], constants: frozenset[str]) -> Leaves:
-    """Do the forms numbered ``asked`` vanish on what the answer describes, and is it as large as they allow?
+    """Return whether the forms ``asked`` vanish on what the answer describes, and that is as large as they allow.
 
     ``constants``: coordinates of ``system`` that other constraints keep still; the leaves are numbered by them.
     """
@@ -185,7 +185,7 @@ class Equivalence:
         return [n for r in self._context for n in r.normals]
 
     def _follow(self, what: Sequence[Normal], premises: Sequence[Normal]) -> bool | None:
-        """Do the relations all follow from the others and what is given?"""
+        """Return whether the relations all follow from the others and the premises."""
         return all_of(follows(n, [*self._others, *premises], self.setting) for n in what)
 
     def _open(self, sound: Sequence[bool | None], met: Sequence[bool | None]) -> Compared:
@@ -196,7 +196,7 @@ class Equivalence:
 
     @cached_property
     def _possible(self) -> bool:
-        """Can the others and the answer be satisfied together?"""
+        """Return whether the others and the answer can be satisfied together."""
         with part(POSSIBLE):
             return unless_late(lambda: self._solved([*self._context, *self._submitted]).consistent is not False, True)
 
@@ -227,7 +227,7 @@ class Equivalence:
     # differentials
 
     def _differentiated(self) -> bool | None:
-        """Is the answer what one gets by differentiating the finite relations that were asked for?
+        """Return whether the answer is obtained by differentiating the finite relations that were asked for.
 
         None where that was not decided.
         """
@@ -237,7 +237,7 @@ class Equivalence:
         return self._follow([_differential(g) for g in finite], self._answer)
 
     def _integrated(self) -> Sameness | None:
-        """Does the answer say in finite relations what was asked for in forms? None where it does not."""
+        """Return how the answer states in finite relations what was asked for in forms; None if it does not."""
         integrates = self.integrates()
         if not integrates:
             return None if integrates is False else Sameness.UNDECIDED
@@ -246,7 +246,7 @@ class Equivalence:
         return Sameness.INTEGRATED if all(constants_in) else Sameness.WITHOUT_CONSTANT
 
     def integrates(self) -> bool | None:
-        """Is the answer finite, and are its differentials the forms that were asked for?
+        """Return whether the answer is finite, and its differentials are the forms that were asked for.
 
         Finite relations among what was asked for follow from the answer itself. None where that was not decided.
         """
@@ -323,7 +323,7 @@ def _differential(g: Expr) -> Normal:
 
 
 def _turned(submitted: Sequence[Reduced], answer: Sequence[Normal]) -> bool:
-    """Was an angle of velocities undone? theta = atan(dy/dx) may be meant for every theta, not for half of them."""
+    """Return whether an angle of velocities was undone: theta = atan(dy/dx) may be meant for every theta."""
     written = (relation.expr for r in submitted for relation in r.constraint.relations)
     undone = any(UNDONE_NOTE in note for n in answer for note in n.notes)
     return undone and any(not e.functions.isdisjoint(ANGLES) for e in written)

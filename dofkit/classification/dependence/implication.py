@@ -46,7 +46,7 @@ class AskedBranch(NamedTuple):
 
 
 def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool | None:
-    """Does a relation hold on every branch of the others? None where that was not decided."""
+    """Return whether a relation is satisfied on every branch of the others; None if undecided."""
     here = replace(setting, reference=None, pose={}, grows=False, flag=False)
     relation = branches_at_reference(normal, setting)
     if conditional(relation):
@@ -69,7 +69,7 @@ def follows(normal: Normal, others: Sequence[Normal], setting: Setting) -> bool 
 
 
 def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
-    """Does one of the relation's branches hold wherever the rows do?"""
+    """Return whether one of the relation's branches is satisfied wherever the rows are."""
     names = sorted({n for r in way.rows for n in coordinates_of(r.piece)})
     blocks, _ = split(names, way.rows)
     answers = [in_time(b, setting) for b in blocks]
@@ -103,14 +103,14 @@ def _on(way: Way, relation: Normal, setting: Setting) -> bool | None:
 
 
 def _beyond(branch: Sequence[Piece], rows: Sequence[Row], hidden: Sequence[Expr], setting: Setting) -> bool:
-    """Do the conditions of a branch hold nowhere where some rows do?"""
+    """Return whether the conditions of a branch are satisfied nowhere where some rows are."""
     asked = [p for p in branch if isinstance(p, DomainCondition)]
     finite = [r.piece.expr for r in rows if isinstance(r.piece, Finite)]
     return bool(asked) and hold_nowhere([*finite, *hidden], asked, setting.positive)
 
 
 def _undefined(relation: Normal, names: Sequence[str], rows: Sequence[Row], setting: Setting) -> bool:
-    """Is there a configuration of the rows at which a logarithm of a finite relation has no value? True is certified.
+    """Return whether a logarithm has no value at some configuration of the rows; True is certified.
 
     Where u > 0 does not hold, u = -s^2 for some s.
     """
@@ -142,7 +142,7 @@ def _vanishes_on_states(
     domain: Sequence[DomainCondition],
     smaller: bool,
 ) -> bool | None:
-    """Does a branch hold at every state that is drawn? ``domain`` conditions hold there.
+    """Return whether a branch is satisfied at every state that is drawn, where the ``domain`` conditions are.
 
     ``smaller``: over the reals the set may be smaller than over GF(p), where nothing is refuted then. Nor is it where
     the set may have parts without real points.
@@ -173,12 +173,12 @@ def _vanishes_on_states(
 
 
 def _some_vanish(states: States, point: FieldPoint, branches: Sequence[AskedBranch]) -> bool | None:
-    """Does one of the branches vanish? None where some expression has no value."""
+    """Return whether one of the branches vanishes; None where some expression has no value."""
     return _any([_all_vanish(states, point, b.relations) for b in branches])
 
 
 def _some_hold(states: States, point: BallPoint, branches: Sequence[AskedBranch]) -> bool | None:
-    """Does one of the branches vanish where its conditions hold? None where a ball does not tell."""
+    """Return whether one of the branches vanishes where its conditions hold; None where a ball does not decide."""
     return _any(
         [
             all_of((_all_vanish(states, point, b.relations), *(_satisfied(states, point, c) for c in b.conditions)))
@@ -192,13 +192,13 @@ def _any(answers: Sequence[bool | None]) -> bool | None:
 
 
 def _all_vanish(states: States, point: FieldPoint | BallPoint, expressions: Sequence[Expr]) -> bool | None:
-    """Are the expressions 0 at a state (where a ball does not tell)? None where one has no value."""
+    """Return whether the expressions are 0 at a state (or a ball holds 0); None where one has no value."""
     result = [value_at(states.ring, point, states.extra[e]) for e in expressions]
     return all_of(None if v is None else vanishes(v) for v in result)
 
 
 def _satisfied(states: States, point: BallPoint, condition: DomainCondition) -> bool | None:
-    """Does a condition hold at a real state? None where a ball does not tell."""
+    """Return whether a condition is satisfied at a real state; None where a ball does not decide."""
     value = value_at(states.ring, point, states.extra[condition.expr])
     if value is None or value.contains(0):
         return None

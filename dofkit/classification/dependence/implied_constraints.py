@@ -116,7 +116,7 @@ def _equations_implied(reduced: Sequence[Reduced], i: int, before: Sequence[int]
 
 
 def constraint_follows(reduced: Sequence[Reduced], i: int, others: Sequence[int], setting: Setting) -> bool | None:
-    """Does a constraint follow from others, all of its equations? None where that was not decided."""
+    """Return whether all equations of a constraint are implied by others; None if undecided."""
     premises = [n for j in others for n in reduced[j].normals]
     return all_of(follows(n, premises, setting) for n in reduced[i].normals)
 
@@ -199,14 +199,14 @@ class ConstraintSets:
         self._answers: dict[tuple[int, ...], tuple[bool | None, bool]] = {(): (True, True)}
 
     def inconsistent(self, numbers: Sequence[int]) -> bool:
-        """Are some constraints proved, or as good as proved, to be inconsistent?"""
+        """Return whether some constraints are proved, or as good as proved, to be inconsistent."""
         key = tuple(numbers)
         if key not in self._answers:
             self._answers[key] = self._looked(numbers)
         return self._answers[key][0] is False
 
     def consistent(self, numbers: Sequence[int]) -> bool:
-        """Was it proved, when they were looked at, that they hold somewhere?"""
+        """Return whether it was proved, when they were examined, that they are satisfied somewhere."""
         return self._answers.get(tuple(numbers)) == (True, True)
 
     def _looked(self, numbers: Sequence[int]) -> tuple[bool | None, bool]:

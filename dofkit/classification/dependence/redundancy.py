@@ -253,7 +253,7 @@ def _agreed(dependent: Sequence[Redundancies]) -> list[Redundancies]:
 def _measured_by_rank(
     reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]
 ) -> bool:
-    """Does the rank of rows measure dependence: one branch, and nothing nonlinear or hidden (constants apart)?"""
+    """Return whether the rank measures dependence: one branch, and nothing nonlinear or hidden (constants apart)."""
     normals = [n for i in numbers for n in reduced[i].normals]
     if any(len(branches_at_reference(n, setting).branches) > 1 for n in normals):
         return False
@@ -308,7 +308,7 @@ def _numbered(reduced: Iterable[Reduced]) -> dict[int, int]:
 
 
 def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]) -> bool:
-    """Is the freedom less by as many as there are equations, one row each? Then none follows from the others.
+    """Return whether the freedom is less by as many as there are equations, one row each: none is implied then.
 
     On the branches in use the rows of the others leave no part of which the freedom is less by more than they are.
     """

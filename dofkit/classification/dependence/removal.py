@@ -3,7 +3,7 @@
 Where leaving a constraint out gives freedom, it is needed. Where it gives none, what the constraint says must follow
 from what is left: the set may lose a part and keep its dimension.
 
-How many equations are independent of all before them where relations are dependent at the drawing only.
+How many equations are independent of all before them where relations are dependent at the reference only.
 
 An equation is independent of others where it is no combination of them, with coefficients that are analytic near the
 drawing. One after another they are held against those before. A row that is no sum of rows before it at the drawing is
@@ -178,7 +178,7 @@ class EquationCount(NamedTuple):
 
 
 def counted(block: Block, setting: Setting, a: Answer, numbered: Sequence[int]) -> EquationCount | None:
-    """The count for a block that was answered at the drawing; ``numbered``: the equation that each row is of.
+    """The count for a block that was answered at the reference; ``numbered``: the equation that each row is of.
 
     None where it was not decided, or is not what the freedom says.
     """
@@ -200,7 +200,7 @@ def counted(block: Block, setting: Setting, a: Answer, numbered: Sequence[int]) 
 
 @dataclass
 class _Counting:
-    """What follows from what, row by row; ``bent``: rows dependent at the drawing only; ``seen``: as in the count."""
+    """What follows from what, row by row; ``bent``: rows dependent at the reference only; ``seen``: as in the count."""
 
     block: Block
     setting: Setting
@@ -219,7 +219,7 @@ class _Counting:
 
     @cached_property
     def _dependent(self) -> Mapping[int, Sequence[int]]:
-        """Rows that are sums of rows before them at the drawing, and of which."""
+        """Rows that are sums of rows before them at the reference, and of which."""
         return echelon(self.a.matrix, self.a.modulus, supports=True).supports
 
     def supports(self) -> dict[int, list[int]] | None:
@@ -249,7 +249,7 @@ class _Counting:
         return result
 
     def _by_one(self, owner: int, rows: Sequence[int]) -> bool:
-        """Do several rows of a constraint hold where one of them does beside those before, as far as numbers tell?"""
+        """Return whether, in numbers, several rows of a constraint hold where one of them and those before do."""
         if len(rows) < 2:
             return False
         pivots = [k for k, o in enumerate(self._owners) if o <= owner and k not in self._dependent]
@@ -264,7 +264,7 @@ class _Counting:
         return False
 
     def _by_freedom(self, rows: Sequence[int]) -> bool:
-        """Does each of some rows take freedom away, the first of all apart? They are independent then."""
+        """Return whether each of some rows removes freedom, the first of all apart: they are independent then."""
         for i in rows:
             if self.bent and not self._takes_freedom(i):
                 return False
@@ -272,7 +272,7 @@ class _Counting:
         return True
 
     def _takes_freedom(self, row: int) -> bool:
-        """Do the rows before this one, but for those that follow, leave less freedom with it than without it?"""
+        """Return whether the rows before this one that are not implied leave less freedom with it than without it."""
         rows = [self.block.rows[k] for k in range(row + 1) if k not in self.following]
         before, after = (freedom(self.block.coordinates, some, self.setting) for some in (rows[:-1], rows))
         return before is not None and after is not None and after < before

@@ -171,12 +171,12 @@ class _Judge:
 
 
 def _turns_over(facts: TypeFacts, dimension: int) -> bool:
-    """Do the relations of a type also hold in an assembly that is turned over, which nobody means?"""
+    """Return whether the relations of a type also hold in an assembly that is turned over, which nobody means."""
     return facts.half_turns and not (facts.axial and dimension < MOST_DIMENSIONS)
 
 
 def _refuted(part: Part, positive: frozenset[Expr]) -> bool:
-    """Is it proved that a part cannot be met: as written, or on every choice of branches?"""
+    """Return whether it is proved that a part cannot be satisfied: as written, or on every choice of branches."""
     if not part.readable:
         return False
     if refuted(part.written(), positive):

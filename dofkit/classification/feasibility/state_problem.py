@@ -210,7 +210,7 @@ class StateProblem:
 
     @property
     def unknown_functions(self) -> bool:
-        """Does an unknown function occur?"""
+        """Return whether an unknown function occurs."""
         return any(map(has_call, self.expressions))
 
 
@@ -295,7 +295,7 @@ class Part:
 
     @property
     def readable(self) -> bool:
-        """Are the inequalities about configurations and velocities, and not about differentials or accelerations?"""
+        """Return whether the inequalities are about configurations and velocities only."""
         kinds = {s.args[0] for q in self.inequalities for s in q.expr.symbols}
         return kinds.isdisjoint({"differential", "dt"}) and not any(accelerations_of(q.expr) for q in self.inequalities)
 

@@ -212,7 +212,7 @@ def _rank(ring: Ring, point: BallPoint, rows: Sequence[Expr], columns: Sequence[
 
 
 def _defined(problem: StateProblem, point: BallPoint) -> bool:
-    """Has all that was written a value on the whole ball, equations one that may be 0, conditions the right sign?"""
+    """Return whether all has a value on the whole ball, equations one that may be 0, conditions the right sign."""
     try:
         program = BoxProgram([(e, WHOLE) for e in problem.expressions])
         box = [bounds(arb(point.symbols[s])) for s in program.variables]

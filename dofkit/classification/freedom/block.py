@@ -213,7 +213,7 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
 
 
 def _as_large(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool:
-    """Has an irreducible set its whole dimension near the reference too? Then its generic points are found there."""
+    """Return whether an irreducible set has its whole dimension near the reference, as at generic points."""
     here = at_reference(forms.chart, reference)
     return here is not None and here.local.dimension == forms.n - forms.finite and here.local.verdict != "numeric"
 

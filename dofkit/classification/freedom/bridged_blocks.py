@@ -25,7 +25,7 @@ METHOD = "rank over GF(p) at the given configuration"
 def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer | None:
     """The answer of a block by its parts, each of which ``solve`` answers; None where it has to be looked at whole.
 
-    So it has where a part does not hold at the drawing, or something else is asked of it than finite relations; and
+    So it has where a part does not hold at the reference, or something else is asked of it than finite relations; and
     where it does not move, which may be seen at once.
     """
     joints = [row for row in block.rows if row.constraint in setting.bridges]
@@ -80,7 +80,7 @@ def _host(core: Block, setting: Setting) -> tuple[str, ...] | None:
 
 
 def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
-    """Is all of a block finite and drawn, and does time not enter?"""
+    """Return whether all of a block is finite and has a reference, and time does not enter."""
     if "field" not in setting.engines or block.conditions:
         return False
     if setting.reference is None and not _is_open_tree(block, joints, setting):
@@ -95,12 +95,12 @@ def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
 
 
 def _is_open_tree(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
-    """Are there no other relations than those of drawn joints, and no Euler angles, whose charts may be left?"""
+    """Return whether there are only equations of drawn joints, and no Euler angles, whose charts may be left."""
     return len(joints) == len(block.rows) and setting.tilts.isdisjoint(block.coordinates)
 
 
 def _moves_as_one(joints: Sequence[Row], setting: Setting) -> bool:
-    """Do all joints but one to the ground weld?"""
+    """Return whether all joints but one to the ground weld."""
     free = {row.constraint: row for row in joints if row.constraint not in setting.welds}
     if len(free) != 1:
         return not free

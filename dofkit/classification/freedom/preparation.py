@@ -273,7 +273,7 @@ def _symbols_of(branch: Sequence[Piece]) -> Hashable:
 
 
 def _says_nothing(normal: Normal) -> bool:
-    """Is there nothing to compare: it holds always or never, or is not written out, as no other joint is the same?"""
+    """Return whether there is nothing to compare: it is satisfied always or never, or is a joint's equation."""
     branches = normal.branches
     return branches in ((), ((),)) or any(isinstance(p, JointEquation) for p in branches[0])
 

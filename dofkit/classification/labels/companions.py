@@ -212,7 +212,7 @@ class Companionship:
         return kept
 
     def _holds(self, f: FirstIntegral, block: Block, a: Answer) -> bool:
-        """Is f constant along every motion of the whole block?
+        """Return whether f is constant along every motion of the whole block.
 
         What some of its rows integrate to need not be: where y = 0, dx = y dz says nothing of z, though it makes z
         constant beside x = 0 alone.

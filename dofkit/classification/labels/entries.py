@@ -109,14 +109,14 @@ def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hash
 
 
 def _is_plain(piece: Clause) -> bool:
-    """Is a piece linear in the velocities, without time and without a term that holds no velocity?"""
+    """Return whether a piece is linear in the velocities, without time and without a term that holds no velocity."""
     if isinstance(piece, Pfaffian):
         return piece.dt.is_zero and not any(TIME in c.symbols for c in piece.coefficients.values())
     return isinstance(piece, JointEquation) or not (isinstance(piece, Nonlinear) or TIME in piece.expr.symbols)
 
 
 def _is_nameless(made: ConstraintEntry) -> bool:
-    """Is everything in an entry decided, and does no coordinate occur in it?"""
+    """Return whether everything in an entry is decided, and no coordinate occurs in it."""
     decided = None not in (made.holonomic, made.holonomic_alone, made.scleronomic)
     plain = made.form in ("finite", "inequality") or (made.form == "pfaffian" and made.holonomic is False)
     return decided and plain and made.integral is None and made.integrating_factor is None
@@ -144,7 +144,7 @@ class _Dependence(NamedTuple):
     on_component: frozenset[int]
 
     def says_more_of(self, i: int) -> bool:
-        """Is more stated of a constraint than how many of its equations are independent?"""
+        """Return whether more is stated of a constraint than how many of its equations are independent."""
         return i in self.circuits or i in self.gone or i in self.open or i in self.seen or bool(self.following.get(i))
 
 

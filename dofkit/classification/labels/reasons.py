@@ -147,7 +147,7 @@ _SAYS = {
     "drive": "the prescribed motion",
     "length": "the distance {}",
 }
-#: Of those that are about a direction or a place of the drawing.
+#: Of those that are about a direction or a place of the reference configuration.
 _ABOUT = {
     "point": " {}",
     "axis": "no rotation about {}",
@@ -172,7 +172,7 @@ def in_words(relation: Relation, otherwise: str) -> str:
 
 
 def _is_specific(vector: tuple[Expr, ...]) -> bool:
-    """Is nothing in general position?"""
+    """Return whether nothing is in general position."""
     return not any(str(s.args[1]).startswith("_") for part in vector for s in part.symbols)
 
 

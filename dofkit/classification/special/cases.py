@@ -221,7 +221,7 @@ class GenericAnswer:
     inequalities: Sequence[Inequality] = ()
 
     def allows(self, canon: Canon, leaf: Leaf) -> bool:
-        """Does no inequality forbid the conditions, as far as these are solved?"""
+        """Return whether no inequality forbids the conditions, as far as these are solved."""
         values = {canon.ring.var_expr[i]: canon.to_expr(v) for i, v in leaf.solved}
         coordinates = {s: v for s, v in values.items() if s.op == "sym"}
         positive = self.setting.positive

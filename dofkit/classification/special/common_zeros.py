@@ -74,7 +74,7 @@ class Reals:
         return even is not None and any(not zeros for zeros in even)
 
     def of_parameters(self, poly: Poly) -> bool:
-        """Do neither coordinates nor time occur?"""
+        """Return whether neither coordinates nor time occur."""
         return self.moving.isdisjoint(self.canon.generators_in(poly))
 
     def factors(self, poly: Poly) -> list[Poly]:
@@ -171,7 +171,7 @@ class Reals:
         return [[factor]]
 
     def _is_graph(self, factor: Poly) -> bool:
-        """Is an irreducible factor linear in a real generator? Then its zeros are a graph over the others."""
+        """Return whether an irreducible factor is linear in a real generator, so that its zeros are a graph."""
         return any(k == 1 and len(self.canon.gens) - 1 - i in self.free for i, k in enumerate(factor.degrees()))
 
     def solved(self, poly: Poly) -> tuple[int, Poly] | None:

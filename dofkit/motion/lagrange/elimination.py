@@ -202,7 +202,7 @@ class Eliminator:
         return ex.add(*(ex.mul(*(t.args if t.op == "mul" else (t,))) for t in (e.args if e.op == "add" else (e,))))
 
     def _checked(self, relation: EliminatedRelation, candidate: Candidate) -> bool:
-        """Does the relation hold identically with what it was solved to? Zero in the canonical ring is a proof."""
+        """Return whether the relation holds identically with its solution; zero in the canonical ring is a proof."""
         q = ex.coordinate(candidate.name)
         for value in (candidate.value, candidate.other):
             if value is None:
@@ -302,7 +302,7 @@ def inserted(piece: Remaining, elimination: Elimination) -> Remaining:
 
 
 def vanishes(piece: Remaining, positive: frozenset[Expr]) -> bool:
-    """Does a relation hold identically? Proved in the canonical ring."""
+    """Return whether a relation holds identically, proved in the canonical ring."""
     expressions = [*piece.coefficients.values(), piece.dt] if isinstance(piece, Pfaffian) else [piece.expr]
     return all(e.is_zero or is_identically_zero(e, positive) is True for e in expressions)
 

@@ -170,7 +170,7 @@ def _with_note(derived: Derived, freest: LagrangeModel | None) -> Derived:
 
 
 def _short(lagrangian: Expr) -> bool:
-    """Is a Lagrangian short enough for equations that can be read? Roots grow as they are differentiated."""
+    """Return whether a Lagrangian is short enough for readable equations; roots grow as they are differentiated."""
     roots = any(
         n.op == "pow" and n.args[1].op == "num" and n.args[1].args[0].denominator > 1 for n in ex.nodes(lagrangian)
     )
@@ -188,7 +188,7 @@ def _sorted(model: LagrangeModel) -> LagrangeModel:
 
 
 def _readable(derived: Derived) -> bool:
-    """Is every text one that can be read back?"""
+    """Return whether every text can be read back."""
     texts = (derived.lagrangian, *derived.equations.values(), *derived.momenta.values(), *derived.forces.values())
     return all(len(to_text(e)) + len(" = 0") <= MAX_CHARACTERS for e in texts)
 
@@ -236,7 +236,7 @@ def read(scene: Scene) -> MotionSource:
 
 
 def _tells_of_motion(scene: Scene) -> bool:
-    """Does anything of the scene tell of its motion?"""
+    """Return whether anything in the scene describes its motion."""
     if scene.energies is not None and scene.energies.kinetic is not None:
         return True
     return any(p.mass is not None for p in scene.particles) or any(b.mass is not None for b in scene.bodies)
@@ -336,7 +336,7 @@ def _zero(derived: Derived, e: Expr) -> bool:
 
 
 def _acts(piece: Remaining, name: str, derived: Derived) -> bool:
-    """May the constraint's force have a component along a coordinate?"""
+    """Return whether the constraint's force may have a component along a coordinate."""
     if isinstance(piece, Pfaffian):
         return name in piece.coefficients and not _zero(derived, piece.coefficients[name])
     symbol = ex.coordinate(name) if isinstance(piece, Finite) else ex.velocity(name)
@@ -344,7 +344,7 @@ def _acts(piece: Remaining, name: str, derived: Derived) -> bool:
 
 
 def _workless(piece: Remaining, derived: Derived) -> bool:
-    """Does the constraint's force do no work in the motion itself?"""
+    """Return whether the constraint's force does no work in the motion itself."""
     if isinstance(piece, Pfaffian):
         return _zero(derived, piece.dt)
     return not isinstance(piece, Nonlinear) and _zero(derived, diff(piece.expr, ex.TIME))

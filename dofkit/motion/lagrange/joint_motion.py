@@ -233,7 +233,7 @@ def _line_of(what: str, number: int, lines: Sequence[Vec]) -> tuple[Vec, bool]:
 
 
 def _axes_back(frame: Frame) -> tuple[Vec, ...]:
-    """From directions of the drawing to the body's own axes."""
+    """From directions of the reference configuration to the body's own axes."""
     return transposed(euler(*frame.initial))
 
 

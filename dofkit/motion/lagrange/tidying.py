@@ -223,7 +223,7 @@ def _product(factors: tuple[Expr, ...]) -> Expr:
 
 
 def _turns(e: Expr) -> bool:
-    """Is it a difference of constants, which may as well stand the other way round?"""
+    """Return whether it is a difference of constants, which may as well stand the other way round."""
     constants = e.op == "add" and all(s.args[0] == "parameter" for s in e.symbols)
     return constants and 2 * sum(map(_is_negative, e.args)) == len(e.args)
 
@@ -256,7 +256,7 @@ def _times(term: Expr, number: Fraction) -> Expr:
 
 
 def _better_negated(e: Expr) -> bool:
-    """Has a sum more minus than plus signs, or is it ``cos(x) - 1``?"""
+    """Return whether a sum has more minus than plus signs, or is like ``cos(x) - 1``."""
     below = sum(map(_is_negative, e.args))
     if len(e.args) == 2 and below == 1:
         return any(t.op == "num" and t.args[0] < 0 for t in e.args) and any(t.op == "fn" for t in e.args)

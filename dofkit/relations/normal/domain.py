@@ -35,7 +35,7 @@ class DomainCondition:
 
     @property
     def strict(self) -> bool:
-        """Is it > 0?"""
+        """Return whether the sense is > 0."""
         return self.sense == ">"
 
 
@@ -80,7 +80,7 @@ def _denominator(e: Expr, positive: frozenset[Expr]) -> Expr | None:
 
 
 def _always(c: DomainCondition, positive: frozenset[Expr]) -> bool:
-    """Is a condition proved to hold wherever its expression has a value?"""
+    """Return whether a condition is proved to be satisfied wherever its expression has a value."""
     if c.sense == "!=":
         return never_vanishes(c.expr, positive)
     return never_holds(-c.expr, c.sense == ">=", positive)
@@ -153,7 +153,7 @@ def _is_half(exponent: Expr) -> bool:
 
 
 def holds_on_a_region(e: Expr, positive: frozenset[Expr]) -> bool:
-    """Is ``e`` identically 0 for some signs of the arguments of its absolute values (x + abs(x) for x <= 0)?"""
+    """Return whether ``e`` is identically 0 for some signs in its absolute values (x + abs(x) for x <= 0)."""
     arguments = arguments_of(e)
     if not arguments or len(arguments) > MAX_ARGUMENTS:
         return False
@@ -201,7 +201,7 @@ def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] 
 
 
 def _outside(ring: Ring, index: int) -> bool:
-    """Does no other generator have the root in its argument?"""
+    """Return whether no other generator has the root in its argument."""
     root = ring.var_expr[index]
     return all(root not in ex.nodes(ring.var_expr[v.index]) for v in ring.vars if v.index != index)
 
