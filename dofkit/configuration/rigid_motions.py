@@ -90,18 +90,18 @@ def _at(chart: Chart, point: FieldPoint | BallPoint | FloatPoint, field: Displac
 def _slopes(chart: Chart, point: FieldPoint | BallPoint) -> list[dict[int, Any]]:
     """The derivatives of every relation by the generators."""
     at = values(chart.ring, point)
-    one = point.number(ex.ONE.args[0])
-    return [gradient(chart.ring, at, point, [(node, one)]) for node in chart.nodes]
+    unit = point.number(ex.ONE.args[0])
+    return [gradient(chart.ring, at, point, [(node, unit)]) for node in chart.nodes]
 
 
 def _keeps(
     chart: Chart, point: FieldPoint | BallPoint, field: Displacement, slopes: Sequence[Mapping[int, Any]]
 ) -> bool:
     vector = _at(chart, point, field)
-    one = point.number(ex.ONE.args[0])
+    unit = point.number(ex.ONE.args[0])
     of = {c: vector[i] for i, c in enumerate(chart.columns) if c >= 0}
     for g in slopes:
-        change = sum((v * of[c] for c, v in g.items() if c in of), one * 0)
+        change = sum((v * of[c] for c, v in g.items() if c in of), unit * 0)
         if change != 0 if isinstance(point, FieldPoint) else not change.contains(0):
             return False
     return True
@@ -127,8 +127,8 @@ class RigidOrbit(NamedTuple):
             return None
         kept = [(str(s.args[1]), k) for k, s in enumerate(chart.symbols) if s != ex.TIME]
         fields = [[field[k] for _, k in kept] for field in rigid_fields(chart, point)]
-        found = cls([name for name, _ in kept], fields, point.p)
-        return found if found.rank(found.names) == dof else None
+        orbit = cls([name for name, _ in kept], fields, point.p)
+        return orbit if orbit.rank(orbit.names) == dof else None
 
     def rank(self, chosen: Sequence[str]) -> int:
         """The rank of the projection of the tangent space onto some coordinates."""

@@ -164,9 +164,9 @@ class States:
         for k in range(STARTS):
             symbols = self._spread(search.start(STARTS * seed + k, {}), seed)
             if standing.descend(symbols, seed) is not None and moving.descend(symbols, seed) is not None:
-                found = search.search(seed, symbols, starts=1)
-                if found is not None and found.certified and found.consistent:
-                    return found
+                state = search.search(seed, symbols, starts=1)
+                if state is not None and state.certified and state.consistent:
+                    return state
         return search.search(seed) or at_another_time(search, seed)
 
     def _spread(self, symbols: dict[Expr, float], seed: int) -> dict[Expr, float]:
@@ -181,19 +181,19 @@ class States:
     def certain(self, count: int) -> Iterator[BallPoint]:
         """Real states that are certified, at generic configurations, of so many searches."""
         for k in range(count):
-            found = self.real(k)
-            if found is not None and found.certified and found.consistent:
-                whole, moving, finite = self.ranks(found.point)
+            state = self.real(k)
+            if state is not None and state.certified and state.consistent:
+                whole, moving, finite = self.ranks(state.point)
                 if whole - moving == finite:
-                    yield found.point
+                    yield state.point
 
     def by_velocity(self, point: Any, nodes: Sequence[int]) -> list[list[Scalar]]:
         """The derivatives of some nodes by the velocities; a velocity that nothing mentions has a column of zeros."""
         at = values(self.ring, point)
         zero = at[0] * 0
-        known = [c for c in self.velocities if c is not None]
-        rows = jacobian(self.ring, at, point, nodes, known, zero)
-        place = {c: k for k, c in enumerate(known)}
+        present = [c for c in self.velocities if c is not None]
+        rows = jacobian(self.ring, at, point, nodes, present, zero)
+        place = {c: k for k, c in enumerate(present)}
         return [[zero if c is None else row[place[c]] for c in self.velocities] for row in rows]
 
     def ranks(self, point: FieldPoint | BallPoint) -> tuple[int, int, int]:
@@ -201,10 +201,10 @@ class States:
         at = values(self.ring, point)
         zero = at[0] * 0
         places = [i for s in (*self.places, ex.TIME) if (i := self.ring.var_index(s)) is not None]
-        known = [c for c in self.velocities if c is not None]
+        present = [c for c in self.velocities if c is not None]
         return (
-            _rank(jacobian(self.ring, at, point, self.relations, [*places, *known], zero), point),
-            _rank(jacobian(self.ring, at, point, self.moving, known, zero), point),
+            _rank(jacobian(self.ring, at, point, self.relations, [*places, *present], zero), point),
+            _rank(jacobian(self.ring, at, point, self.moving, present, zero), point),
             _rank(jacobian(self.ring, at, point, self.finite, places, zero), point),
         )
 
@@ -216,14 +216,14 @@ def state_relations(rows: Sequence[Row], hidden: Sequence[Expr]) -> tuple[list[E
     return finite, [*map(rate, finite), *forms], [r.piece.expr for r in rows if isinstance(r.piece, Nonlinear)]
 
 
-def rows_at(relations: Sequence[Expr], known: Mapping[Expr, Expr]) -> tuple[Row, ...]:
+def rows_at(relations: Sequence[Expr], pose: Mapping[Expr, Expr]) -> tuple[Row, ...]:
     """What relations say of velocities at one configuration: rows with constant coefficients. Raises NoValueError."""
-    found = []
-    for e in (substitute(e, known) for e in relations if velocities_of(e)):
+    rows = []
+    for e in (substitute(e, pose) for e in relations if velocities_of(e)):
         form = linear_form(e)
         if not e.is_zero:
-            found.append(Row(0, Nonlinear(e) if form is None else form))
-    return tuple(found)
+            rows.append(Row(0, Nonlinear(e) if form is None else form))
+    return tuple(rows)
 
 
 def moves(ring: Ring, index: int) -> bool:

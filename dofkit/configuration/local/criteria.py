@@ -160,11 +160,13 @@ CRITERIA: tuple[Criterion, ...] = (
 def decision(germ: Germ) -> tuple[Criterion | None, LocalDimension]:
     """The first criterion that decides, and what it says; None where all are asked and none does."""
     for criterion in CRITERIA:
-        told = criterion.decide(germ)
-        if told is None:
+        conclusion = criterion.decide(germ)
+        if conclusion is None:
             continue
-        verdict = weakest(criterion.verdict, told.verdict, "proved" if germ.exact else "numeric")
-        return criterion, LocalDimension(told.dimension, verdict, told.reason, told.confined, criterion.key)
+        verdict = weakest(criterion.verdict, conclusion.verdict, "proved" if germ.exact else "numeric")
+        return criterion, LocalDimension(
+            conclusion.dimension, verdict, conclusion.reason, conclusion.confined, criterion.key
+        )
     return None, UNDECIDED
 
 

@@ -94,14 +94,14 @@ def definite_combination(forms: Sequence[Form], rank_wanted: int) -> bool:
 def _candidates(forms: Sequence[Form], rank_wanted: int) -> list[list[arb]]:
     """Weights whose combination may be definite: the forms alone, and what a search over the quotient finds."""
     k = len(forms)
-    found = [[arb(int(i == j)) for i in range(k)] for j in range(k)]
+    weightings = [[arb(int(i == j)) for i in range(k)] for j in range(k)]
     weights = _search(forms, rank_wanted)
     if weights is not None:
         size = float(np.max(np.abs(weights)))
         for d in DENOMINATORS:
             rounded = [Fraction(round(float(w) / size * d), d) for w in weights]
-            found.append([arb(r.numerator) / r.denominator for r in rounded])
-    return found
+            weightings.append([arb(r.numerator) / r.denominator for r in rounded])
+    return weightings
 
 
 def _search(forms: Sequence[Form], rank_wanted: int) -> np.ndarray | None:
@@ -143,10 +143,10 @@ def signature_of(form: Form) -> tuple[int, int]:
     """
     n = len(form)
     work = [list(row) for row in form]
-    left = set(range(n))
+    remaining = set(range(n))
     positive = negative = 0
-    while left:
-        pivot = _pivot(work, left)
+    while remaining:
+        pivot = _pivot(work, remaining)
         if pivot is None:
             break
         i, j = pivot
@@ -159,20 +159,20 @@ def signature_of(form: Form) -> tuple[int, int]:
         if value.contains(0):
             break
         positive, negative = (positive + 1, negative) if value > 0 else (positive, negative + 1)
-        left.discard(i)
-        for a in left:
+        remaining.discard(i)
+        for a in remaining:
             factor = work[a][i] / value
-            for b in left:
+            for b in remaining:
                 work[a][b] = work[a][b] - factor * work[i][b]
     return positive, negative
 
 
-def _pivot(work: list[list[arb]], left: set[int]) -> tuple[int, int] | None:
+def _pivot(work: list[list[arb]], remaining: set[int]) -> tuple[int, int] | None:
     """A diagonal entry that is not 0, the largest; else an off-diagonal one."""
     best, size = None, arb(0)
-    for i in left:
+    for i in remaining:
         if not work[i][i].contains(0) and work[i][i].abs_lower() > size:
             best, size = (i, i), work[i][i].abs_lower()
     if best is not None:
         return best
-    return next(((i, j) for i in left for j in left if i != j and not work[i][j].contains(0)), None)
+    return next(((i, j) for i in remaining for j in remaining if i != j and not work[i][j].contains(0)), None)
