@@ -306,9 +306,9 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     if not evidence.moving or claim["path"] == "/velocity_dof":
         refuse(not whole, "each relation stands in one place")
         return size - rank
-    found = bounds(evidence, {**claim, "about": "here"}, verified)
-    refuse(found != size - rank + len(forms) and not (whole and smooth), "another part may be larger")
-    return found
+    dof = bounds(evidence, {**claim, "about": "here"}, verified)
+    refuse(dof != size - rank + len(forms) and not (whole and smooth), "another part may be larger")
+    return dof
 
 
 def _is_analytic(evidence: CheckedEvidence, name: str, graphic: bool) -> bool:

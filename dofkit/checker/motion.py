@@ -176,9 +176,8 @@ def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
     taken = {*evidence.variables, *evidence.velocities, *evidence.chosen, *problem.world.names.words, "E"}
     refuse(claim.get("cayley"), "a body turns by its angles here")
     refuse(len({*extra} - taken) < len(extra), "a multiplier, a constant or an acceleration has the name of another")
-    refuse(
-        sorted([*kept, *claimed["eliminated"]]) != sorted(problem.coordinates), "each coordinate is kept or eliminated"
-    )
+    every = sorted([*kept, *claimed["eliminated"]])
+    refuse(every != sorted(problem.coordinates), "each coordinate is kept or eliminated")
 
     def read(text: str) -> Tree:
         return evidence.text(text.removesuffix("= 0"), extra)
@@ -196,15 +195,11 @@ def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
         rate, momentum, force = f"{q}dot", read(claimed["momenta"][q]), read(claimed["forces"][q])
         for name in (q, rate):
             evidence.identity(derivative(whole, name), derivative(lagrangian, name), f"the Lagrangian, by {name}")
-        outer = add(
-            *(times(push, derivative(place, q)) for push, place in pushes), times(MINUS, derivative(lost, rate))
-        )
+        work = [times(push, derivative(place, q)) for push, place in pushes]
+        outer = add(*work, times(MINUS, derivative(lost, rate)))
         evidence.identity(momentum, derivative(whole, rate), f"the momentum of {q}")
         evidence.identity(force, add(derivative(whole, q), outer), f"the force along {q}")
-        ways = {
-            name: derivative(tree_of_limit, rate if evidence.met_by(tree_of_limit) else q)
-            for name, tree_of_limit in limits.items()
-        }
+        ways = {name: derivative(limit, rate if evidence.met_by(limit) else q) for name, limit in limits.items()}
         held = add(*(times(symbol(name), slope) for name, slope in ways.items()))
         factor = evidence.text(claim.get("factors", {}).get(q, "1"))
         refuse(not evidence.is_nowhere_zero(factor), f"the factor of the equation of {q} may be 0")

@@ -240,12 +240,12 @@ def _reference(
     Where no relation holds any, it has to give all. What none holds may stand anywhere.
     """
     drawn = world.drawn | {"ground"}
-    found = dict(configured)
+    poses = dict(configured)
     for point in world.particles.values():
-        found |= {str(q.value): part for q, part in zip(point.over, point.start or (), strict=False)}
+        poses |= {str(q.value): part for q, part in zip(point.over, point.start or (), strict=False)}
     for frame in world.frames.values():
-        found |= frame.reference
+        poses |= frame.reference
     symbols = frozenset[str]().union(*(relation.left.symbols for relation in relations))
     held = {q for q in coordinates if not symbols.isdisjoint((q, f"{q}dot"))} or {*coordinates}
     placed = all(name in drawn or held.isdisjoint(frame.reference) for name, frame in world.frames.items())
-    return {q: found.get(q, ZERO) for q in coordinates} if placed and found.keys() >= held else {}
+    return {q: poses.get(q, ZERO) for q in coordinates} if placed and poses.keys() >= held else {}

@@ -68,14 +68,14 @@ class Floats:
     def points(self, written: Written, rows: WrittenRows, drawn: bool) -> list[FloatPoint]:
         if drawn:
             return [self._drawn(written, rows)]
-        found: list[FloatPoint] = []
+        sampled: list[FloatPoint] = []
         for k in range(STARTS):
             point = self._newton_end(written, rows, k)
             if point is not None:
-                found.append(point)
-            if len(found) == POINTS:
+                sampled.append(point)
+            if len(sampled) == POINTS:
                 break
-        return found
+        return sampled
 
     def _drawn(self, written: Written, rows: WrittenRows) -> FloatPoint:
         rng = random.Random(f"dofkit floats {self.seed}")

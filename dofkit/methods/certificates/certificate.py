@@ -258,7 +258,7 @@ def _asked(report: Report) -> Iterator[tuple[str, Any, Maker]]:
             yield f"/{field}", document[field], _nothing
     for entry, values in zip(report.constraints, document["constraints"], strict=True):
         name = entry.name.replace("~", "~0").replace("/", "~1")
-        for field, verdict in sorted(entry.verdicts.items(), key=lambda told: told[0] == "scleronomic"):
+        for field, verdict in sorted(entry.verdicts.items(), key=lambda item: item[0] == "scleronomic"):
             if verdict.verdict == "proved":
                 yield f"/constraints/{name}/{field}", values[field], _label_maker(entry, field)
 

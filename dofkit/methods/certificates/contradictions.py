@@ -129,10 +129,10 @@ def is_one_part(room: Room) -> bool:
     fibres of the largest rank alone (Sard). Linear relations with rational coefficients leave an affine space.
     """
     evidence = room.scenery.evidence
-    analytic = all(evidence.has_value_everywhere(evidence.relation(one).left) for one in evidence.equations)
+    analytic = all(evidence.has_value_everywhere(evidence.relation(name).left) for name in evidence.equations)
     if not analytic or room.problem.world.names.functions:
         return False
-    slopes = (evidence.slope(one, q) for one in evidence.finite for q in room.problem.coordinates)
+    slopes = (evidence.slope(name, q) for name in evidence.finite for q in room.problem.coordinates)
     if all(map(evidence.own_symbol, evidence.finite)) or all(evidence.ring.rational(s) is not None for s in slopes):
         return True
     return not graph_order(room, list(evidence.finite))[1]

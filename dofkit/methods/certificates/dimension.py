@@ -52,8 +52,8 @@ def _family(room: Room, size: int, seed: int) -> Told | None:
     standing = room.standing_of([*assumed, *scenery.evidence.finite])
     if standing is None or len(standing.rows) != len(room.problem.coordinates) - size:
         return None
-    left = [name for name in standing.dependent if name not in assumed]
-    if not all(accounted(scenery, name, standing.rows, point, f"family {seed}") for name in left):
+    others = [name for name in standing.dependent if name not in assumed]
+    if not all(accounted(scenery, name, standing.rows, point, f"family {seed}") for name in others):
         return None
     minor = {"at": point.name, "rows": standing.rows, "columns": standing.columns}
     return {"rule": "family", "minor": minor}
@@ -222,9 +222,9 @@ def graph_order(room: Room, names: Sequence[str] | None = None, columns: Sequenc
 
 def _moved(room: Room, name: str) -> set[str]:
     """The variables of a finite relation; those with velocities in another."""
-    one = room.scenery.evidence.relation(name)
-    held = one.left.symbols
-    if one.kind == "finite":
+    equation = room.scenery.evidence.relation(name)
+    held = equation.left.symbols
+    if equation.kind == "finite":
         return set(held) & set(room.scenery.evidence.variables)
     return {q for q in room.problem.coordinates if f"{q}dot" in held}
 
@@ -248,14 +248,14 @@ def own_symbols(room: Room) -> dict[str, str]:
     """For each relation a generic symbol or parameter that occurs in no other."""
     relations = room.problem.relations
     held = {relation.name: relation.left.symbols for relation in relations}
-    found: dict[str, str] = {}
+    chosen: dict[str, str] = {}
     for relation in relations:
         for symbol in (*room.problem.world.generic, *room.problem.world.signs):
             if symbol in held[relation.name] and not any(
                 symbol in held[other] for other in held if other != relation.name
             ):
-                found.setdefault(relation.name, symbol)
-    return found
+                chosen.setdefault(relation.name, symbol)
+    return chosen
 
 
 def _split(

@@ -122,16 +122,15 @@ def generalized_coordinates(room: Room) -> Iterator[Told]:
     others = [q for q in room.problem.coordinates if q not in chosen]
     solving = room.standing_of(finite.rows, others) if len(others) == len(finite.rows) else None
     if solving is not None and not solving.dependent:
-        found: Told = {"rule": "minor", "minor": room.minor(solving)}
-        yield found
+        minor: Told = {"rule": "minor", "minor": room.minor(solving)}
+        yield minor
         alone = {q for name in solving.rows if len(row := room.row(name, solving.point)) == 1 for q in row}
         tilts = {angles[1] for angles in room.problem.turns if not {*angles} <= alone}
         turned = room.standing_of(solving.rows, [q for q in room.problem.coordinates if q not in tilts])
         if turned is not None and not turned.dependent:
-            yield {**found, "beside": room.minor(turned)}
+            yield {**minor, "beside": room.minor(turned)}
     if room.scenery.evidence.moving:
-        for found in involutive_rows(room, integrable_names(room), others):
-            yield found
+        yield from involutive_rows(room, integrable_names(room), others)
 
 
 def independent(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:

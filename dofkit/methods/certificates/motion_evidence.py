@@ -109,8 +109,8 @@ class MotionEvidence:
         """The configuration; else points whose eliminated coordinates are put in, or any."""
         search = self.room.search
         if self.problem.reference:
-            if (found := search.reference()) is not None:
-                yield found
+            if (configuration := search.reference()) is not None:
+                yield configuration
             return
         if not self.limits:
             yield from filter(None, map(self._put_in, range(MOST_POINTS)))

@@ -67,10 +67,10 @@ _CHOICES = tuple(map(Fraction, ("2", "3", "3/2", "5/2", "4/3", "7/4", "5/3", "9/
 class Scenery:
     """A problem with its evidence so far, and values for parameters, unknown functions and time."""
 
-    def __init__(self, problem: Problem, cayley: bool, parts: dict[str, list[dict[str, Any]]]) -> None:
-        self.problem, self.cayley, self.parts = problem, cayley, parts
+    def __init__(self, problem: Problem, cayley: bool, lists: dict[str, list[dict[str, Any]]]) -> None:
+        self.problem, self.cayley, self.parts = problem, cayley, lists
         self.effort = Effort(WORK)
-        self._view = dict(parts)
+        self._view = dict(lists)
         self.evidence = CheckedEvidence(problem, self._view, self.effort)
         self._prepared: dict[str, Tree] = {}
         self.reduced_from: dict[str, str] = {}
