@@ -78,7 +78,7 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr]) -> AtReference | 
 
 
 def _is_exact(chart: Chart, pose: Mapping[Expr, Expr], answer: AtReference) -> bool:
-    """Is the rank, which is not too large over GF(p), proved not to be too small?
+    """Return whether the rank, which is not too large over GF(p), is proved not to be too small.
 
     So it is where no row depends on others, where only motions of the whole are left, and at a rational point.
     """

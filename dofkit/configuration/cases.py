@@ -153,7 +153,7 @@ def _linear(relations: Sequence[Expr], moving: frozenset[Expr]) -> Iterator[tupl
 
 
 def _same_zeros(e: Expr, other: Expr, positive: frozenset[Expr]) -> bool:
-    """Are two expressions the same up to a number?"""
+    """Return whether two expressions are the same up to a number."""
     if e.symbols != other.symbols:
         return False
     ring = Ring([e, other], positive)

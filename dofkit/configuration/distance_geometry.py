@@ -117,7 +117,7 @@ class _Web:
         return self._longer(a, [b]) or self._longer(b, [a])
 
     def _longer(self, longest: Side, others: Sequence[Side]) -> bool:
-        """Is one length certainly more than some others together, whatever the positive parameters are?"""
+        """Return whether a length is certainly more than others together, whatever the positive parameters are."""
         gap = ex.add(_length(longest), *(ex.mul(ex.MINUS_ONE, _length(o)) for o in others))
         if gap.symbols:
             return never_holds(ex.mul(ex.MINUS_ONE, gap), False, self.positive)

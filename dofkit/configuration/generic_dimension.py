@@ -128,7 +128,7 @@ def with_reality(chart: Chart, variety: Variety, rank: int) -> Variety:
 
 
 def _hangs_on_a_function(e: Expr) -> bool:
-    """Do coordinates stand within unknown functions only? h(x) = 0 holds somewhere for some h, not for all."""
+    """Return whether coordinates stand in unknown functions only: h(x) = 0 holds somewhere for some h, not for all."""
     within = any(node.op == "call" for node in ex.nodes(e))
     return within and not any(s.args[0] == "coordinate" for s in _outside_calls(e))
 

@@ -44,7 +44,7 @@ def field_jacobian(chart: Chart, point: FieldPoint, nodes: Sequence[int] | None 
 
 
 def on_variety(chart: Chart, point: FieldPoint) -> bool:
-    """Do all finite relations hold at the point?"""
+    """Return whether all finite relations hold at the point."""
     try:
         at = values(chart.ring, point)
     except NoValueError:

@@ -202,7 +202,7 @@ def confirmed(block: Block, a: Answer, setting: Setting, alone: bool) -> Answer:
 
 
 def _agrees(reduced: LinearElimination, a: Answer, n: int, alone: bool) -> bool:
-    """Does an answer say what the elimination does: freedom, labels, growth, and what depends on what?"""
+    """Return whether an answer has the freedom, labels, growth and dependences that the elimination has."""
     free = n - reduced.rank
     numbers = {a.dof, a.velocity_dof, *(() if a.instantaneous is None else (a.instantaneous,))}
     grown = a.growth is None or len(set(a.growth)) == 1
@@ -216,7 +216,7 @@ def _agrees(reduced: LinearElimination, a: Answer, n: int, alone: bool) -> bool:
 
 
 def _same_dependence(reduced: LinearElimination, matrix: Sequence[SparseRow], p: int, alone: bool) -> bool:
-    """Do the rows depend on each other modulo p as they do over the rationals?
+    """Return whether the rows depend on each other modulo p as they do over the rationals.
 
     The same rows are sums of the same rows before them; where constraints wrote several rows each, other sets of them
     are asked for as well: no minor of the rows concerned is a multiple of p that is not 0, because none is as large

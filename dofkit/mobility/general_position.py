@@ -52,7 +52,7 @@ class General:
 
 
 def has_geometry(system: System) -> bool:
-    """Is a drawing given, and anything connected in it?"""
+    """Return whether there is a drawing, and anything is connected in it."""
     return system.reference is not None and any(c.members for c in system.connections)
 
 
@@ -245,7 +245,7 @@ def _only(e: Expr, ends: set[str]) -> Expr | None:
 
 
 def _is_length(symbol: Expr, row: Row, setting: Setting) -> bool:
-    """Is a parameter the length of a link, as it stands?"""
+    """Return whether a parameter is the length of a link, as it stands."""
     return [d.squared for d in setting.distances.get(row.constraint, ())] == [ex.power(symbol, ex.TWO)]
 
 

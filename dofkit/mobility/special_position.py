@@ -60,7 +60,7 @@ class Geometry:
         return self.parallel(line.direction, _less(point, line.through))
 
     def meet(self, a: DrawnLine, b: DrawnLine) -> bool:
-        """Have the two lines a point in common (at infinity too)?"""
+        """Return whether the two lines have a point in common, perhaps at infinity."""
         if len(a.through) == 2:
             return True
         return self.zero(_dot(_less(b.through, a.through), cross(a.direction, b.direction)))

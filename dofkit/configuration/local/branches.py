@@ -136,7 +136,7 @@ def _dimension_at(here: Neighbourhood, u: np.ndarray) -> int | None:
 
 
 def _stays(here: Neighbourhood, moved: dict[Expr, arb], rows: Sequence[int], columns: Sequence[int]) -> bool:
-    """Do the dependent equations are satisfied along a random curve through the point?"""
+    """Return whether the dependent equations are satisfied along a random curve through the point."""
     ball = here.ball
     columns_here = set(here.keys)
     point = BallPoint({s: arb(v, RADIUS) if s in columns_here else v for s, v in moved.items()}, 0)

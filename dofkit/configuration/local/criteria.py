@@ -219,7 +219,7 @@ def _manifolds(
 
 
 def vanish_near(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, rank: int) -> bool | None:
-    """Are the relations of a chart of no higher rank than ``rank`` at the point, and 0 on the manifold of that rank?
+    """Return whether relations have no higher rank than ``rank`` at a point, and are 0 on the manifold of that rank.
 
     The dependent ones are 0 along a random curve of it [SchwartzZippel], or nothing but motions of the whole is left.
     None where they are too high in degree, or could not be followed to a distance, which is asked of a ``ball``.
@@ -234,7 +234,7 @@ def vanish_near(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: 
 
 
 def _vanish(germ: Germ) -> bool | None:
-    """Are the dependent relations of a germ 0 on its manifold?"""
+    """Return whether the dependent relations of a germ are 0 on its manifold."""
     with ctx.workprec(max(ctx.prec, precision())):
         if germ.dependent == 0 or germ.m == germ.rigid:
             return True

@@ -64,7 +64,7 @@ class Germ:
 
     @property
     def exact(self) -> bool:
-        """Is there a point over GF(p)?"""
+        """Whether there is a point over GF(p)."""
         return self.field is not None
 
     @property
@@ -97,12 +97,12 @@ class Germ:
 
     @cached_property
     def vanishes(self) -> bool:
-        """Are they 0 along it, to the order?"""
+        """Whether they are 0 along it, to the order."""
         return all(is_zero(s.coefficient(k)) for s in self.series for k in range(self.order))
 
     @cached_property
     def vanishes_away(self) -> bool | None:
-        """Are they 0 at a distance too? None where no curve could be followed that far.
+        """Whether they are 0 at a distance too; None where no curve could be followed that far.
 
         At a random point nothing is flat but what is 0 everywhere [SchwartzZippel]: there nothing more is asked.
         """
@@ -174,7 +174,7 @@ def random_direction(manifold: Manifold) -> Sequence[Scalar]:
 
 
 def time_moves(manifold: Manifold, time: int, order: int) -> bool:
-    """Does time, the column of that number, change along a random curve of the manifold, to the order?"""
+    """Return whether time, the column of that number, changes along a random curve of the manifold, to the order."""
     path = manifold.line(random_direction(manifold), order).path[time]
     return any(not is_zero(path.coefficient(k)) for k in range(1, order))
 

@@ -126,7 +126,7 @@ class Neighbourhood:
 
 
 def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool | None:
-    """Are the dependent relations 0, to high precision, at a point of M some way along a curve?
+    """Return whether the dependent relations are 0, to high precision, at a point of M some way along a curve.
 
     ``deep``: the curve begins at exact coordinates, so that what is flat there shows to an order of several hundreds.
     None where the curve could not be followed far enough to see.
@@ -157,7 +157,7 @@ def _holds_at(here: Neighbourhood, u: np.ndarray, sure: float) -> bool | None:
 
 
 def holds_on_critical(ball: Manifold, critical: Split, direction: Sequence[float]) -> bool:
-    """Are the dependent relations 0, to high precision, at a point of the critical set N some way along a curve?
+    """Return whether the dependent relations are 0, to high precision, at a point of the critical set N along a curve.
 
     False also where the curve could not be followed far enough to see.
     """

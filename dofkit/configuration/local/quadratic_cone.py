@@ -49,7 +49,7 @@ def rank(rows: Sequence[Sequence[nmod]], p: int) -> int:
 
 
 def _only_zero(forms: Sequence[Form], c: int, p: int) -> bool:
-    """Have the forms no common zero but 0 on a random subspace of dimension c?"""
+    """Return whether the forms have no common zero but 0 on a random subspace of dimension c."""
     rng = random.Random("dofkit cone")
     m = len(forms[0])
     basis = nmod_mat([[rng.randrange(p) for _ in range(c)] for _ in range(m)], p)
@@ -77,7 +77,7 @@ def macaulay_matrix(forms: Sequence[Sequence[Sequence[Any]]], c: int) -> list[li
 
 
 def definite_combination(forms: Sequence[Form], rank_wanted: int) -> bool:
-    """Is a combination of the forms, over balls, definite of the given rank? True is a proof.
+    """Return whether a combination of the forms, over balls, is definite of a rank; True is a proof.
 
     In linkages: a stress whose form is definite on the flexes (prestress stability [ConnellyWhiteley1996]).
     """

@@ -32,7 +32,7 @@ class RigidBlocks:
         return block
 
     def is_same(self, g: int, h: int) -> bool:
-        """Are both the same block, and none of them `NONE`?"""
+        """Return whether both are the same block, and neither is `NONE`."""
         return g >= 0 and h >= 0 and (g == h or self.now(g) == self.now(h))
 
     def holding(self, v: int) -> set[int]:
