@@ -179,7 +179,7 @@ def _most(choice: Iterable[all_cases.BoundedCase]) -> int:
 
 
 def _larger(chart: Chart, best: Variety, other: Variety, most: int) -> tuple[Variety, bool]:
-    """The larger of two varieties, and whether the other is known to be as large as it can be."""
+    """Return the larger of two varieties, and whether the other is known to be as large as it can be."""
     samples = [p for p in other.samples if on_variety(chart, p)]
     if not other.consistent or other.dimension is None or not samples:
         return best, False
@@ -238,7 +238,7 @@ def is_irreducible(chart: Chart) -> bool:
 
 
 def explicit_relations(relations: Sequence[Expr]) -> Explicit:
-    """The relations that give a coordinate: a number, or parameters, times it plus what does not hold it.
+    """Return the relations that give a coordinate: a number, or parameters, times it plus what does not hold it.
 
     Those go first whose coordinate stands in no other; then it is put into the others.
     """
@@ -297,7 +297,7 @@ def _may_be_put(g: Expr, s: Expr, relations: Sequence[Expr]) -> bool:
 
 
 def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[RelationPart]:
-    """The relations by the coordinates that they share; the moment is any."""
+    """Return the relations by the coordinates that they share; the moment is any."""
     coordinates = frozenset(symbols)
     groups = []
     for numbers in components(g.symbols & coordinates for g in relations):
@@ -308,7 +308,7 @@ def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[Relatio
 
 
 def _cases(part: RelationPart, chart: Chart, fibre: bool) -> list[all_cases.BoundedCase] | None:
-    """The cases of a part with the bounds of their dimensions; a ``fibre`` is a generic one."""
+    """Return the cases of a part with the bounds of their dimensions; a ``fibre`` is a generic one."""
     if fibre:
         return [all_cases.BoundedCase(part.relations, len(part.unknowns) - len(part.relations), True)]
     try:

@@ -90,7 +90,7 @@ class ImpliedRelations:
             return list(others)
 
     def rigid(self, rows: Sequence[int]) -> int:
-        """The dimension of the motions of the whole that keep some relations, over the coordinates they mention.
+        """Return the dimension of the motions of the whole that keep some relations, over the coordinates they mention.
 
         0 where they mention not all, or the motions are not known.
         """
@@ -152,7 +152,7 @@ def _on_manifold(chart: Chart, pose: Mapping[Expr, Expr], rank: int, afar: bool)
 
 
 def pivots_among(chart: Chart, point: FieldPoint, rows: Sequence[int]) -> Pivots:
-    """The frame of some rows that are independent at a point."""
+    """Return the frame of some rows that are independent at a point."""
     matrix = field_jacobian(chart, point, [chart.nodes[r] for r in rows])
     frame = sparse_frame(matrix, len(chart.columns), point.p)
     return replace(frame, rows=tuple(rows[r] for r in frame.rows))
@@ -176,7 +176,7 @@ ORDER = 4
 
 
 def needed_along(field: Manifold, other: int) -> list[int]:
-    """The numbers of the manifold's relations whose multipliers for the dependent one, ``other``, are not 0.
+    """Return the numbers of the manifold's relations whose multipliers for the dependent one, ``other``, are not 0.
 
     Over GF(p), along a random curve, to an order. Raises NoValueError.
     """
@@ -198,5 +198,5 @@ def needed_along(field: Manifold, other: int) -> list[int]:
 
 
 def _sparse(row: Sequence[Series], k: int) -> SparseRow:
-    """The coefficients of s^k without zeros."""
+    """Return the coefficients of s^k without zeros."""
     return {c: v for c, series in enumerate(row) if (v := int(series.coefficient(k)))}

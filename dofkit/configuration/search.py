@@ -199,7 +199,7 @@ def _common_zeros(part: RelationPart) -> Iterator[Expr]:
 
 
 def _witness(symbols: Sequence[Expr], explicit: Sequence[Expr], zeros: dict[Expr, Expr]) -> dict[Expr, str] | None:
-    """A point of the set; None where a coordinate that is given by others is none of short form."""
+    """Return a point of the set; None where a coordinate that is given by others is none of short form."""
     point = {s: zeros.get(s, ex.ZERO) for s in symbols}
     for g in reversed(explicit):
         s = next((s for s in sorted(g.symbols, key=repr) if s not in zeros), None)

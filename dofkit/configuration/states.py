@@ -117,7 +117,7 @@ class States:
         return all(not s.plan.stuck and all(s.degree(*step) == 1 for step in s.plan.steps) for s in solvers)
 
     def draw(self, seed: int) -> FieldPoint | None:
-        """A generic state over GF(p): velocities at a generic configuration where they can be solved for."""
+        """Return a generic state over GF(p): velocities at a generic configuration where they can be solved for."""
         if "field" not in self.setting.engines:
             return None
         for k in range(TRIES):
@@ -155,7 +155,7 @@ class States:
         return all(at[n] == 0 for n in self.relations)
 
     def real(self, seed: int) -> RealPoint | None:
-        """A real state with balls: velocities at a random configuration where there are some, else any."""
+        """Return a real state with balls: velocities at a random configuration where there are some, else any."""
         if "balls" not in self.setting.engines:
             return None
         places = [*self.places, *self.setting.generic]
@@ -244,7 +244,7 @@ def vanishes(value: Scalar) -> bool:
 
 
 def value_at(ring: Ring, point: FieldPoint | BallPoint, node: int) -> Scalar | None:
-    """The value of a node; None where it has none there."""
+    """Return the value of a node; None where it has none there."""
     try:
         return values(ring, point, node + 1)[node]
     except NoValueError:

@@ -72,7 +72,7 @@ def _floating(system: System, joints: list[Connection]) -> Iterator[str]:
 
 
 def _coupled(system: System) -> Iterator[dict[str, Fraction]]:
-    """The factors of each coupling by what they belong to; nothing of one whose factors are no numbers."""
+    """Yield the factors of each coupling by what they belong to; nothing of one whose factors are no numbers."""
     for c in system.connections:
         if c.rates and all(rate.slope.op == "num" for rate in c.rates):
             yield {rate.name: rate.slope.args[0] for rate in c.rates}
@@ -107,7 +107,7 @@ class Bridges(NamedTuple):
 
 
 def bridges(system: System) -> Bridges:
-    """The joints that close no loop, of those of a drawing in fractions, by numbers; none without a drawing."""
+    """Return the joints that close no loop, of those of a drawing in fractions, by numbers; none without a drawing."""
     if system.dimension == 1:
         return Bridges()
     joints = {c.constraint: c.members for c in system.connections if _is_drawn(c, system)}

@@ -158,7 +158,7 @@ CRITERIA: tuple[Criterion, ...] = (
 
 
 def decision(germ: Germ) -> tuple[Criterion | None, LocalDimension]:
-    """The first criterion that decides, and what it says; None where all are asked and none does."""
+    """Return the first criterion that decides, and what it says; None where all are asked and none does."""
     for criterion in CRITERIA:
         conclusion = criterion.decide(germ)
         if conclusion is None:
@@ -196,7 +196,7 @@ def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> Lo
 def local_at(
     chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, time: int | None = None, drawn: bool = True
 ) -> LocalDimension:
-    """The local dimension at a point of the variety, time counted where it is a column.
+    """Return the local dimension at a point of the variety, time counted where it is a column.
 
     ``time``: the number of that column, where it matters whether time moves on. A point that was ``drawn`` may be one
     where a relation is flat: what is 0 along a curve is looked at from a distance, if balls may be asked.

@@ -161,13 +161,13 @@ class Germ:
         return leading_signs
 
     def ahead(self) -> list[float]:
-        """A random direction of N in which it is looked at from a distance."""
+        """Return a random direction of N in which it is looked at from a distance."""
         assert self.ball is not None
         return _ahead(self.ball, len(self.critical.free))
 
 
 def random_direction(manifold: Manifold) -> Sequence[Scalar]:
-    """A random direction of the manifold's free columns, in its own numbers."""
+    """Return a random direction of the manifold's free columns, in its own numbers."""
     if isinstance(manifold.sample, arb):
         return [arb(manifold.base.rng.randrange(64, 512)) / 256 for _ in range(manifold.dimension)]
     return [manifold.base.random() for _ in range(manifold.dimension)]
@@ -188,7 +188,7 @@ def _ahead(ball: Manifold, count: int) -> list[float]:
 
 
 def degree_of(manifold: Manifold) -> int:
-    """A bound on the degree of the dependent relations; columns that no relation gives explicitly count 1."""
+    """Return a bound on the degree of the dependent relations; columns that no relation gives explicitly count 1."""
     weights = _Weights(manifold)
     return max((weights.of(n) for n in manifold.others), default=0)
 
@@ -206,7 +206,7 @@ class _Weights:
         self.known: dict[int, int] = {}
 
     def of(self, node: int) -> int:
-        """The degree of an instruction."""
+        """Return the degree of an instruction."""
         degrees: dict[int, int] = {}
         for i in reversed(reachable(self.ring, [node], through_generators=False)):
             op, payload = self.ring.code[i]
