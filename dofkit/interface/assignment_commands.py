@@ -15,9 +15,7 @@ from dofkit.interface.output import failures_of
 assignment_app = typer.Typer(
     help="Write assignments, handouts and a variant per student.", no_args_is_help=True, rich_markup_mode="rich"
 )
-export_app = typer.Typer(
-    help="Export assignments and grades for course platforms.", no_args_is_help=True, rich_markup_mode="rich"
-)
+export_app = typer.Typer(help="Export assignments for course platforms.", no_args_is_help=True, rich_markup_mode="rich")
 
 
 @assignment_app.command("new")
@@ -139,21 +137,3 @@ def export_gradescope(
 
     with failures_of(assignment):
         export.export_gradescope(assignment, out, reviewed)
-
-
-@export_app.command("grades")
-def export_grades(
-    assignment: options.Assignment,
-    results: Annotated[
-        Path, typer.Argument(metavar="RESULTS", help="The results.jsonl of `dofkit grade`, or its folder.")
-    ],
-    form: Annotated[str, typer.Option("--format", metavar="NAME", help="The format of a gradebook or platform.")],
-    out: Annotated[Path, typer.Option("--out", metavar="PATH", help="The file or folder to write.")],
-    roster: options.RosterPath = None,
-) -> None:
-    """Write existing results in another format, without regrading."""
-    from dofkit.homework.runs.run import GradingOptions, convert
-
-    with failures_of(assignment):
-        count = convert(assignment, results, GradingOptions(form, out, roster=roster))
-    typer.echo(f"{out}: {count} results")

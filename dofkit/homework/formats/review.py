@@ -148,12 +148,6 @@ class RunReview:
             again = f"fill in points, then grade again with --reviewed {self.paths.table}"
             print(f"{different} review in {self.paths.table}: {again}", file=sys.stderr)
 
-    def write_page(self, results: Sequence[Result], prepared: Prepared) -> None:
-        """Write the page alone, of results whose table is elsewhere. Raises OSError."""
-        if self.paths is not None:
-            queue = queue_of(results, prepared)
-            write_page(queue, queue.rows(self.rows), prepared, self.paths.page, str(self.paths.table))
-
 
 def queue_of(results: Sequence[Result], prepared: Prepared, links: Sequence[str] = ()) -> Queue:
     """Return the queue of the answers that wait for a person or were decided by one; ``links``: to the results."""

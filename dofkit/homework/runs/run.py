@@ -1,4 +1,4 @@
-"""``dofkit grade``: from the files that are named to the results, wherever they go; and results in another format."""
+"""``dofkit grade``: from the files that are named to the results, wherever they go."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from contextlib import AbstractContextManager, closing, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
-from pydantic import ValidationError
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
@@ -21,7 +20,7 @@ from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
 from dofkit.homework.formats.gradebooks import apart_path
-from dofkit.homework.formats.review import PAGE, TABLE, ReviewPaths, RunReview
+from dofkit.homework.formats.review import ReviewPaths, RunReview
 from dofkit.homework.result import Result, json_line
 from dofkit.homework.runs.batch import Grading, Orders, Outcome, grading
 from dofkit.homework.runs.owners import OwnedOutcome, named_by, owned, settled
@@ -167,42 +166,3 @@ def _bar() -> AbstractContextManager[Progress]:
     visible = console.is_terminal and not console.is_jupyter
     columns = (SpinnerColumn(), BarColumn(), TextColumn("{task.completed:.0f} graded"), TimeElapsedColumn())
     return Progress(*columns, console=console, transient=True, disable=not visible)
-
-
-def convert(assignment: str, results: Path, options: GradingOptions) -> int:
-    """Write the results of a run, or those in its folder, in another format, and return how many there are.
-
-    Raises AssignmentError, RosterError, OSError, and FormatError for what are no results of this assignment.
-    """
-    form, path = options.format, results / RESULTS if results.is_dir() else results
-    if options.out is None or form.name == NATIVE:
-        raise FormatError(f"--format must be one of {', '.join(name for name in FORMATS if name != NATIVE)}")
-    read = [Path(source).resolve() for source in (assignment, path, options.roster or "")]
-    if any(target.resolve() in read for target in options.written):
-        raise FormatError(f"--out would overwrite an input file: {options.out}")
-    prepared = load_assignment(assignment)
-    roster = None if options.roster is None else load_roster(options.roster)
-    most = float(sum(prepared.most_points().values()))
-    graded = list(_checked(path, most))
-    form.write(iter(graded), prepared, options.out, roster)
-    if (options.out / PAGE).exists():
-        review_paths = ReviewPaths(path.parent / TABLE, options.out / PAGE, True)
-        RunReview.read(prepared, None, review_paths).write_page(graded, prepared)
-    return len(graded)
-
-
-def _checked(path: Path, most: float) -> Iterator[Result]:
-    """Yield the results of a file. Raises FormatError for a line that is no result of this assignment."""
-    with path.open(encoding="utf-8", newline="\n") as lines:
-        for number, line in enumerate(lines, 1):
-            try:
-                result = Result.model_validate_json(line)
-            except ValidationError:
-                hint = "name the results.jsonl that `dofkit grade ... --out FOLDER` wrote"
-                raise FormatError(f"{path}, line {number}: this is not a result of dofkit ({hint})") from None
-            if abs(result.max_score - most) > 1e-9:
-                raise FormatError(
-                    f"{path}, line {number}: this result has {result.max_score:g} points, the assignment "
-                    f"{most:g}: run `dofkit grade` again"
-                )
-            yield result
