@@ -72,7 +72,7 @@ class Kinematics(Protocol):
 
     Columns are the velocity v, then the angular velocity w, of every member; a vector of velocities is a row a
     component. ``points``: (what carries it, its place); ``number``: the screw's advance by radian, or a ratio of gears.
-    ``parts``: of a coupling the rate of each joint, its factor, and the joint alone.
+    ``couplings``: of a coupling the rate of each joint, its factor, and the joint alone.
     """
 
     @property
@@ -86,7 +86,7 @@ class Kinematics(Protocol):
     @property
     def number(self) -> Any: ...
     @property
-    def parts(self) -> Sequence[tuple[Callable[[Any], VelocityRow], Any, Any]]: ...
+    def couplings(self) -> Sequence[tuple[Callable[[Any], VelocityRow], Any, Any]]: ...
 
     def shift(self) -> list[VelocityRow]:
         """How the second body's point at the first place moves against the first body's."""

@@ -31,8 +31,6 @@ from dofkit.homework.variants import own
 STUDENTS, SEED = 50, "autumn"
 #: One in so many hands in late, when the first review is done.
 LATE = 6
-#: The sheet that is graded once more for every platform; of the others the results that are there are written.
-COMMANDED = "sheet1"
 PLATFORMS = ("gradescope", "prairielearn", "canvas", "moodle", "html")
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 #: What a right equation is written beside, so that nobody can read it for certain, and what a person gives for it.
@@ -244,11 +242,7 @@ def run_sheet(folder: Path, name: str, students: Sequence[str]) -> dict[str, int
     assert (out / "review.csv").read_bytes() == before
     for form in PLATFORMS:
         target = folder / f"{name}-{form}{'.csv' if form in ('canvas', 'moodle') else ''}"
-        if name == COMMANDED:
-            dofkit(folder, *grade, "--reviewed", out / "review.csv", "--format", form, "--out", target)
-        else:
-            more = ("--format", form, "--out", target, "--roster", "roster.csv")
-            dofkit(folder, "export", "grades", varied, out / "results.jsonl", *more)
+        dofkit(folder, *grade, "--reviewed", out / "review.csv", "--format", form, "--out", target)
         exported(name, form, target, again)
     dofkit(folder, "export", "gradescope", varied, "--reviewed", out / "review.csv", "--out",
            f"{name}.zip")  # fmt: skip

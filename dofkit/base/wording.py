@@ -71,56 +71,56 @@ def gap_in_words(gap: float, what: str) -> str:
     return f"the smallest {what} that is kept is about {digits:.0f} times the largest that is taken as zero"
 
 
-def closest(word: str, known: Sequence[str], least: float = 0.6) -> str | None:
+def closest(word: str, vocabulary: Sequence[str], least: float = 0.6) -> str | None:
     """Return the known word most like ``word`` (Ratcliff and Obershelp), at least ``least`` alike, or None.
 
     >>> closest("thta", ["theta", "phi"])
     'theta'
     """
-    return next(iter(difflib.get_close_matches(word, known, 1, least)), None)
+    return next(iter(difflib.get_close_matches(word, vocabulary, 1, least)), None)
 
 
-def nearest(word: object, known: Iterable[str]) -> str | None:
+def nearest(word: object, vocabulary: Iterable[str]) -> str | None:
     """Return the known name most like ``word``, of about its length, in any case, or that it abbreviates; or None.
 
     >>> nearest("lenght", ["between", "length"])
     'length'
     """
-    word, names = str(word), list(known)
+    word, names = str(word), list(vocabulary)
     near = [name for name in names if abs(len(name) - len(word)) <= 1 + len(word) // 2]
     same = (name for name in near if name.lower() == word.lower())
     longer = [name for name in names if len(word) >= SHORTEST_BEGINNING and name.startswith(word.lower())]
     return closest(word, near[:_MOST_COMPARED]) or next(same, longer[0] if len(longer) == 1 else None)
 
 
-def guess(word: str, known: Iterable[str]) -> str:
+def guess(word: str, vocabulary: Iterable[str]) -> str:
     """Return `` (did you mean ...?)`` with the nearest known word, or an empty text where none is near."""
-    near = nearest(word, known)
+    near = nearest(word, vocabulary)
     return "" if near is None else f" (did you mean '{near}'?)"
 
 
-def no_such(word: str, known: Iterable[str], what: str) -> str:
+def no_such(word: str, vocabulary: Iterable[str], what: str) -> str:
     """Return a sentence about a ``word`` that is unknown, with the nearest known word and the first dozen.
 
     >>> no_such("exakt", ["count", "exact"], "method")
     "there is no method 'exakt' (did you mean 'exact'?): the methods are count, exact"
     """
-    names = list(known)
+    names = list(vocabulary)
     listed = ", ".join(names[:_MOST_LISTED]) + (", ..." if len(names) > _MOST_LISTED else "")
     return f"there is no {what} '{word}'{guess(word, names)}: the {what}s are {listed or 'none'}"
 
 
-def nearest_title(name: str, known: Sequence[str]) -> str | None:
+def nearest_title(name: str, titles: Sequence[str]) -> str | None:
     """Return the known name of several words that is most like ``name`` or shares most words with it, or None.
 
     >>> nearest_title("rolling-disc", ["disc-rolling", "pendulum"])
     'disc-rolling'
     """
-    alike = closest(name, known)
+    alike = closest(name, titles)
     if alike is not None:
         return alike
     words = _words(name)
-    shared = [(len(words & _words(other)) / len(words | _words(other)), other) for other in known]
+    shared = [(len(words & _words(other)) / len(words | _words(other)), other) for other in titles]
     share, best = max(shared, key=lambda pair: pair[0], default=(0.0, ""))
     return best if share >= _LEAST_SHARED else None
 
@@ -141,12 +141,12 @@ def description_of(value: object) -> str:
     return f"{' '.join(reprlib.repr(value).split())} ({'an' if name[0] in 'aeiouAEIOU' else 'a'} {name})"
 
 
-def require_one_of(value: object, known: Iterable[str], what: str) -> None:
+def require_one_of(value: object, vocabulary: Iterable[str], what: str) -> None:
     """Raise ArgumentError for a value that is none of the known names; it suggests the nearest and lists all.
 
     >>> require_one_of("exact", ["count", "exact"], "method")
     """
-    names = list(known)
+    names = list(vocabulary)
     if not isinstance(value, str):
         raise ArgumentError(f"a {what} is one of {', '.join(names)}, not {description_of(value)}")
     if value not in names:
@@ -173,26 +173,26 @@ def is_folder_path(path: Path) -> bool:
     return path.is_dir() or not path.suffix or path.suffix[1:].isdigit()
 
 
-def format_of_path(path: Path, known: Collection[str], asked: str | None = None) -> str:
+def format_of_path(path: Path, formats: Collection[str], asked: str | None = None) -> str:
     """Return the format of the file that is written to a path: its ending decides.
 
-    ``known``: the formats, which are the endings without the dot; none where only a folder can be written. ``asked``:
+    ``formats``: the formats, which are the endings without the dot; none where only a folder can be written. ``asked``:
     the format that was asked for besides. Raises ArgumentError where the ending is unknown or contradicts that format.
 
     >>> format_of_path(Path("sheet.pdf"), ["html", "pdf"])
     'pdf'
     """
     ending = path.suffix.lower()
-    if not known:
+    if not formats:
         raise ArgumentError(
             f"'{path}' has the ending of a file, but a folder is written: give a name without an ending"
         )
     if not ending and asked is not None:
         return asked
     if not ending:
-        raise ArgumentError(f"'{path}' has no ending: name a file that ends in .{', .'.join(known)}")
-    if ending[1:] not in known:
-        raise ArgumentError(f"'{path}': {no_such(ending, [f'.{name}' for name in known], 'ending')}")
+        raise ArgumentError(f"'{path}' has no ending: name a file that ends in .{', .'.join(formats)}")
+    if ending[1:] not in formats:
+        raise ArgumentError(f"'{path}': {no_such(ending, [f'.{name}' for name in formats], 'ending')}")
     if asked not in (None, ending[1:]):
         other = path.with_suffix(f".{asked}")
         raise ArgumentError(

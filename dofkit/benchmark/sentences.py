@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import yaml
 
+from dofkit.base.wording import series
 from dofkit.benchmark import statistics
 from dofkit.benchmark.record import ALL, AUTO, ChartRun, Data, Ran, Score
 from dofkit.benchmark.statistics import grouped
@@ -92,10 +93,10 @@ def _method(chart: ChartRun, method: str) -> str:
         return ""
     undecided = _percent(total.trials - total.right - total.wrong, total.trials)
     start = f"`{method}` is wrong on {_percent(total.wrong, total.trials)} and undecided on {undecided}"
-    most = list(_worst(chart, method, wrong=bool(total.wrong)))
-    if not most:
+    quoted = [f'"{family}"' for family in _worst(chart, method, wrong=bool(total.wrong))]
+    if not quoted:
         return start + "."
-    return f"{start}; it is {'wrong' if total.wrong else 'undecided'} most often in {_listed(most)}."
+    return f"{start}; it is {'wrong' if total.wrong else 'undecided'} most often in {series(quoted)}."
 
 
 def _worst(chart: ChartRun, method: str, *, wrong: bool) -> Iterator[str]:
@@ -218,11 +219,6 @@ def percent(share: float, below: str = "<", above: str = ">") -> str:
 
 def _span(values: Sequence[float]) -> str:
     return f"{values[0]:g}" if len(values) == 1 else f"{values[0]:g} to {values[-1]:g}"
-
-
-def _listed(names: Sequence[str]) -> str:
-    quoted = [f'"{name}"' for name in names]
-    return quoted[0] if len(quoted) == 1 else ", ".join(quoted[:-1]) + " and " + quoted[-1]
 
 
 def _word(number: int) -> str:

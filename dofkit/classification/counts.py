@@ -30,7 +30,7 @@ _LATE = General(None, why="there was no time to count")
 
 
 class CountsBeside:
-    """The counts of one scene; the drawing is turned into numbers once, where it is asked for."""
+    """The counts of one scene; the reference configuration is turned into numbers once, where it is asked for."""
 
     def __init__(self, study: Study, instantaneous: int | None) -> None:
         self.study, self.instantaneous = study, instantaneous
@@ -38,7 +38,7 @@ class CountsBeside:
         self.setting, self.outcome = study.setting, study.outcome
 
     def generic(self) -> Generic | None:
-        """The count in general position; None without a drawing."""
+        """The count in general position; None without a reference configuration."""
         if not has_geometry(self.system):
             return None
         look = partial(in_general_position, self.system, self.outcome.written_rows, self.setting)
@@ -83,9 +83,9 @@ class CountsBeside:
         return drawn_placement(self.system, self.setting.positive)
 
     def _dependent_sets(self) -> list[list[int]]:
-        """The constraints of minimal dependent sets of rows at the drawing, of circuits too; none holds another."""
+        """The constraints of minimal dependent sets of rows at the reference, of circuits too; none holds another."""
         sets: list[list[int]] = []
-        for block, a in self.outcome.parts:
+        for block, a in self.outcome.answered_parts:
             if len(a.matrix) != len(block.rows):
                 continue
             for row, support in list(echelon(a.matrix, a.modulus, supports=True).supports.items())[:MOST_SETS]:
@@ -127,8 +127,8 @@ def _if_it_has_a_value(work: Callable[[], T]) -> T | None:
 
 
 def counts_beside(study: Study, instantaneous: int | None) -> tuple[dict[str, Generic | Mobility | None], str | None]:
-    """``generic`` and ``mobility``, and what to say of a near-dependence; ``instantaneous``: at the drawing."""
-    beside = CountsBeside(study, instantaneous)
+    """``generic`` and ``mobility``, and what to say of a near-dependence; ``instantaneous``: at the reference."""
+    counts = CountsBeside(study, instantaneous)
     with part(SHARE):
-        generic = _if_it_has_a_value(beside.generic)
-    return {"generic": generic, "mobility": _if_it_has_a_value(beside.mobility)}, _if_it_has_a_value(beside.nearly)
+        generic = _if_it_has_a_value(counts.generic)
+    return {"generic": generic, "mobility": _if_it_has_a_value(counts.mobility)}, _if_it_has_a_value(counts.nearly)

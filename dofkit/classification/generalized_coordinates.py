@@ -78,14 +78,14 @@ class _Reading:
 
 def _readings(relations: Iterable[Expr]) -> list[_Reading]:
     """How coordinates occur in every relation; looked at once in those that are the same up to names."""
-    known: dict[Expr, list[tuple[int, int]]] = {}
+    degrees_of: dict[Expr, list[tuple[int, int]]] = {}
     result = []
     for g in relations:
         shape = shape_of(g)
-        if shape.skeleton not in known:
+        if shape.skeleton not in degrees_of:
             place = {name: k for k, name in enumerate(shape.names)}
-            known[shape.skeleton] = [(place[name], degree) for name, degree in _degrees(g).items()]
-        result.append(_Reading({shape.names[k]: degree for k, degree in known[shape.skeleton]}))
+            degrees_of[shape.skeleton] = [(place[name], degree) for name, degree in _degrees(g).items()]
+        result.append(_Reading({shape.names[k]: degree for k, degree in degrees_of[shape.skeleton]}))
     return result
 
 
@@ -95,29 +95,29 @@ def _degrees(g: Expr) -> dict[str, int]:
     stack = [g]
     while stack:
         node = stack.pop()
-        parts = ex.children(node)
-        waiting = [part for part in parts if id(part) not in memo]
+        operands = ex.children(node)
+        waiting = [part for part in operands if id(part) not in memo]
         if waiting:
             stack += [node, *waiting]
         else:
-            memo[id(node)] = _joined(node, [memo[id(part)] for part in parts])
+            memo[id(node)] = _joined(node, [memo[id(part)] for part in operands])
     return memo[id(g)]
 
 
-def _joined(e: Expr, parts: Sequence[dict[str, int]]) -> dict[str, int]:
+def _joined(e: Expr, operands: Sequence[dict[str, int]]) -> dict[str, int]:
     """How coordinates occur in a node, by how they occur in its parts."""
     if e.op == "sym":
         return {str(e.args[1]): PLAIN} if e.args[0] == "coordinate" else {}
     if e.op == "pow" and e.args[1] == ex.TWO:
-        return {n: QUADRATIC if k <= LINEAR else OTHER for n, k in parts[0].items()}
+        return {n: QUADRATIC if k <= LINEAR else OTHER for n, k in operands[0].items()}
     if e.op not in ("add", "mul"):
-        return {n: OTHER for part in parts for n in part}
+        return {n: OTHER for part in operands for n in part}
     single = e.op == "mul" and sum(p.op not in ("num", "const") for p in e.args) == 1
     result: dict[str, int] = {}
-    for part in parts:
+    for part in operands:
         for name, k in part.items():
-            own = k if single or e.op == "add" else max(k, LINEAR)
-            result[name] = own if name not in result else _both(e.op, result[name], own)
+            degree = k if single or e.op == "add" else max(k, LINEAR)
+            result[name] = degree if name not in result else _both(e.op, result[name], degree)
     return result
 
 
@@ -154,27 +154,27 @@ def _of_system(study: Study) -> list[str] | None:
     if outcome.dof is None:
         return None
     chosen = set(outcome.untouched)
-    known: dict[int, list[int]] = {}
+    places_of: dict[int, list[int]] = {}
     for block, a in zip(outcome.blocks, outcome.answers, strict=True):
-        places = None if a.kind is None else known.get(a.kind)
+        places = None if a.kind is None else places_of.get(a.kind)
         if places is None:
-            own = _of_block(block, a, study.setting, system.rotations)
+            names = _of_block(block, a, study.setting, system.rotations)
         else:
-            own = [block.coordinates[k] for k in places]
-        if own is None:
+            names = [block.coordinates[k] for k in places]
+        if names is None:
             return None
         if a.kind is not None and not system.rotations:
-            known[a.kind] = [block.coordinates.index(name) for name in own]
-        chosen.update(own)
+            places_of[a.kind] = [block.coordinates.index(name) for name in names]
+        chosen.update(names)
     for group in _turned_groups(study, chosen):
         if group.places == 1:
             continue
         free = chosen.intersection(group.block.coordinates)
         whole = Answer(dof=len(free), dependent=group.block.coordinates, hidden=[*group.hidden])
-        own = _of_block(group.block, whole, study.setting, system.rotations)
-        if own is None:
+        names = _of_block(group.block, whole, study.setting, system.rotations)
+        if names is None:
             return None
-        chosen = chosen - free | set(own)
+        chosen = chosen - free | set(names)
     return [c.name for c in system.coordinates if c.name in chosen]
 
 
@@ -192,25 +192,25 @@ def claim_of_choice(study: Study, free: Claim, chosen: Sequence[str]) -> Claim:
     where it is the orbit of the whole as one body; elsewhere it may be no graph over any coordinates. Where
     some angles of a body that turns are chosen, at a certified configuration.
     """
-    parts = []
+    of_blocks = []
     for block, a in zip(study.outcome.blocks, study.outcome.answers, strict=True):
         if a.argument in ALIKE or not a.dof or (a.about == "reference" and a.instantaneous == a.velocity_dof):
-            parts.append(counted(a.claim))
+            of_blocks.append(counted(a.claim))
         elif a.argument == "joints that close no loop":
-            parts.append(replace(counted(a.claim), about="component"))
+            of_blocks.append(replace(counted(a.claim), about="component"))
         elif a.about == "reference":
             orbit = orbit_at_reference(block, a, study.setting)
             sure = orbit is not None and orbit.rank(chosen) == a.dof
             near = Claim("probable", "generic points", bits=BITS, about="component")
-            parts.append(counted(a.claim) if sure else together(a.claim, near))
+            of_blocks.append(counted(a.claim) if sure else together(a.claim, near))
         elif regular_at_witness(block.coordinates, a, chosen):
-            parts.append(replace(a.claim, about="component"))
+            of_blocks.append(replace(a.claim, about="component"))
         else:
-            parts.append(together(a.claim, Claim("probable", "generic points", bits=BITS)))
+            of_blocks.append(together(a.claim, Claim("probable", "generic points", bits=BITS)))
     for group in _turned_groups(study, chosen):
         if not are_coordinates(group, chosen, study.setting, study.system.rotations):
-            parts.append(Claim("probable", "generic points", bits=BITS, about="component"))
-    return together(*parts) if parts else counted(free)
+            of_blocks.append(Claim("probable", "generic points", bits=BITS, about="component"))
+    return together(*of_blocks) if of_blocks else counted(free)
 
 
 def counted(claim: Claim) -> Claim:
@@ -224,9 +224,9 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
         return None
     if a.dof == 0:
         return []
-    own = frozenset(block.coordinates)
-    turning = [r for r in rotations if r.chart == "gibbs" and not own.isdisjoint(r.names)]
-    dependent = set(a.dependent if a.parts is None else _dependent_at_drawing(block, a, setting))
+    block_coordinates = frozenset(block.coordinates)
+    turning = [r for r in rotations if r.chart == "gibbs" and not block_coordinates.isdisjoint(r.names)]
+    dependent = set(a.dependent if a.answered_parts is None else _dependent_at_drawing(block, a, setting))
     direct = _regular_at_reference(block, a, setting) or [c for c in block.coordinates if c not in dependent]
     if not turning and len(direct) == a.dof:
         chosen = _explicit(block, a.dof, setting)
@@ -253,15 +253,17 @@ def _of_block(block: Block, a: Answer, setting: Setting, rotations: Sequence[Rot
 
 
 def _dependent_at_drawing(block: Block, a: Answer, setting: Setting) -> tuple[str, ...]:
-    """Coordinates that the rows at the drawing can be solved for, the last ones where there is a choice.
+    """Coordinates that the rows at the reference can be solved for, the last ones where there is a choice.
 
     Of bodies whose joints close no loop places are solved for before angles.
     """
     result = rows_at_drawing(TurnedGroup(block, ()), setting)
     if result is None:
         return ()
-    own = frozenset(block.coordinates)
-    places = frozenset(c.name for c in setting.roles if not a.parts and c.name in own and c.role in ("x", "y", "z"))
+    block_names = frozenset(block.coordinates)
+    places = frozenset(
+        c.name for c in setting.roles if not a.answered_parts and c.name in block_names and c.role in ("x", "y", "z")
+    )
     names = sorted(block.coordinates, key=places.__contains__)
     place = {name: k for k, name in enumerate(names)}
     rows = [{place[name]: v for name, v in row.items()} for row in result.rows]
@@ -275,7 +277,7 @@ def orbit_at_reference(block: Block, a: Answer, setting: Setting) -> RigidOrbit 
 
 
 def regular_at_witness(names: Sequence[str], a: Answer, chosen: Sequence[str]) -> bool | None:
-    """Have the finite relations, by the coordinates that are not chosen, their full rank at the witness?
+    """Return whether the finite relations, by the coordinates that are not chosen, have full rank at the witness.
 
     None where no rows are known there. What divides by a coefficient may divide by 0 on the part of the witness.
     """
@@ -286,12 +288,12 @@ def regular_at_witness(names: Sequence[str], a: Answer, chosen: Sequence[str]) -
 
 
 def _is_regular(block: Block, a: Answer, chosen: Sequence[str], setting: Setting) -> bool:
-    """Have the relations, by the coordinates that are not chosen, their full rank at the point that was looked at?
+    """Return whether the relations, by the coordinates that are not chosen, have full rank at the examined point.
 
     A coefficient that was divided by may be 0 all over the set; at a reference these are numbers. Of what was answered
     by parts no rows are known.
     """
-    if a.parts is not None:
+    if a.answered_parts is not None:
         return setting.reference is not None
     if regular_at_witness(block.coordinates, a, chosen) is False:
         return False

@@ -151,28 +151,28 @@ SETTLED: frozenset[ArgumentKey | None] = frozenset({"links in general position",
 LEFT_OUT = Claim("probable", "leaving out", bits=BITS)
 
 
-def claims(study: Study, told: Mapping[str, Any]) -> dict[str, Claim]:
+def claims(study: Study, values: Mapping[str, Any]) -> dict[str, Claim]:
     """The claim of every field that the report decides, or leaves open."""
     free = fields.freedom(study)
     result = {"consistent": fields.consistency(study)}
-    if told["consistent"] is False:
+    if values["consistent"] is False:
         result["conflicting"] = _conflict(study, result["consistent"])
     else:
-        result |= {"dof": _unless(told["dof"], free), "velocity_dof": _unless(told["velocity_dof"], free)}
-        result["redundant_equations"] = _unless(told["redundant_equations"], counted(free))
-        result["redundant"] = _unless(told["redundant"], _dependence(study, free, bool(told["redundant"])))
-        result["redundancies"] = _unless(told["redundant"], _dependence(study, free, bool(told["redundancies"])))
-        claim = claim_of_choice(study, free, told["generalized_coordinates"] or ())
-        result["generalized_coordinates"] = _unless(told["generalized_coordinates"], claim)
-    if study.system.reference is not None and told["consistent"] is not False:
+        result |= {"dof": _unless(values["dof"], free), "velocity_dof": _unless(values["velocity_dof"], free)}
+        result["redundant_equations"] = _unless(values["redundant_equations"], counted(free))
+        result["redundant"] = _unless(values["redundant"], _dependence(study, free, bool(values["redundant"])))
+        result["redundancies"] = _unless(values["redundant"], _dependence(study, free, bool(values["redundancies"])))
+        claim = claim_of_choice(study, free, values["generalized_coordinates"] or ())
+        result["generalized_coordinates"] = _unless(values["generalized_coordinates"], claim)
+    if study.system.reference is not None and values["consistent"] is not False:
         first = fields.first_order(study)
-        result["instantaneous_dof"] = _unless(told["instantaneous_dof"], first)
-        result["singular"] = _unless(told["singular"], together(first, free))
+        result["instantaneous_dof"] = _unless(values["instantaneous_dof"], first)
+        result["singular"] = _unless(values["singular"], together(first, free))
     for name in ("holonomic", "scleronomic"):
-        result[name] = of_entries(told["constraints"], name, told[name])
-    if told["growth_vector"] is not None:
-        result["growth_vector"] = _growth(study, free, told["growth_vector"])
-    if told["integrable_part"] is not None:
+        result[name] = of_entries(values["constraints"], name, values[name])
+    if values["growth_vector"] is not None:
+        result["growth_vector"] = _growth(study, free, values["growth_vector"])
+    if values["integrable_part"] is not None:
         result["integrable_part"] = free
     return result
 
@@ -195,19 +195,19 @@ def of_entries(entries: Sequence[ConstraintEntry], name: str, value: bool | None
     if value is None:
         return OPEN
     if value:
-        known = {id(e.verdicts): _claim(e.verdicts[name]) for e in {id(e.verdicts): e for e in entries}.values()}
-        return together(*[known[id(e.verdicts)] for e in entries])
+        claim_of = {id(e.verdicts): _claim(e.verdicts[name]) for e in {id(e.verdicts): e for e in entries}.values()}
+        return together(*[claim_of[id(e.verdicts)] for e in entries])
     against = [e.verdicts[name] for e in entries if getattr(e, name) is False]
     return _claim(min(against, key=lambda v: VERDICTS.index(v.verdict)))
 
 
-def _claim(told: FieldVerdict) -> Claim:
+def _claim(field: FieldVerdict) -> Claim:
     """A claim again from what an entry tells of it."""
-    if told.verdict == "undecided":
+    if field.verdict == "undecided":
         return OPEN
-    bits = int(told.bound.removeprefix("2^-")) if told.verdict == "probable" and told.bound else None
-    gap = float(told.bound) if told.verdict == "numeric" and told.bound else None
-    return Claim(told.verdict, told.argument, bits, gap, told.about or "everywhere")
+    bits = int(field.bound.removeprefix("2^-")) if field.verdict == "probable" and field.bound else None
+    gap = float(field.bound) if field.verdict == "numeric" and field.bound else None
+    return Claim(field.verdict, field.argument, bits, gap, field.about or "everywhere")
 
 
 def _dependence(study: Study, free: Claim, some: bool) -> Claim:
@@ -233,7 +233,7 @@ def _growth(study: Study, free: Claim, growth: Sequence[int]) -> Claim:
     ]
     if len(growth) == 1 or (len(growth) == 2 and all(trusted for _, trusted in blocks)):
         return counted(free)
-    if free.verdict == "proved" and all(trusted and own and is_free(own) for own, trusted in blocks):
+    if free.verdict == "proved" and all(trusted and of_block and is_free(of_block) for of_block, trusted in blocks):
         return replace(free, argument="free Lie algebra")
     return together(free, Claim("probable", "brackets at points", bits=BITS))
 

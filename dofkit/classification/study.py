@@ -90,9 +90,9 @@ class Study:
     @cached_property
     def company(self) -> Companionship:
         """The blocks, to be asked what a form integrates to together with which others."""
-        parts = AnsweredParts(self.setting)
-        parts.know(zip(self.outcome.blocks, self.outcome.answers, strict=True))
-        return Companionship(parts, self.names)
+        answered = AnsweredParts(self.setting)
+        answered.know(zip(self.outcome.blocks, self.outcome.answers, strict=True))
+        return Companionship(answered, self.names)
 
     @cached_property
     def entries(self) -> list[ConstraintEntry]:
@@ -129,14 +129,14 @@ def instantaneous_dof(study: Study) -> int | None:
     outcome = study.outcome
     if study.system.reference is None or outcome.consistent is not True or outcome.crossing:
         return None
-    parts = [a.instantaneous for a in outcome.answers]
-    if any(p is None for p in parts):
+    freedoms = [a.instantaneous for a in outcome.answers]
+    if any(p is None for p in freedoms):
         return None
-    return len(outcome.untouched) + sum(p for p in parts if p is not None)
+    return len(outcome.untouched) + sum(p for p in freedoms if p is not None)
 
 
 def singular(study: Study) -> bool | None:
-    """Does the drawing allow other velocities than finite motions have? None without a drawing."""
+    """Return whether the reference allows other velocities than finite motions have; None without a reference."""
     here, velocities = instantaneous_dof(study), study.outcome.velocity_dof
     return None if here is None or velocities is None else here != velocities
 
@@ -230,8 +230,8 @@ def witness(study: Study) -> dict[str, str] | None:
             if s.args[0] in ("coordinate", "parameter", "time") and result.setdefault(str(s.args[1]), text) != text:
                 return None
     names = [c.name for c in study.system.coordinates]
-    own = frozenset(names)
-    others = {name: text for name, text in result.items() if name not in own}
+    coordinate_names = frozenset(names)
+    others = {name: text for name, text in result.items() if name not in coordinate_names}
     return {name: result.get(name, "0") for name in names} | others
 
 
@@ -242,21 +242,21 @@ def method(study: Study) -> str:
 
 def modelled(system: System, outcome: Outcome) -> str:
     """What the model kept and left out, and why."""
-    parts = []
+    sentences = []
     touched = len(system.coordinates) - len(outcome.untouched)
     if outcome.blocks:
-        parts.append(f"{many(touched, 'coordinate')} in {many(len(outcome.blocks), 'independent subsystem')}")
+        sentences.append(f"{many(touched, 'coordinate')} in {many(len(outcome.blocks), 'independent subsystem')}")
     if outcome.untouched:
         text = ", ".join(outcome.untouched[:12]) + (", ..." if len(outcome.untouched) > 12 else "")
-        parts.append(f"counted but left out of the computation, because nothing constrains them: {text}")
+        sentences.append(f"counted but left out of the computation, because nothing constrains them: {text}")
     finite = sum(not b.forms and not b.nonlinear for b in outcome.blocks)
     if finite:
-        parts.append("no integrability test where all equations are geometric (d(dg) = 0)")
-    parts += _looked_at(outcome)
+        sentences.append("no integrability test where all equations are geometric (d(dg) = 0)")
+    sentences += _looked_at(outcome)
     if system.forces:
-        parts.append("forces are left out: they are not constraints")
-    parts += [f"left out: {answer}" for answer in system.left_out]
-    return "; ".join(parts) or "nothing constrains anything"
+        sentences.append("forces are left out: they are not constraints")
+    sentences += [f"left out: {answer}" for answer in system.left_out]
+    return "; ".join(sentences) or "nothing constrains anything"
 
 
 def _looked_at(outcome: Outcome) -> Iterator[str]:
@@ -322,10 +322,10 @@ def about_branches(system: System, branches: Sequence[str]) -> Iterator[str]:
 
 def _missing_reference(system: System) -> Iterator[str]:
     """Yield what the scene has to give for a reference configuration, where it has none."""
-    known = {str(symbol.args[1]) for symbol in system.pose}
-    if system.reference is not None or all(c.name in known for c in system.coordinates):
+    placed = {str(symbol.args[1]) for symbol in system.pose}
+    if system.reference is not None or all(c.name in placed for c in system.coordinates):
         return
-    owners = dict.fromkeys(c.owner for c in system.coordinates if c.owner in system.particles and c.name not in known)
+    owners = dict.fromkeys(c.owner for c in system.coordinates if c.owner in system.particles and c.name not in placed)
     text = ", ".join([*owners][:8]) + (", ..." if len(owners) > 8 else "")
     wanted = [f"`at` for {text}"] if owners else []
     if system.bodies and system.generic:
@@ -360,5 +360,5 @@ def consistency(study: Study) -> Claim:
 
 def first_order(study: Study) -> Claim:
     """Of the velocities at the reference: ranks there, which are exact where no row depends on others."""
-    parts = [a.first_order for a in study.outcome.answers]
-    return replace(together(*parts), about="reference")
+    claims = [a.first_order for a in study.outcome.answers]
+    return replace(together(*claims), about="reference")

@@ -1,4 +1,4 @@
-"""Coordinates that are independent on the tangent space of a configuration space at a point near the drawing."""
+"""Coordinates that are independent on the tangent space of a configuration space at a point near the reference."""
 
 from __future__ import annotations
 
@@ -105,11 +105,11 @@ def _secants(chart: Chart, search: RealSearch, symbols: dict[Expr, float], dof: 
     for seed in range(2 * dof + 2):
         rng = random.Random(f"dofkit secant {seed}")
         change = {**{s: rng.uniform(-1.0, 1.0) for s in names}, **search.start(seed + len(AWAY), {})}
-        beside = dict(symbols)
+        moved = dict(symbols)
         for s in names:
-            beside[s] += SECANT * change[s]
-        if any(_settles(search, beside, seed, power) for power in DAMPED):
-            result.append([(beside[s] - symbols[s]) / SECANT for s in names])
+            moved[s] += SECANT * change[s]
+        if any(_settles(search, moved, seed, power) for power in DAMPED):
+            result.append([(moved[s] - symbols[s]) / SECANT for s in names])
     if not result:
         return None
     _, singular, right = np.linalg.svd(np.array(result))
@@ -137,9 +137,9 @@ def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int, power: i
 def _start(chart: Chart, setting: Setting) -> dict[Expr, float]:
     if setting.reference is None:
         return {}
-    known = {**setting.reference, ex.TIME: ex.ZERO}
-    point = pose_point(chart, known, 3)
-    ball = None if point is None else ball_point(chart, known, point.rng)
+    configuration = {**setting.reference, ex.TIME: ex.ZERO}
+    point = pose_point(chart, configuration, 3)
+    ball = None if point is None else ball_point(chart, configuration, point.rng)
     return {} if ball is None else {s: float(v.mid()) for s, v in ball.symbols.items()}
 
 

@@ -54,8 +54,8 @@ class TurnedGroup(NamedTuple):
 
 def partly_turned(chosen: Collection[str], rotations: Sequence[Rotation]) -> tuple[Rotation, ...]:
     """The rotations of which some angles are chosen and some are not: only all three stand for all three."""
-    known = frozenset(chosen)
-    return tuple(r for r in rotations if r.chart == "gibbs" and 0 < len(known.intersection(r.names)) < 3)
+    chosen_names = frozenset(chosen)
+    return tuple(r for r in rotations if r.chart == "gibbs" and 0 < len(chosen_names.intersection(r.names)) < 3)
 
 
 def turned_together(
@@ -95,7 +95,7 @@ def _stays(a: Answer) -> bool:
 
 
 def rows_at_drawing(group: TurnedGroup, setting: Setting, most: float = math.inf) -> NamedRows | None:
-    """The rows of the relations at the drawing; None where they do not hold there.
+    """The rows of the relations at the reference; None where they do not hold there.
 
     Where not all are those of joints they are written out for at ``most`` so many coordinates.
     """
@@ -115,7 +115,7 @@ def rows_at_drawing(group: TurnedGroup, setting: Setting, most: float = math.inf
 
 
 def chosen_at_drawing(group: TurnedGroup, setting: Setting, turning: Sequence[Rotation]) -> list[str] | None:
-    """The first coordinates whose differentials complete the rows of the relations at the drawing.
+    """The first coordinates whose differentials complete the rows of the relations at the reference.
 
     Over GF(p), where a minor that is not 0 is not 0 over the numbers either. The others are those that the rows can be
     solved for, the last ones where there is a choice [Whitney1935]. None where angles are singular there or drawn at
@@ -155,13 +155,13 @@ def _right_angles(e: Expr) -> int | None:
 
 
 def are_coordinates(group: TurnedGroup, chosen: Collection[str], setting: Setting, turning: Sequence[Rotation]) -> bool:
-    """Is there a certified configuration at which the chosen coordinates are independent, and enough?
+    """Return whether the chosen coordinates are a local chart at some certified configuration.
 
     Their differentials and the rows of the relations have full rank there: a minor's ball excludes 0.
     """
     chosen = frozenset(chosen)
-    own = [name for name in group.block.coordinates if name in chosen]
-    if chosen_at_drawing(group, setting, turning) == own:
+    names = [name for name in group.block.coordinates if name in chosen]
+    if chosen_at_drawing(group, setting, turning) == names:
         return True
     if len(group.block.coordinates) > MOST_SEARCHED:
         return False
@@ -216,9 +216,9 @@ def _rates(g: Sequence[arb], drawn: Sequence[arb], upright: bool) -> arb_mat:
     """
     x, y, z = g
     cross = arb_mat([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    one = arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    identity = arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
     scale = 2 / (1 + x * x + y * y + z * z)
-    axis = (one + (cross + cross * cross) * scale) * arb_mat([[v] for v in drawn])
+    axis = (identity + (cross + cross * cross) * scale) * arb_mat([[v] for v in drawn])
     a, b, c = (axis[i, 0] for i in range(3))
     axes = arb_mat([[0, 1, 0], [1, 0, 0], [0, 0, 1]] if upright else [[0, -b, a], [0, a, b], [1, 0, c]])
-    return axes.solve((one + cross) * scale)
+    return axes.solve((identity + cross) * scale)

@@ -86,7 +86,11 @@ def _degree(e: Expr) -> Fraction:
 
 
 def open_report(
-    name: str, told: Count, entries: Sequence[ConstraintEntry], forces: Sequence[ForceEntry], warnings: Sequence[str]
+    name: str,
+    lecture_count: Count,
+    entries: Sequence[ConstraintEntry],
+    forces: Sequence[ForceEntry],
+    warnings: Sequence[str],
 ) -> Report:
     """A report of which nothing but names and the count is known."""
     return Report(
@@ -98,7 +102,7 @@ def open_report(
         singular=None,
         holonomic=None,
         scleronomic=None,
-        count=told,
+        count=lecture_count,
         redundant_equations=None,
         redundant=None,
         redundancies=[],

@@ -70,28 +70,28 @@ class AtReference:
 def at_reference(chart: Chart, reference: Mapping[Expr, Expr]) -> AtReference | None:
     """Return the answer at the reference configuration (t = 0), or None if that does not satisfy the equations."""
     with ctx.workprec(precision()):
-        known = {**reference, ex.TIME: ex.ZERO}
+        pose = {**reference, ex.TIME: ex.ZERO}
         if "field" not in chart.engines:
-            return _by_balls(chart, known)
-        found = _by_field(chart, known)
-        return found if found is None else replace(found, sure=_is_exact(chart, known, found))
+            return _by_balls(chart, pose)
+        answer = _by_field(chart, pose)
+        return answer if answer is None else replace(answer, sure=_is_exact(chart, pose, answer))
 
 
-def _is_exact(chart: Chart, known: Mapping[Expr, Expr], found: AtReference) -> bool:
-    """Is the rank, which is not too large over GF(p), proved not to be too small?
+def _is_exact(chart: Chart, pose: Mapping[Expr, Expr], answer: AtReference) -> bool:
+    """Return whether the rank, which is not too large over GF(p), is proved not to be too small.
 
     So it is where no row depends on others, where only motions of the whole are left, and at a rational point.
     """
-    velocities = found.instantaneous
-    if chart.coordinates - velocities == len(found.matrix) or velocities == found.rigid:
+    velocities = answer.instantaneous
+    if chart.coordinates - velocities == len(answer.matrix) or velocities == answer.rigid:
         return True
     columns = [c for s, c in zip(chart.symbols, chart.columns, strict=True) if s != ex.TIME]
-    return exact_rank(chart.ring, chart.nodes, columns, rational_values(known)) == chart.coordinates - velocities
+    return exact_rank(chart.ring, chart.nodes, columns, rational_values(pose)) == chart.coordinates - velocities
 
 
-def _by_field(chart: Chart, known: Mapping[Expr, Expr]) -> AtReference | None:
+def _by_field(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
     """`at_reference` with a point over GF(p), and balls where signs are asked for."""
-    point = pose_point(chart, known, 3)
+    point = pose_point(chart, pose, 3)
     if point is None or not on_variety(chart, point):
         return None
     matrix = field_jacobian(chart, point)
@@ -102,29 +102,29 @@ def _by_field(chart: Chart, known: Mapping[Expr, Expr]) -> AtReference | None:
     fields = rigid_fields(chart, point)
     rigid = rank_of(fields, point.p)
     together = timed or (rank == n - rigid and not chart.within) or "classes" not in chart.reductions
-    apart = None if together else _by_parts(chart, known, matrix, point.p, rank)
+    apart = None if together else _by_parts(chart, pose, matrix, point.p, rank)
     if apart is not None:
         local, looked = apart
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, looked=looked)
     if rank < len(matrix) and not timed:
-        local, spared = _with_fewer(chart, known, point, fields)
+        local, spared = _with_fewer(chart, pose, point, fields)
         looked = FollowedClasses(coordinates=n - spared, spared=spared)
         return AtReference(n - rank_q, local, matrix, point.p, rank, rigid, looked=looked)
-    ball = ball_point(chart, known, point.rng) if rank < len(matrix) and "balls" in chart.engines else None
+    ball = ball_point(chart, pose, point.rng) if rank < len(matrix) and "balls" in chart.engines else None
     local = _at_fixed_time(criteria.local_at(chart, point, ball, rigid, chart.time), timed)
     return AtReference(n - rank_q, local, matrix, point.p, rank, rigid)
 
 
 def _with_fewer(
-    chart: Chart, known: Mapping[Expr, Expr], point: FieldPoint, fields: Sequence[Sequence[Any]]
+    chart: Chart, pose: Mapping[Expr, Expr], point: FieldPoint, fields: Sequence[Sequence[Any]]
 ) -> tuple[LocalDimension, int]:
-    """The local dimension by a chart with fewer coordinates, where there is one, and how many went.
+    """Return the local dimension by a chart with fewer coordinates, where there is one, and how many went.
 
     ``fields``: the motions of the whole as one body over the chart's columns; what they are on fewer is what is left.
     """
     small, free = smaller(chart)
     spared = chart.coordinates - small.coordinates
-    here = point if small is chart else pose_point(small, known, 3)
+    here = point if small is chart else pose_point(small, pose, 3)
     if here is None or not on_variety(small, here):
         return LocalDimension(
             None, "undecided", "in the reduced coordinates the reference configuration does not satisfy the equations"
@@ -133,15 +133,15 @@ def _with_fewer(
         return LocalDimension(free, "proved", EXPLICIT, argument="graph"), spared
     kept = [i for i, s in enumerate(chart.symbols) if s in small.symbols]
     rigid = rank_of([[field[i] for i in kept] for field in fields], point.p)
-    ball = ball_point(small, known, here.rng) if "balls" in chart.engines else None
+    ball = ball_point(small, pose, here.rng) if "balls" in chart.engines else None
     local = criteria.local_at(small, here, ball, rigid)
     return replace(local, dimension=None if local.dimension is None else local.dimension + free), spared
 
 
 def _by_parts(
-    chart: Chart, known: Mapping[Expr, Expr], matrix: Sequence[SparseRow], p: int, rank: int
+    chart: Chart, pose: Mapping[Expr, Expr], matrix: Sequence[SparseRow], p: int, rank: int
 ) -> tuple[LocalDimension, FollowedClasses] | None:
-    """The local dimension where every class of dependent relations gives a manifold, and what was looked at.
+    """Return the local dimension where every class of dependent relations gives a manifold, and what was looked at.
 
     None where one does not, or is not known to, or is all there is: then all have to be
     looked at together.
@@ -151,25 +151,25 @@ def _by_parts(
         regular = LocalDimension(dimension, "proved", conclusions.INDEPENDENT, argument="independent relations")
         return regular, FollowedClasses(rank)
     reduced = echelon(matrix, p, supports=True)
-    parts = dependent_parts(chart, reduced)
-    if len(parts) == 1 and len(parts[0].rows) == len(matrix) and not chart.within:
+    classes = dependent_parts(chart, reduced)
+    if len(classes) == 1 and len(classes[0].rows) == len(matrix) and not chart.within:
         return None
-    found = []
+    dimensions = []
     followed = more = 0
-    for part in parts:
-        own = chart_of_rows(chart, part.rows)
-        local, spared = _of_part(own, known, part.rank)
+    for part in classes:
+        class_chart = chart_of_rows(chart, part.rows)
+        local, spared = _of_part(class_chart, pose, part.rank)
         if local is None:
             return None
-        found.append(local)
-        followed += 0 if local.reason == _rigid() else own.coordinates - spared
+        dimensions.append(local)
+        followed += 0 if local.reason == _rigid() else class_chart.coordinates - spared
         more += spared
-    reasons = dict.fromkeys(local.reason for local in found)
-    looked_at = {row for part in parts for row in part.rows}
-    weak = max(found, key=lambda local: VERDICTS.index(local.verdict))
+    reasons = dict.fromkeys(local.reason for local in dimensions)
+    looked_at = {row for part in classes for row in part.rows}
+    weak = max(dimensions, key=lambda local: VERDICTS.index(local.verdict))
     local = LocalDimension(dimension, weak.verdict, "; ".join(reasons), argument=weak.argument)
-    rigid = sum(local.reason == _rigid() for local in found)
-    return local, FollowedClasses(len(matrix) - len(looked_at), rigid, len(found) - rigid, followed, more)
+    rigid = sum(local.reason == _rigid() for local in dimensions)
+    return local, FollowedClasses(len(matrix) - len(looked_at), rigid, len(dimensions) - rigid, followed, more)
 
 
 def _rigid() -> str:
@@ -177,33 +177,33 @@ def _rigid() -> str:
     return f"the dependent part is rigid: {conclusions.WHOLE}"
 
 
-def _of_part(chart: Chart, known: Mapping[Expr, Expr], rank: int) -> tuple[LocalDimension | None, int]:
+def _of_part(chart: Chart, pose: Mapping[Expr, Expr], rank: int) -> tuple[LocalDimension | None, int]:
     """One class by itself, and how many coordinates went before it was followed.
 
     None where its set is not known to be a manifold of the codimension of its rank.
     """
-    point = pose_point(chart, known, 3)
+    point = pose_point(chart, pose, 3)
     if point is None:
         return None, 0
-    left = len(chart.columns) - rank
+    corank = len(chart.columns) - rank
     fields = rigid_fields(chart, point)
     rigid = rank_of(fields, point.p)
-    if left == rigid:
-        return LocalDimension(left, "proved", _rigid(), argument="rigid to first order"), 0
-    local, spared = _with_fewer(chart, known, point, fields)
-    return (local if local.dimension == left else None), spared
+    if corank == rigid:
+        return LocalDimension(corank, "proved", _rigid(), argument="rigid to first order"), 0
+    local, spared = _with_fewer(chart, pose, point, fields)
+    return (local if local.dimension == corank else None), spared
 
 
 def _at_fixed_time(local: LocalDimension, timed: int) -> LocalDimension:
-    """The dimension without that of time, along which the set goes on; none where it does not."""
+    """Return the dimension without that of time, along which the set goes on; none where it does not."""
     if local.dimension is None:
         return local
     return replace(local, dimension=None if local.confined else local.dimension - timed)
 
 
-def _by_balls(chart: Chart, known: Mapping[Expr, Expr]) -> AtReference | None:
+def _by_balls(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
     """`at_reference` with balls alone: what a tiny ball contains 0 of is taken for 0."""
-    ball = ball_point(chart, known, random.Random("dofkit reference"))
+    ball = ball_point(chart, pose, random.Random("dofkit reference"))
     matrix = None if ball is None else ball_matrix(chart, ball, True)
     if ball is None or matrix is None:
         return None
@@ -218,9 +218,9 @@ def _by_balls(chart: Chart, known: Mapping[Expr, Expr]) -> AtReference | None:
         frame = Pivots(tuple(part.rows), tuple(part.columns), tuple(c for c in range(columns) if c not in part.columns))
         manifold = Manifold(chart.ring, chart.nodes, chart.columns, frame, ball, chart.scales)
         local = _at_fixed_time(_dimension_along_curves(manifold, rigid, chart.time), timed)
-    shown = sparse(dependencies(matrix, part))
+    pattern = sparse(dependencies(matrix, part))
     names = tuple(of_q.columns) if rank == of_q.rank else ()
-    return AtReference(n - of_q.rank, local, shown, 2, rank, rigid, names)
+    return AtReference(n - of_q.rank, local, pattern, 2, rank, rigid, names)
 
 
 def _dimension_along_curves(manifold: Manifold, rigid: int, time: int | None) -> LocalDimension:
@@ -233,31 +233,31 @@ def _dimension_along_curves(manifold: Manifold, rigid: int, time: int | None) ->
 
 
 def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] | None:
-    """The Jacobian over all columns; None where a relation's ball excludes 0 or has no value."""
+    """Return the Jacobian over all columns; None where a relation's ball excludes 0 or has no value."""
     try:
         at = values(chart.ring, ball)
         if exact and not all(at[node].contains(0) for node in chart.nodes):
             return None
         present = [c for c in chart.columns if c >= 0]
-        found = jacobian(chart.ring, at, ball, chart.nodes, present, arb(0))
+        slopes = jacobian(chart.ring, at, ball, chart.nodes, present, arb(0))
     except NoValueError:
         return None
     place = {c: i for i, c in enumerate(present)}
-    return [[row[place[c]] if c >= 0 else arb(0) for c in chart.columns] for row in found]
+    return [[row[place[c]] if c >= 0 else arb(0) for c in chart.columns] for row in slopes]
 
 
-def ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
-    """The reference configuration with balls; symbols without a value get random ones."""
+def ball_point(chart: Chart, pose: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
+    """Return the reference configuration with balls; symbols without a value get random ones."""
     with ctx.workprec(precision()):
-        return _ball_point(chart, known, rng)
+        return _ball_point(chart, pose, rng)
 
 
-def _ball_point(chart: Chart, known: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
+def _ball_point(chart: Chart, pose: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
     symbols: dict[Expr, Any] = {}
     for var in chart.ring.vars:
         if var.kind != "symbol":
             continue
-        value = known.get(var.key)
+        value = pose.get(var.key)
         if value is None:
             symbols[var.key] = arb(rng.randrange(257, 1023)) / 512
             continue
@@ -282,22 +282,22 @@ class DependentClass:
     rank: int
 
 
-def dependent_parts(chart: Chart, found: Echelon) -> list[DependentClass]:
-    """The classes with dependent rows, each with what else is said of its coordinates; ``found`` with its supports."""
+def dependent_parts(chart: Chart, reduced: Echelon) -> list[DependentClass]:
+    """The classes with dependent rows, each with what else is said of its coordinates; ``reduced``: with supports."""
     graph: nx.Graph = nx.Graph()
-    for row, support in found.supports.items():
+    for row, support in reduced.supports.items():
         graph.add_node(row)
         graph.add_edges_from((row, other) for other in support)
-    own = frozenset(s for s in chart.symbols)
-    mentioned = [g.symbols & own for g in chart.relations]
+    columns = frozenset(s for s in chart.symbols)
+    mentioned = [g.symbols & columns for g in chart.relations]
     users: dict[Expr, list[int]] = {}
     for i, symbols in enumerate(mentioned):
         for s in symbols:
             users.setdefault(s, []).append(i)
-    parts = []
+    classes = []
     for component in nx.connected_components(graph):
         held = frozenset[Expr]().union(*(mentioned[i] for i in component))
-        beside = {i for s in held for i in users[s] if mentioned[i] <= held and i not in found.supports}
-        rows = tuple(sorted(component | beside))
-        parts.append(DependentClass(rows, len(rows) - sum(r in found.supports for r in rows)))
-    return sorted(parts, key=lambda part: part.rows)
+        enclosed = {i for s in held for i in users[s] if mentioned[i] <= held and i not in reduced.supports}
+        rows = tuple(sorted(component | enclosed))
+        classes.append(DependentClass(rows, len(rows) - sum(r in reduced.supports for r in rows)))
+    return sorted(classes, key=lambda part: part.rows)

@@ -27,20 +27,20 @@ MAX_CASES, MAX_NODES = 48, 300
 
 @dataclass(frozen=True)
 class ZeroCase:
-    """Where ``solved`` relations give one unknown each, ``left`` vanish too, and none of ``nonzero`` does.
+    """Where ``solved`` relations give one unknown each, ``unsolved`` vanish too, and none of ``nonzero`` does.
 
     ``fresh``: relations whose factors were not looked at.
     """
 
     solved: tuple[Expr, ...]
-    left: tuple[Expr, ...]
+    unsolved: tuple[Expr, ...]
     fresh: tuple[Expr, ...]
     nonzero: tuple[Expr, ...] = ()
 
     @property
     def relations(self) -> tuple[Expr, ...]:
         """All that vanishes there."""
-        return self.solved + self.left + self.fresh
+        return self.solved + self.unsolved + self.fresh
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class BoundedCase:
 def cases_of(
     relations: Sequence[Expr], unknowns: Sequence[Expr], positive: frozenset[Expr]
 ) -> list[BoundedCase] | None:
-    """The cases of some relations between ``unknowns``; None where there are too many of them.
+    """Return the cases of some relations between ``unknowns``; None where there are too many of them.
 
     Other symbols are generic constants, in which the relations have to be analytic: else what is not 0 everywhere may
     be 0 through an interval. No case: there is no real point. Where combinations lead to too many cases, those of the
@@ -67,55 +67,57 @@ def cases_of(
     """
     if not all(is_analytic(g, g.symbols.difference(unknowns), positive) for g in relations):
         return None
-    found = _cases_of(relations, unknowns, positive, True)
-    return _cases_of(relations, unknowns, positive, False) if found is None else found
+    cases = _cases_of(relations, unknowns, positive, True)
+    return _cases_of(relations, unknowns, positive, False) if cases is None else cases
 
 
 def _cases_of(
     relations: Sequence[Expr], unknowns: Sequence[Expr], positive: frozenset[Expr], combining: bool
 ) -> list[BoundedCase] | None:
     moving = frozenset(unknowns)
-    open_, found, seen = [ZeroCase((), (), tuple(relations))], list[BoundedCase](), 0
+    open_, bounded, seen = [ZeroCase((), (), tuple(relations))], list[BoundedCase](), 0
     while open_:
         check()
         seen += 1
         if seen > MAX_CASES:
             return None
         case = open_.pop()
-        parts = _split(case, moving, positive)
-        if parts is None and combining:
-            together = _combined(case.left, moving, positive)
-            parts = None if together is None else [replace(case, left=(), fresh=together)]
-        if parts is None:
-            found += [b for b in [_bounded(case, unknowns, positive)] if b.most >= 0]
+        subcases = _split(case, moving, positive)
+        if subcases is None and combining:
+            together = _combined(case.unsolved, moving, positive)
+            subcases = None if together is None else [replace(case, unsolved=(), fresh=together)]
+        if subcases is None:
+            bounded += [b for b in [_bounded(case, unknowns, positive)] if b.most >= 0]
         else:
-            open_ += parts
-    return found
+            open_ += subcases
+    return bounded
 
 
 def _split(case: ZeroCase, moving: frozenset[Expr], positive: frozenset[Expr]) -> list[ZeroCase] | None:
-    """The cases within one; None where it is told apart no further."""
+    """Return the cases within one; None where it is told apart no further."""
     if case.fresh:
-        g, rest = case.fresh[0], case.fresh[1:]
+        g, unsplit = case.fresh[0], case.fresh[1:]
         branches = zero_set(g, positive, moving)[0]
         kept = [b for b in branches if not any(_same_zeros(e, u, positive) for e in b for u in case.nonzero)]
-        return [replace(case, left=case.left + tuple(e for e in b if not e.is_zero), fresh=rest) for b in kept]
-    choices = list(_linear(case.left, moving))
+        return [
+            replace(case, unsolved=case.unsolved + tuple(e for e in b if not e.is_zero), fresh=unsplit) for b in kept
+        ]
+    choices = list(_linear(case.unsolved, moving))
     if not choices:
         return None
     _, g, s, slope = min(choices, key=lambda choice: choice[0])
-    others = tuple(e for e in case.left if e != g)
+    others = tuple(e for e in case.unsolved if e != g)
     at_zero = substitute(g, {s: ex.ZERO})
     value = {s: -at_zero / slope}
     used = tuple(e for e in others if s in e.symbols)
-    beside = tuple(e for e in others if s not in e.symbols)
-    solved = ZeroCase((*case.solved, g), beside, tuple(substitute(e, value) for e in used), case.nonzero)
+    free = tuple(e for e in others if s not in e.symbols)
+    solved = ZeroCase((*case.solved, g), free, tuple(substitute(e, value) for e in used), case.nonzero)
     if moving.isdisjoint(slope.symbols):
         return [solved]
     factors = [b[0] for b in zero_set(slope, positive, moving)[0] if len(b) == 1]
     return [
         replace(solved, nonzero=(*case.nonzero, *factors)),
-        replace(case, left=others, fresh=(slope, at_zero)),
+        replace(case, unsolved=others, fresh=(slope, at_zero)),
     ]
 
 
@@ -132,9 +134,9 @@ def _combined(relations: Sequence[Expr], moving: frozenset[Expr], positive: froz
     rows = echelon_by_degree(canon, nodes)
     if rows is None:
         return None
-    found = tuple(canon.to_expr(canon.ctx.from_dict(row)) for row in rows)
-    new = (g for g in found if not any(_same_zeros(g, e, positive) for e in relations))
-    return found if any(zero_set(g, positive, moving)[0] != ((g,),) for g in new) else None
+    combinations = tuple(canon.to_expr(canon.ctx.from_dict(row)) for row in rows)
+    new = (g for g in combinations if not any(_same_zeros(g, e, positive) for e in relations))
+    return combinations if any(zero_set(g, positive, moving)[0] != ((g,),) for g in new) else None
 
 
 def _linear(relations: Sequence[Expr], moving: frozenset[Expr]) -> Iterator[tuple[tuple[int, int], Expr, Expr, Expr]]:
@@ -151,7 +153,7 @@ def _linear(relations: Sequence[Expr], moving: frozenset[Expr]) -> Iterator[tupl
 
 
 def _same_zeros(e: Expr, other: Expr, positive: frozenset[Expr]) -> bool:
-    """Are two expressions the same up to a number?"""
+    """Return whether two expressions are the same up to a number."""
     if e.symbols != other.symbols:
         return False
     ring = Ring([e, other], positive)
@@ -165,24 +167,24 @@ def _same_zeros(e: Expr, other: Expr, positive: frozenset[Expr]) -> bool:
 
 
 def _bounded(case: ZeroCase, unknowns: Sequence[Expr], positive: frozenset[Expr]) -> BoundedCase:
-    """A case that is told apart no further, with the bound of its dimension: -1 where it has no point.
+    """Return a case that is told apart no further, with the bound of its dimension: -1 where it has no point.
 
     One relation takes one dimension away, unless it holds everywhere; several take that of a Groebner basis.
     """
     most = len(unknowns) - len(case.solved)
-    if not case.left:
+    if not case.unsolved:
         return BoundedCase(case.relations, most, True)
-    ring = Ring(case.left, positive)
-    nodes = [ring.node(g) for g in case.left]
+    ring = Ring(case.unsolved, positive)
+    nodes = [ring.node(g) for g in case.unsolved]
     if doubt(ring) is not None:
         return BoundedCase(case.relations, most, False)
-    if len(case.left) == 1:
+    if len(case.unsolved) == 1:
         return BoundedCase(case.relations, most - 1, True)
     moving = [i for s in unknowns if (i := ring.var_index(s)) is not None]
     canon = Canon(ring)
     whole = dimension_of(canon, [canon.quotient(node)[0] for node in nodes], moving)
     if whole is None:
         return BoundedCase(case.relations, most - 1, False)
-    known = {*unknowns}
-    exact = all(s in known for g in case.left for s in g.symbols)
+    coordinates = {*unknowns}
+    exact = all(s in coordinates for g in case.unsolved for s in g.symbols)
     return BoundedCase(case.relations, -1 if whole < 0 else most - len(moving) + whole, True, exact)

@@ -55,40 +55,40 @@ class RelationPart(NamedTuple):
 
 
 class Explicit(NamedTuple):
-    """The relations that ``give`` a coordinate each as a function of others, and those ``left`` with these put in."""
+    """Relations that give a coordinate each as a function of others, and the others, with these put in."""
 
-    given: tuple[Expr, ...]
-    left: tuple[Expr, ...]
+    explicit: tuple[Expr, ...]
+    implicit: tuple[Expr, ...]
 
 
-def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variety], of_case: bool = False) -> Variety:
+def of_largest_part(chart: Chart, variety: Variety, look: Callable[[Chart], Variety], of_case: bool = False) -> Variety:
     """What is known of the set, for its largest part; ``look`` finds generic points of the set of another chart.
 
     ``of_case``: what was found is the set of a case, which is a part of this one.
     """
-    if found.dimension is None or not found.consistent:
-        return found
+    if variety.dimension is None or not variety.consistent:
+        return variety
     near = _near_its_point if of_case else _near
     if _in_regions(chart) or len(chart.relations) > MAX_RELATIONS:
-        return near(found)
+        return near(variety)
     if len(chart.relations) < 2:
         least = chart.coordinates - len(chart.relations)
-        return _by(found, "one relation") if found.dimension >= least else _near(found)
-    given, left = explicit_relations(chart.relations)
-    parts = parts_of(left, [s for s in chart.symbols if s != ex.TIME])
-    fibres = [_is_fibre(part, chart.positive) for part in parts]
-    cases = [_cases(part, chart, fibre) for part, fibre in zip(parts, fibres, strict=True)]
+        return _by(variety, "one relation") if variety.dimension >= least else _near(variety)
+    explicit, implicit = explicit_relations(chart.relations)
+    groups = parts_of(implicit, [s for s in chart.symbols if s != ex.TIME])
+    fibres = [_is_fibre(part, chart.positive) for part in groups]
+    cases = [_cases(part, chart, fibre) for part, fibre in zip(groups, fibres, strict=True)]
     if None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS:
-        return near(found)
-    loose = chart.coordinates - len(given) - sum(len(part.unknowns) for part in parts)
+        return near(variety)
+    loose = chart.coordinates - len(explicit) - sum(len(part.unknowns) for part in groups)
     together = sorted(cartesian(*(c for c in cases if c is not None)), key=lambda choice: -_most(choice))
-    best, open_, regular = found, list[bool](), _is_regular(chart, found)
+    best, open_, regular = variety, list[bool](), _is_regular(chart, variety)
     for number, choice in enumerate(together):
         if loose + _most(choice) <= (best.dimension or 0):
             break
         if number == MAX_TOGETHER:
-            return near(best) if best is found else _near_its_point(best)
-        larger = _found(chart, [*given, *(g for case in choice for g in case.relations)], look)
+            return near(best) if best is variety else _near_its_point(best)
+        larger = _variety_of(chart, [*explicit, *(g for case in choice for g in case.relations)], look)
         if larger.consistent is False and larger.verdict == "proved":
             continue
         best, ended = _larger(chart, best, larger, loose + _most(choice))
@@ -97,8 +97,8 @@ def of_largest_part(chart: Chart, found: Variety, look: Callable[[Chart], Variet
     if any(open_) and regular:
         return replace(best, dimension=None, verdict="undecided", reasons=[*best.reasons, LARGER])
     if open_:
-        return near(best) if best is found else _near_its_point(best)
-    best = _by(best, "graph" if not parts else "generic fibre" if all(fibres) else "cases")
+        return near(best) if best is variety else _near_its_point(best)
+    best = _by(best, "graph" if not groups else "generic fibre" if all(fibres) else "cases")
     best = replace(best, separating=separating_expressions(together, (best.dimension or 0) - loose))
     exact = all(case.exact for c in cases for case in c or ())
     return best if exact else replace(best, verdict=weakest(best.verdict, "probable"))
@@ -111,18 +111,18 @@ def separating_expressions(choices: Sequence[Sequence[all_cases.BoundedCase]], l
     """
     cases = [({g for case in choice for g in case.relations}, _most(choice)) for choice in choices]
     large, small = [c for c, most in cases if most == largest], [c for c, most in cases if most < largest]
-    own = [sorted((g for g in case if any(g not in other for other in small)), key=_length) for case in large]
-    if not own or not all(own):
+    marking = [sorted((g for g in case if any(g not in other for other in small)), key=_length) for case in large]
+    if not marking or not all(marking):
         return ()
-    common = [g for g in own[0] if all(g in case for case in large)]
-    return tuple(common) or (ex.mul(*dict.fromkeys(case[0] for case in own)),)
+    common = [g for g in marking[0] if all(g in case for case in large)]
+    return tuple(common) or (ex.mul(*dict.fromkeys(case[0] for case in marking)),)
 
 
 def _length(e: Expr) -> tuple[int, str]:
     return sum(1 for _ in ex.nodes(e)), repr(e)
 
 
-def _found(chart: Chart, relations: Sequence[Expr], look: Callable[[Chart], Variety]) -> Variety:
+def _variety_of(chart: Chart, relations: Sequence[Expr], look: Callable[[Chart], Variety]) -> Variety:
     """What is known of the set of other relations; nothing where they have no value at the points that are tried."""
     try:
         return look(_restricted(chart, relations))
@@ -130,41 +130,43 @@ def _found(chart: Chart, relations: Sequence[Expr], look: Callable[[Chart], Vari
         return Variety(None, None, "undecided")
 
 
-def _is_regular(chart: Chart, found: Variety) -> bool:
-    """Have the relations as large a rank there as the dimension says?"""
-    rank = None if not found.samples else rank_of_rows(field_jacobian(chart, found.samples[0]), found.samples[0].p)
-    return rank is not None and found.dimension == chart.coordinates - rank
+def _is_regular(chart: Chart, variety: Variety) -> bool:
+    """Return whether the relations have as large a rank there as the dimension says."""
+    rank = (
+        None if not variety.samples else rank_of_rows(field_jacobian(chart, variety.samples[0]), variety.samples[0].p)
+    )
+    return rank is not None and variety.dimension == chart.coordinates - rank
 
 
-def by_cases(chart: Chart, found: Variety, look: Callable[[Chart], Variety]) -> Variety:
+def by_cases(chart: Chart, variety: Variety, look: Callable[[Chart], Variety]) -> Variety:
     """What is known of a set on which no point was found: the first case with points, or that no case has any."""
     if not 0 < len(chart.relations) <= MAX_RELATIONS:
-        return found
-    given, left = explicit_relations(chart.relations)
-    parts = parts_of(left, [s for s in chart.symbols if s != ex.TIME])
-    cases = [_cases(part, chart, _is_fibre(part, chart.positive)) for part in parts]
+        return variety
+    explicit, implicit = explicit_relations(chart.relations)
+    groups = parts_of(implicit, [s for s in chart.symbols if s != ex.TIME])
+    cases = [_cases(part, chart, _is_fibre(part, chart.positive)) for part in groups]
     if [] in cases:
-        own = [g for g in left if any(s.args[0] == "parameter" for s in g.symbols)]
-        return Variety(False, None, "probable" if own else "proved", reasons=[NO_CASE], argument="cases")
+        parametric = [g for g in implicit if any(s.args[0] == "parameter" for s in g.symbols)]
+        return Variety(False, None, "probable" if parametric else "proved", reasons=[NO_CASE], argument="cases")
     if None in cases or prod(len(c or ()) for c in cases) > MAX_PRODUCTS:
-        return found
+        return variety
     together = sorted(cartesian(*(c for c in cases if c is not None)), key=lambda choice: -_most(choice))
-    for choice in together[:MAX_TOGETHER] if len(together) > 1 or found.parted else ():
-        seen = _found(chart, [*given, *(g for case in choice for g in case.relations)], look)
+    for choice in together[:MAX_TOGETHER] if len(together) > 1 or variety.parted else ():
+        seen = _variety_of(chart, [*explicit, *(g for case in choice for g in case.relations)], look)
         samples = [p for p in seen.samples if on_variety(chart, p)]
         if seen.consistent and samples:
             return replace(seen, samples=samples)
-    return found
+    return variety
 
 
-def _by(found: Variety, argument: ArgumentKey) -> Variety:
+def _by(variety: Variety, argument: ArgumentKey) -> Variety:
     """What was found at a regular point, of all parts by an argument."""
-    return replace(found, argument=argument) if found.argument == "regular point" else found
+    return replace(variety, argument=argument) if variety.argument == "regular point" else variety
 
 
-def _near(found: Variety) -> Variety:
+def _near(variety: Variety) -> Variety:
     """What was found, told of its own part only."""
-    return replace(found, about="component", reasons=[*found.reasons, NEAR])
+    return replace(variety, about="component", reasons=[*variety.reasons, NEAR])
 
 
 def _near_its_point(case: Variety) -> Variety:
@@ -177,7 +179,7 @@ def _most(choice: Iterable[all_cases.BoundedCase]) -> int:
 
 
 def _larger(chart: Chart, best: Variety, other: Variety, most: int) -> tuple[Variety, bool]:
-    """The larger of two varieties, and whether the other is known to be as large as it can be."""
+    """Return the larger of two varieties, and whether the other is known to be as large as it can be."""
     samples = [p for p in other.samples if on_variety(chart, p)]
     if not other.consistent or other.dimension is None or not samples:
         return best, False
@@ -195,14 +197,14 @@ def _restricted(chart: Chart, relations: Sequence[Expr]) -> Chart:
 
 
 def is_graph(chart: Chart) -> bool:
-    """Does every relation give a coordinate as a function of others, on one region of space? [ImplicitFunctions]."""
+    """Return whether every relation gives a coordinate as a function of others on one region [ImplicitFunctions]."""
     if len(chart.relations) > MAX_RELATIONS or _in_regions(chart):
         return False
-    return not explicit_relations(chart.relations).left
+    return not explicit_relations(chart.relations).implicit
 
 
 def _in_regions(chart: Chart) -> bool:
-    """Do signs of what moves occur? On each side of their zeros other functions stand there.
+    """Return whether signs of what moves occur: on each side of their zeros other functions stand there.
 
     Signs of velocities part these, at every configuration.
     """
@@ -212,19 +214,19 @@ def _in_regions(chart: Chart) -> bool:
 
 
 def is_irreducible(chart: Chart) -> bool:
-    """Is the set known to have one part, so that what is generic somewhere is so everywhere, singular points apart?
+    """Return whether the set is known to have one component: what is generic at a regular point is so at all of them.
 
     So have a graph, and the zeros of one polynomial without factors: parts that it may have over larger numbers are
     conjugate, and as good as each other.
     """
     if len(chart.relations) > MAX_RELATIONS or _in_regions(chart):
         return False
-    left = explicit_relations(chart.relations).left
-    if len(left) != 1:
-        return not left
-    ring = Ring(left, chart.positive)
+    implicit = explicit_relations(chart.relations).implicit
+    if len(implicit) != 1:
+        return not implicit
+    ring = Ring(implicit, chart.positive)
     try:
-        node = ring.node(left[0])
+        node = ring.node(implicit[0])
         canon = Canon(ring)
         top = canon.quotient(node)[0]
         factors = canon.factors(top)
@@ -236,27 +238,29 @@ def is_irreducible(chart: Chart) -> bool:
 
 
 def explicit_relations(relations: Sequence[Expr]) -> Explicit:
-    """The relations that give a coordinate: a number, or parameters, times it plus what does not hold it.
+    """Return the relations that give a coordinate: a number, or parameters, times it plus what does not hold it.
 
     Those go first whose coordinate stands in no other; then it is put into the others.
     """
-    given, left = list[Expr](), [g for g in relations if not g.is_zero]
+    explicit, implicit = list[Expr](), [g for g in relations if not g.is_zero]
     while True:
         check()
-        times = Counter(s for g in left for s in g.symbols)
-        own = [(g, s) for g in left for s in g.symbols if times[s] == 1 and _slope(g, s) is not None]
-        if own:
-            taken = dict(own)
-            given += taken
-            left = [g for g in left if g not in taken]
+        times = Counter(s for g in implicit for s in g.symbols)
+        solvable = [(g, s) for g in implicit for s in g.symbols if times[s] == 1 and _slope(g, s) is not None]
+        if solvable:
+            taken = dict(solvable)
+            explicit += taken
+            implicit = [g for g in implicit if g not in taken]
             continue
-        pair = next(((g, s) for g in left for s in sorted(g.symbols, key=repr) if _may_be_put(g, s, left)), None)
+        pair = next(
+            ((g, s) for g in implicit for s in sorted(g.symbols, key=repr) if _may_be_put(g, s, implicit)), None
+        )
         if pair is None:
-            return Explicit(tuple(given), tuple(left))
+            return Explicit(tuple(explicit), tuple(implicit))
         g, s = pair
         value = {s: -substitute(g, {s: ex.ZERO}) / (_slope(g, s) or ex.ONE)}
-        given.append(g)
-        left = [h for e in left if e != g and not (h := substitute(e, value)).is_zero]
+        explicit.append(g)
+        implicit = [h for e in implicit if e != g and not (h := substitute(e, value)).is_zero]
 
 
 def _slope(g: Expr, s: Expr) -> Expr | None:
@@ -267,9 +271,11 @@ def _slope(g: Expr, s: Expr) -> Expr | None:
     if len(terms) != 1:
         return None
     factors = terms[0].args if terms[0].op == "mul" else terms
-    rest = [f for f in factors if f != s]
-    plain = len(rest) == len(factors) - 1 and all(f.op == "num" or _is_parameter(f) or _is_generic(f) for f in rest)
-    return ex.mul(*rest) if plain and rest else ex.ONE if plain else None
+    cofactors = [f for f in factors if f != s]
+    plain = len(cofactors) == len(factors) - 1 and all(
+        f.op == "num" or _is_parameter(f) or _is_generic(f) for f in cofactors
+    )
+    return ex.mul(*cofactors) if plain and cofactors else ex.ONE if plain else None
 
 
 def _is_parameter(e: Expr) -> bool:
@@ -283,7 +289,7 @@ def _is_generic(e: Expr) -> bool:
 
 
 def _may_be_put(g: Expr, s: Expr, relations: Sequence[Expr]) -> bool:
-    """Can a coordinate be solved for and put into the other relations, which stay small?"""
+    """Return whether a coordinate can be solved for and put into the other relations, which stay small."""
     if _slope(g, s) is None:
         return False
     size = sum(1 for _ in ex.nodes(g))
@@ -291,28 +297,28 @@ def _may_be_put(g: Expr, s: Expr, relations: Sequence[Expr]) -> bool:
 
 
 def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[RelationPart]:
-    """The relations by the coordinates that they share; the moment is any."""
-    known = frozenset(symbols)
-    parts = []
-    for numbers in components(g.symbols & known for g in relations):
-        own = tuple(relations[i] for i in numbers)
-        mentioned = frozenset().union(*(g.symbols for g in own))
-        parts.append(RelationPart(own, tuple(s for s in symbols if s in mentioned)))
-    return parts
+    """Return the relations by the coordinates that they share; the moment is any."""
+    coordinates = frozenset(symbols)
+    groups = []
+    for numbers in components(g.symbols & coordinates for g in relations):
+        shared = tuple(relations[i] for i in numbers)
+        mentioned = frozenset().union(*(g.symbols for g in shared))
+        groups.append(RelationPart(shared, tuple(s for s in symbols if s in mentioned)))
+    return groups
 
 
 def _cases(part: RelationPart, chart: Chart, fibre: bool) -> list[all_cases.BoundedCase] | None:
-    """The cases of a part with the bounds of their dimensions; a ``fibre`` is a generic one."""
+    """Return the cases of a part with the bounds of their dimensions; a ``fibre`` is a generic one."""
     if fibre:
         return [all_cases.BoundedCase(part.relations, len(part.unknowns) - len(part.relations), True)]
     try:
-        own = [g for g in part.relations if is_identically_zero(g, chart.positive) is not True]
-        return all_cases.cases_of(own, part.unknowns, chart.positive)
+        nonzero = [g for g in part.relations if is_identically_zero(g, chart.positive) is not True]
+        return all_cases.cases_of(nonzero, part.unknowns, chart.positive)
     except NoValueError:
         return None
 
 
 def _is_fibre(part: RelationPart, positive: frozenset[Expr]) -> bool:
-    """Has each relation a parameter that no other holds, in which it is nowhere stationary? [Sard1942]."""
+    """Return whether each relation has a parameter of its own in which it is nowhere stationary [Sard1942]."""
     times = Counter(s for g in part.relations for s in g.symbols if _is_parameter(s))
     return all(any(times[s] == 1 and never_vanishes(diff(g, s), positive) for s in g.symbols) for g in part.relations)

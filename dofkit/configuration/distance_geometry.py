@@ -59,41 +59,41 @@ class Unmet:
 
 
 def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
-    """The answer to a block whose links cannot close; None where that is not seen."""
+    """Return the answer to a block whose links cannot close; None where that is not seen."""
     owners = sorted({row.constraint for row in block.rows})
-    given = [(i, d) for i in owners for d in setting.distances.get(i, ())]
-    found = unmet(given, setting.dimension, setting.positive) if len(given) > 1 else None
-    if found is None:
+    prescribed = [(i, d) for i in owners for d in setting.distances.get(i, ())]
+    unmet_lengths = unmet(prescribed, setting.dimension, setting.positive) if len(prescribed) > 1 else None
+    if unmet_lengths is None:
         return None
     return Answer(
         False,
-        reasons=[found.reason],
+        reasons=[unmet_lengths.reason],
         method="lengths compared",
         argument="lengths compared",
-        conflict=found.constraints,
+        conflict=unmet_lengths.constraints,
     )
 
 
-def unmet(given: Sequence[tuple[int, Distance]], dimension: int, positive: frozenset[Expr]) -> Unmet | None:
+def unmet(distances: Sequence[tuple[int, Distance]], dimension: int, positive: frozenset[Expr]) -> Unmet | None:
     """A minimal set of distances, each with its constraint, that no points in so many dimensions have; or None."""
-    web = _Web(given, positive)
+    web = _Web(distances, positive)
     return web.twice or web.polygon() or web.simplex(dimension)
 
 
 class _Web:
     """Points and what is known of their distances: ``exact`` ones, and ``bounds`` from above."""
 
-    def __init__(self, given: Sequence[tuple[int, Distance]], positive: frozenset[Expr]) -> None:
+    def __init__(self, distances: Sequence[tuple[int, Distance]], positive: frozenset[Expr]) -> None:
         self.positive = positive
         draw = random.Random("dofkit lengths")
-        symbols = sorted({s for _, d in given for s in d.squared.symbols}, key=repr)
+        symbols = sorted({s for _, d in distances for s in d.squared.symbols}, key=repr)
         self.values = {s: Fraction(draw.randrange(10**6, 10**7), 10**6) for s in symbols}
         self.exact: dict[frozenset[Node], Side] = {}
         self.bounds: dict[frozenset[Node], Side] = {}
         self.twice: Unmet | None = None
-        for owner, d in given:
+        for owner, d in distances:
             self._add(_node(d.first), _node(d.second), d.squared, owner, d.at_most)
-        for first, second in _carried(given):
+        for first, second in _carried(distances):
             self._add(_node(first), _node(second), square_between(first.reference or (), second.reference or ()), None)
 
     def _add(self, a: Node, b: Node, squared: Expr, owner: int | None, at_most: bool = False) -> None:
@@ -104,27 +104,27 @@ class _Web:
             return
         side = Side(squared, float(about.sqrt().mid()), owner)
         table = self.bounds if at_most else self.exact
-        known = table.setdefault(frozenset((a, b)), side)
-        if known is side:
+        earlier = table.setdefault(frozenset((a, b)), side)
+        if earlier is side:
             return
-        if at_most and side.length < known.length:
+        if at_most and side.length < earlier.length:
             table[frozenset((a, b))] = side
-        elif not at_most and self.twice is None and owner is not None and self._differ(known, side):
-            lengths = f"{_side_text(known)} and {_side_text(side)}"
-            self.twice = Unmet(_owners((known, side)), f"{a[1]} and {b[1]} cannot both be {lengths} apart.")
+        elif not at_most and self.twice is None and owner is not None and self._differ(earlier, side):
+            lengths = f"{_side_text(earlier)} and {_side_text(side)}"
+            self.twice = Unmet(_owners((earlier, side)), f"{a[1]} and {b[1]} cannot both be {lengths} apart.")
 
     def _differ(self, a: Side, b: Side) -> bool:
         return self._longer(a, [b]) or self._longer(b, [a])
 
-    def _longer(self, one: Side, others: Sequence[Side]) -> bool:
-        """Is one length certainly more than some others together, whatever the positive parameters are?"""
-        gap = ex.add(_length(one), *(ex.mul(ex.MINUS_ONE, _length(o)) for o in others))
+    def _longer(self, longest: Side, others: Sequence[Side]) -> bool:
+        """Return whether a length is certainly more than others together, whatever the positive parameters are."""
+        gap = ex.add(_length(longest), *(ex.mul(ex.MINUS_ONE, _length(o)) for o in others))
         if gap.symbols:
             return never_holds(ex.mul(ex.MINUS_ONE, gap), False, self.positive)
         for bits in BITS:
-            found = interval_of(gap, None, bits)
-            if found is not None and not found.contains(0):
-                return bool(found > 0)
+            difference = interval_of(gap, None, bits)
+            if difference is not None and not difference.contains(0):
+                return bool(difference > 0)
         return False
 
     def polygon(self) -> Unmet | None:
@@ -145,18 +145,18 @@ class _Web:
                 others = [web[u][v]["side"] for u, v in pairwise(ways[b])]
                 if self._longer(side, others):
                     way, most = "-".join(node[1] for node in ways[b]), sum(o.length for o in others)
-                    told = (
+                    claim = (
                         f"the points {a[1]} and {b[1]} cannot be {_side_text(side)} apart: along {way} they are at most"
                     )
-                    return Unmet(_owners((side, *others)), f"{told} {most:.{DIGITS}g} apart.")
+                    return Unmet(_owners((side, *others)), f"{claim} {most:.{DIGITS}g} apart.")
             if visits > MAX_VISITS:
                 return None
         return None
 
     def simplex(self, dimension: int) -> Unmet | None:
         """Points all of whose distances are known, and that cannot lie in so many dimensions; the fewest first."""
-        known = {pair for pair, side in self.exact.items() if not side.squared.symbols}
-        web = nx.Graph(sorted((sorted(pair, key=repr) for pair in known), key=repr))
+        measured = {pair for pair, side in self.exact.items() if not side.squared.symbols}
+        web = nx.Graph(sorted((sorted(pair, key=repr) for pair in measured), key=repr))
         for clique in islice(nx.enumerate_all_cliques(web), MAX_CLIQUES):
             check()
             if len(clique) > dimension + 3:
@@ -166,12 +166,12 @@ class _Web:
             owners = _owners(self.exact[frozenset(pair)] for pair in combinations(clique, 2))
             if owners and self._unembeddable(clique, dimension):
                 names = ", ".join(node[1] for node in clique)
-                told = f"no {len(clique)} points in {dimension} dimension{'s' * (dimension > 1)} have the distances"
-                return Unmet(owners, f"{told} given between {names} (Cayley-Menger determinant).")
+                claim = f"no {len(clique)} points in {dimension} dimension{'s' * (dimension > 1)} have the distances"
+                return Unmet(owners, f"{claim} given between {names} (Cayley-Menger determinant).")
         return None
 
     def _unembeddable(self, clique: Sequence[Node], dimension: int) -> bool:
-        base, *rest = clique
+        base, *corners = clique
         exact = {p: self.exact[frozenset(p)].squared for p in combinations(clique, 2)}
         squares = {p: interval_of(squared, None, BITS[1]) for p, squared in exact.items()}
 
@@ -179,19 +179,19 @@ class _Web:
             return arb(0) if u == v else squares.get((u, v), squares.get((v, u)))
 
         with ctx.workprec(BITS[1]):
-            rows = [[(square(base, u) + square(base, v) - square(u, v)) / 2 for v in rest] for u in rest]
+            rows = [[(square(base, u) + square(base, v) - square(u, v)) / 2 for v in corners] for u in corners]
             volume = arb_mat(rows).det()
-        return bool(volume < 0) or (len(rest) > dimension and not volume.contains(0))
+        return bool(volume < 0) or (len(corners) > dimension and not volume.contains(0))
 
 
 def _node(place: Place) -> Node:
     return place.frame, place.label
 
 
-def _carried(given: Iterable[tuple[int, Distance]]) -> Iterable[tuple[Place, Place]]:
+def _carried(distances: Iterable[tuple[int, Distance]]) -> Iterable[tuple[Place, Place]]:
     """Pairs of points of one body: they keep the distance they are drawn at."""
     bodies: dict[str, dict[Node, Place]] = {}
-    for _, d in given:
+    for _, d in distances:
         for place in (d.first, d.second):
             if place.frame is not None and place.reference is not None:
                 bodies.setdefault(place.frame, {})[_node(place)] = place
@@ -205,7 +205,7 @@ def _length(side: Side) -> Expr:
 
 
 def _lengths_but(hidden: Side) -> Any:
-    """The lengths of all sides but one."""
+    """Return the lengths of all sides but one."""
 
     def weight(_u: Node, _v: Node, data: Mapping[str, Side]) -> float | None:
         return None if data["side"] is hidden else data["side"].length

@@ -26,52 +26,52 @@ def smaller(chart: Chart) -> tuple[Chart, int]:
     """
     if len(chart.relations) != len(chart.nodes) or chart.time is not None:
         return chart, 0
-    gone, left = _without_explicit(chart)
+    gone, kept = _without_explicit(chart)
     if not gone:
         return chart, 0
-    small = chart_of_relations(chart, [*left.values()], [chart.kinds[i] for i in left])
+    small = chart_of_relations(chart, [*kept.values()], [chart.kinds[i] for i in kept])
     return small, len(chart.symbols) - len(gone) - len(small.symbols)
 
 
 def _without_explicit(chart: Chart) -> tuple[set[Expr], dict[int, Expr]]:
     """Return the coordinates that relations give explicitly, and the other relations, by number, without them."""
-    own = frozenset(chart.symbols)
-    left: dict[int, Expr] = dict(enumerate(chart.relations))
+    columns = frozenset(chart.symbols)
+    kept: dict[int, Expr] = dict(enumerate(chart.relations))
     users: dict[Expr, set[int]] = {}
-    for i, relation in left.items():
-        for symbol in relation.symbols & own:
+    for i, relation in kept.items():
+        for symbol in relation.symbols & columns:
             users.setdefault(symbol, set()).add(i)
     gone: set[Expr] = set()
-    waiting = [i for i in left if chart.kinds[i] in chart.reductions][::-1]
+    waiting = [i for i in kept if chart.kinds[i] in chart.reductions][::-1]
     while waiting:
         i = waiting.pop()
-        found = _explicit(left[i], own, users) if i in left else None
-        if found is None:
+        solution = _explicit(kept[i], columns, users) if i in kept else None
+        if solution is None:
             continue
-        q, value = found
+        q, value = solution
         gone.add(q)
-        del left[i]
+        del kept[i]
         for k in users.pop(q) - {i}:
-            if k not in left:
+            if k not in kept:
                 continue
-            changed = substitute(left[k], {q: value})
-            for symbol in changed.symbols & own:
+            changed = substitute(kept[k], {q: value})
+            for symbol in changed.symbols & columns:
                 users.setdefault(symbol, set()).add(k)
-            left[k] = changed
+            kept[k] = changed
             if chart.kinds[k] in chart.reductions:
                 waiting.append(k)
             if changed.is_zero:
-                del left[k]
-    return gone, left
+                del kept[k]
+    return gone, kept
 
 
-def _explicit(e: Expr, own: frozenset[Expr], users: Mapping[Expr, set[int]]) -> tuple[Expr, Expr] | None:
+def _explicit(e: Expr, columns: frozenset[Expr], users: Mapping[Expr, set[int]]) -> tuple[Expr, Expr] | None:
     """(q, value) where the relation says q = value, q the coordinate that the fewest relations mention."""
     terms = linear(e)
     if terms is None or len(terms) > TERMS:
         return None
-    candidates = [s for s, factor in terms.items() if s in own and factor]
-    if not candidates or any(s.op == "sym" and s not in own for s in terms):
+    candidates = [s for s, factor in terms.items() if s in columns and factor]
+    if not candidates or any(s.op == "sym" and s not in columns for s in terms):
         return None
     q = min(candidates, key=lambda s: (len(users[s]), repr(s)))
     others = (ex.mul(ex.num(-a / terms[q]), s) for s, a in terms.items() if s != q)

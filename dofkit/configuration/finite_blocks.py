@@ -67,33 +67,35 @@ def _finite_answer(chart: Chart, setting: Setting) -> Answer:
         if drawn is not None:
             drawn.about, drawn.witness = "reference", of_reference(chart.symbols, setting.reference)
             return drawn
-    found = find(chart, setting.pose)
-    result = _answer_of(found)
+    variety = find(chart, setting.pose)
+    result = _answer_of(variety)
     result.bits = error_bits(chart.ring, chart.nodes, len(chart.columns))
-    result.witness = found.witness or of_real_point(chart, found.real)
-    result.separating = found.separating
-    if found.argument in ("cases", "regular point"):
-        result.real = _real_rows(chart, found.real)
+    result.witness = variety.witness or of_real_point(chart, variety.real)
+    result.separating = variety.separating
+    if variety.argument in ("cases", "regular point"):
+        result.real = _real_rows(chart, variety.real)
     if setting.reference is not None:
         result.reasons.append(OFF_REFERENCE)
-    result.method = "rank over GF(p)" + (" and balls" if found.real else "")
-    if found.samples:
-        _finite_matrix(chart, found, result)
-    elif found.real is not None:
+    result.method = "rank over GF(p)" + (" and balls" if variety.real else "")
+    if variety.samples:
+        _finite_matrix(chart, variety, result)
+    elif variety.real is not None:
         result.method = "real points with balls"
-        _numeric_matrix(chart, found.real, result)
+        _numeric_matrix(chart, variety.real, result)
     return result
 
 
-def _answer_of(found: Variety) -> Answer:
+def _answer_of(variety: Variety) -> Answer:
     """What is known of a set of configurations, as the answer of a block."""
-    freedom = found.dimension
-    told = Answer(found.consistent, freedom, freedom, found.verdict, found.about, found.argument, gap=found.gap)
-    return replace(told, reasons=list(found.reasons))
+    freedom = variety.dimension
+    answer = Answer(
+        variety.consistent, freedom, freedom, variety.verdict, variety.about, variety.argument, gap=variety.gap
+    )
+    return replace(answer, reasons=list(variety.reasons))
 
 
 def _real_rows(chart: Chart, real: RealPoint | None) -> RealRows | None:
-    """The rows at a certified point, where they may tell another part of the set."""
+    """Return the rows at a certified point, where they may tell another part of the set."""
     if real is None or not real.certified or not real.consistent:
         return None
     matrix = ball_matrix(chart, real.point, False)
@@ -105,36 +107,40 @@ def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
     if not real.certified or not real.rows or len(real.matrix) != len(chart.nodes):
         return
     result.matrix = sparse(dependencies(real.matrix, real.part))
-    shown = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
-    columns = [i for i, s in enumerate(shown) if s != ex.TIME]
+    ranked = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
+    columns = [i for i, s in enumerate(ranked) if s != ex.TIME]
     part = ball_part([[row[c] for c in columns] for row in real.matrix])
-    result.dependent = tuple(str(shown[columns[i]].args[1]) for i in part.columns)
+    result.dependent = tuple(str(ranked[columns[i]].args[1]) for i in part.columns)
 
 
 def _drawn_answer(chart: Chart, setting: Setting, reference: Mapping[Expr, Expr]) -> Answer | None:
     """At the reference configuration; None where the relations do not hold there."""
-    found = at_reference(chart, reference)
-    if found is None:
+    local_answer = at_reference(chart, reference)
+    if local_answer is None:
         return None
-    result = Answer(True, found.local.dimension, found.local.dimension, found.local.verdict)
-    result.argument, result.bits = found.local.argument, error_bits(chart.ring, chart.nodes, len(chart.columns))
+    result = Answer(True, local_answer.local.dimension, local_answer.local.dimension, local_answer.local.verdict)
+    result.argument, result.bits = local_answer.local.argument, error_bits(chart.ring, chart.nodes, len(chart.columns))
     result.method = "rank over GF(p) at the given configuration"
-    result.instantaneous, result.looked = found.instantaneous, found.looked
-    result.matrix, result.modulus, result.first_order_sure = found.matrix, found.modulus, found.sure
+    result.instantaneous, result.looked = local_answer.instantaneous, local_answer.looked
+    result.matrix, result.modulus, result.first_order_sure = (
+        local_answer.matrix,
+        local_answer.modulus,
+        local_answer.sure,
+    )
     result.exists = chart.time is None and vanish_exactly(chart.ring, chart.nodes, rational_values(reference))
-    if found.dependent is None:
-        result.dependent = dependent_names(found.matrix, chart, found.modulus)
+    if local_answer.dependent is None:
+        result.dependent = dependent_names(local_answer.matrix, chart, local_answer.modulus)
     else:
         result.method = "balls at the given configuration"
-        result.dependent = tuple(str(chart.symbols[c].args[1]) for c in found.dependent)
-    if found.local.confined:
+        result.dependent = tuple(str(chart.symbols[c].args[1]) for c in local_answer.dependent)
+    if local_answer.local.confined:
         return _confined_answer(chart, setting, result)
-    if found.local.dimension is None and chart.time is not None:
+    if local_answer.local.dimension is None and chart.time is not None:
         result.consistent = None
-    columns = len(chart.columns) - found.rank
-    result.degenerate = found.local.dimension != columns - (len(chart.columns) - chart.coordinates)
-    if found.rank < len(found.matrix) and result.degenerate:
-        result.reasons.append(found.local.reason)
+    columns = len(chart.columns) - local_answer.rank
+    result.degenerate = local_answer.local.dimension != columns - (len(chart.columns) - chart.coordinates)
+    if local_answer.rank < len(local_answer.matrix) and result.degenerate:
+        result.reasons.append(local_answer.local.reason)
     return result
 
 
@@ -169,9 +175,9 @@ def _measured_answer(chart: Chart, freedom: MeasuredFreedom) -> Answer:
     return result
 
 
-def _finite_matrix(chart: Chart, found: Variety, result: Answer) -> None:
+def _finite_matrix(chart: Chart, variety: Variety, result: Answer) -> None:
     """Which relations depend on which, and which coordinates on which, from a point over GF(p)."""
-    point = found.samples[0]
+    point = variety.samples[0]
     result.matrix, result.modulus = field_jacobian(chart, point), point.p
     result.dependent = dependent_names(result.matrix, chart, point.p)
     result.degenerate = result.dof is not None and result.dof != chart.coordinates - rank_of_rows(
@@ -196,7 +202,7 @@ LEVEL = (
 
 
 def level_angle(block: Block, setting: Setting) -> str | None:
-    """A tilt of the block that is 0 or pi in a configuration that was found by chance; None where there is none.
+    """Return a tilt of the block that is 0 or pi in a configuration that was found by chance; None where there is none.
 
     There is a part of the set then where the body is level, and what is counted of the set may be counted there.
     """

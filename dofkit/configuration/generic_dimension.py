@@ -35,7 +35,7 @@ from dofkit.relations.blocks import Chart
 
 
 def variety_at(chart: Chart, samples: list[FieldPoint], seed: int, core: Sequence[int]) -> Variety:
-    """The set near generic points over GF(p) that lie on it, held against a real point.
+    """Return the set near generic points over GF(p) that lie on it, held against a real point.
 
     ``core``: relations to search a real point of. Points at which the time is fixed, or at which a sign is another than
     at the real point, lie on other parts of the set.
@@ -65,7 +65,7 @@ def variety_at(chart: Chart, samples: list[FieldPoint], seed: int, core: Sequenc
 
 
 def near_real_point(chart: Chart, real: RealPoint | None, core: Sequence[int]) -> Variety:
-    """The set near a real point, without points over GF(p)."""
+    """Return the set near a real point, without points over GF(p)."""
     if real is None:
         return Variety(None, None, "undecided", reasons=["no configuration satisfying all equations was found"])
     columns = len(chart.columns)
@@ -90,45 +90,45 @@ ALLOWING = "the answers assume that the unknown functions are such that a real c
 
 
 def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:
-    """A real point of the nodes ``core``, with balls; None where none is found, or none is looked for."""
+    """Return a real point of the nodes ``core``, with balls; None where none is found, or none is looked for."""
     if len(chart.columns) > BALL_COLUMNS or "balls" not in chart.engines:
         return None
     search = RealSearch(chart.ring, core, chart.unknowns, chart.positive, chart.symbols)
     try:
-        found = search.search(seed)
-        return found if found is not None or not core else at_another_time(search, seed)
+        point = search.search(seed)
+        return point if point is not None or not core else at_another_time(search, seed)
     except (OverflowError, ValueError, NoValueError):
         return None
 
 
-def with_reality(chart: Chart, found: Variety, rank: int) -> Variety:
+def with_reality(chart: Chart, variety: Variety, rank: int) -> Variety:
     """Hold the real point against what the field said."""
-    real = found.real
+    real = variety.real
     if "balls" not in chart.engines:
-        return _by_field_alone(chart, found)
+        return _by_field_alone(chart, variety)
     if len(chart.columns) > BALL_COLUMNS:
-        found.verdict = weakest(found.verdict, "probable")
-        return found
+        variety.verdict = weakest(variety.verdict, "probable")
+        return variety
     if real is None:
-        return _without_reality(chart, found)
+        return _without_reality(chart, variety)
     if not real.certified or not real.consistent:
-        return near_singular_point(chart, found)
+        return near_singular_point(chart, variety)
     if real.solved < real.rank:
-        found.verdict, found.gap = weakest(found.verdict, "numeric"), real.gap
-        found.reasons.append(NEARLY)
+        variety.verdict, variety.gap = weakest(variety.verdict, "numeric"), real.gap
+        variety.reasons.append(NEARLY)
     if real.rank != rank:
-        found.verdict, found.dimension, found.parted = "undecided", None, True
-        found.reasons.append(
+        variety.verdict, variety.dimension, variety.parted = "undecided", None, True
+        variety.reasons.append(
             "real points and points over GF(p) disagree about the rank: the set has several components"
         )
     elif any(map(_hangs_on_a_function, chart.relations)):
-        found.verdict = weakest(found.verdict, "probable")
-        found.reasons.append(ALLOWING)
-    return found
+        variety.verdict = weakest(variety.verdict, "probable")
+        variety.reasons.append(ALLOWING)
+    return variety
 
 
 def _hangs_on_a_function(e: Expr) -> bool:
-    """Do coordinates stand within unknown functions only? h(x) = 0 holds somewhere for some h, not for all."""
+    """Return whether coordinates stand in unknown functions only: h(x) = 0 holds somewhere for some h, not for all."""
     within = any(node.op == "call" for node in ex.nodes(e))
     return within and not any(s.args[0] == "coordinate" for s in _outside_calls(e))
 
@@ -141,41 +141,41 @@ def _outside_calls(e: Expr) -> Iterator[Expr]:
             yield from _outside_calls(child)
 
 
-def _by_field_alone(chart: Chart, found: Variety) -> Variety:
+def _by_field_alone(chart: Chart, variety: Variety) -> Variety:
     """Without balls a rank stands only where no relation between functions can have been missed."""
     if independent_on_set(chart.ring, chart.nodes):
-        found.verdict = weakest(found.verdict, "probable")
-        return found
-    return _left_open(found, "the functions that occur may satisfy an identity that points over GF(p) do not detect")
+        variety.verdict = weakest(variety.verdict, "probable")
+        return variety
+    return _left_open(variety, "the functions that occur may satisfy an identity that points over GF(p) do not detect")
 
 
-def _without_reality(chart: Chart, found: Variety) -> Variety:
+def _without_reality(chart: Chart, variety: Variety) -> Variety:
     """No real point: an unknown function may be chosen so that there is one; else nothing is known."""
     calls = any(chart.ring.vars[i].kind == "call" for i in generators_of(chart))
     if calls:
-        found.verdict = weakest(found.verdict, "probable")
-        found.reasons.append(ALLOWING)
-        return found
-    return _left_open(found, "no real configuration was found, and none was excluded")
+        variety.verdict = weakest(variety.verdict, "probable")
+        variety.reasons.append(ALLOWING)
+        return variety
+    return _left_open(variety, "no real configuration was found, and none was excluded")
 
 
-def _left_open(found: Variety, why: str) -> Variety:
-    found.consistent, found.dimension, found.verdict = None, None, "undecided"
-    found.reasons.append(why)
-    return found
+def _left_open(variety: Variety, why: str) -> Variety:
+    variety.consistent, variety.dimension, variety.verdict = None, None, "undecided"
+    variety.reasons.append(why)
+    return variety
 
 
-def near_singular_point(chart: Chart, found: Variety) -> Variety:
+def near_singular_point(chart: Chart, variety: Variety) -> Variety:
     """All real points that were found are singular: the dimension is that of the set near one of them."""
-    real = found.real
+    real = variety.real
     local = None if real is None else numeric_local(chart, real)
     if local is None or local.dimension is None or local.confined:
         why = "every real configuration that was found is singular; the motions there were not decided"
-        return _left_open(found, why)
-    found.dimension = local.dimension - (len(chart.columns) - chart.coordinates)
-    found.verdict, found.argument = weakest(found.verdict, "numeric"), local.argument
-    found.reasons.append(f"every real configuration that was found is singular: {local.reason}")
-    return found
+        return _left_open(variety, why)
+    variety.dimension = local.dimension - (len(chart.columns) - chart.coordinates)
+    variety.verdict, variety.argument = weakest(variety.verdict, "numeric"), local.argument
+    variety.reasons.append(f"every real configuration that was found is singular: {local.reason}")
+    return variety
 
 
 # Singular real points without exact coordinates, brought to high precision and looked at to second order
@@ -195,7 +195,7 @@ MAX_ROWS, TINY = 20, 1e-12
 
 
 def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
-    """The local dimension near a singular point that a real search ran into; None where it cannot be told."""
+    """Return the local dimension near a singular point that a real search ran into; None where it cannot be told."""
     if len(chart.nodes) > MAX_ROWS:
         return None
     with ctx.workprec(BITS):

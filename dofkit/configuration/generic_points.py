@@ -33,18 +33,18 @@ def samples_for(chart: Chart) -> int:
 def field_jacobian(chart: Chart, point: FieldPoint, nodes: Sequence[int] | None = None) -> list[SparseRow]:
     """dg/d(columns) over GF(p), row by row without zeros."""
     at = values(chart.ring, point)
-    one = point.number(ex.ONE.args[0])
+    unit = point.number(ex.ONE.args[0])
     place = {c: i for i, c in enumerate(chart.columns) if c >= 0}
     rows = []
     for node in chart.nodes if nodes is None else nodes:
         check()
-        slope = gradient(chart.ring, at, point, [(node, one)])
+        slope = gradient(chart.ring, at, point, [(node, unit)])
         rows.append({place[c]: int(v) for c, v in slope.items() if c in place and v != 0})
     return rows
 
 
 def on_variety(chart: Chart, point: FieldPoint) -> bool:
-    """Do all finite relations hold at the point?"""
+    """Return whether all finite relations hold at the point."""
     try:
         at = values(chart.ring, point)
     except NoValueError:
@@ -53,15 +53,15 @@ def on_variety(chart: Chart, point: FieldPoint) -> bool:
 
 
 def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint | None:
-    """The point where the symbols have the given exact values and the others are random."""
-    known = {s: v for s, v in pose.items() if chart.ring.var_index(s) is not None}
-    fixed = _values_of_generators(chart.ring, known)
+    """Return the point where the symbols have the given exact values and the others are random."""
+    occurring = {s: v for s, v in pose.items() if chart.ring.var_index(s) is not None}
+    fixed = _values_of_generators(chart.ring, occurring)
     if fixed is None:
         return None
-    beside = sha256(repr(sorted((repr(s), repr(v)) for s, v in known.items())).encode()).hexdigest()
+    salt = sha256(repr(sorted((repr(s), repr(v)) for s, v in occurring.items())).encode()).hexdigest()
     for attempt in range(60):
         try:
-            point = field_point([chart.ring], 1000 * seed + attempt, beside=beside)
+            point = field_point([chart.ring], 1000 * seed + attempt, salt=salt)
             for index, node in fixed:
                 point.set(chart.ring.vars[index], value_of(chart.ring, point, node))
             values(chart.ring, point)
@@ -73,17 +73,17 @@ def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint
     return None
 
 
-def _values_of_generators(ring: Ring, known: Mapping[Expr, Expr]) -> list[tuple[int, int]] | None:
+def _values_of_generators(ring: Ring, pose: Mapping[Expr, Expr]) -> list[tuple[int, int]] | None:
     """(generator, node of its value) for symbols and for the functions of them that have a known value."""
     settled: dict[int, int] = {}
     try:
         for _ in range(3):
             before = len(ring.vars)
             for var in list(ring.vars):
-                shown = ring.var_expr[var.index]
-                if var.index in settled or known.keys().isdisjoint(shown.symbols):
+                expression = ring.var_expr[var.index]
+                if var.index in settled or pose.keys().isdisjoint(expression.symbols):
                     continue
-                settled[var.index] = ring.node(substitute(substitute(shown, ring.alias), known))
+                settled[var.index] = ring.node(substitute(substitute(expression, ring.alias), pose))
             if len(ring.vars) == before:
                 break
     except NoValueError:
@@ -95,13 +95,13 @@ def pose_samples(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> list[Fie
     """Points of the set at which the symbols have the given values; none where some of them are not on it."""
     if not pose:
         return []
-    found = []
+    points = []
     for k in range(SAMPLES):
         point = pose_point(chart, pose, seed + k)
         if point is None or not on_variety(chart, point):
             return []
-        found.append(point)
-    return found
+        points.append(point)
+    return points
 
 
 def time_is_free(chart: Chart, point: FieldPoint) -> bool:
@@ -126,7 +126,7 @@ def has_same_signs(chart: Chart, point: FieldPoint, real: RealPoint) -> bool:
 
 
 def generators_of(chart: Chart) -> set[int]:
-    """The generators that the finite relations reach."""
+    """Return the generators that the finite relations reach."""
     code = chart.ring.code
     return {code[i][1] for i in reachable(chart.ring, chart.nodes) if code[i][0] == VAR}
 

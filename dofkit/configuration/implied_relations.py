@@ -55,22 +55,22 @@ class ImpliedRelations:
     chart: Chart
     setting: Setting
     drawing: Mapping[Expr, Expr]
-    _told: dict[tuple[int, ...], bool | None] = field(default_factory=dict)
+    _answers: dict[tuple[int, ...], bool | None] = field(default_factory=dict)
 
     def follows(self, row: int, others: Sequence[int], afar: bool = True) -> bool | None:
-        """Does relation ``row`` vanish near the drawing where ``others`` do? Those are independent at the drawing.
+        """Return whether relation ``row`` vanishes near the drawing where ``others``, independent there, do.
 
         None where it was not decided. Not ``afar``: True says only that it vanishes to some order.
         """
         key = (int(afar), row, *sorted(others))
-        if key not in self._told:
-            own = chart_of_rows(self.chart, sorted(key[1:]))
-            known = {**self.drawing, ex.TIME: ex.ZERO}
+        if key not in self._answers:
+            subchart = chart_of_rows(self.chart, sorted(key[1:]))
+            pose = {**self.drawing, ex.TIME: ex.ZERO}
             if self.setting.tolerance is None:
-                self._told[key] = _on_manifold(own, known, len(others), afar)
+                self._answers[key] = _on_manifold(subchart, pose, len(others), afar)
             else:
-                self._told[key] = _within_tolerance(own, self.setting, known, len(others))
-        return self._told[key]
+                self._answers[key] = _within_tolerance(subchart, self.setting, pose, len(others))
+        return self._answers[key]
 
     def needed(self, row: int, others: Sequence[int]) -> list[int]:
         """Which of others a relation needs that follows from them: those with a multiplier along a curve.
@@ -78,28 +78,28 @@ class ImpliedRelations:
         All of them where that is not known.
         """
         numbers = sorted((row, *others))
-        own = chart_of_rows(self.chart, numbers)
-        point = pose_point(own, {**self.drawing, ex.TIME: ex.ZERO}, 3)
-        if point is None or "field" not in own.engines or self.setting.tolerance is not None:
+        subchart = chart_of_rows(self.chart, numbers)
+        point = pose_point(subchart, {**self.drawing, ex.TIME: ex.ZERO}, 3)
+        if point is None or "field" not in subchart.engines or self.setting.tolerance is not None:
             return list(others)
         try:
-            frame = pivots_among(own, point, [k for k, i in enumerate(numbers) if i != row])
-            field = Manifold(own.ring, own.nodes, own.columns, frame, point)
-            return [numbers[k] for k in needed_along(field, own.nodes[numbers.index(row)])]
+            frame = pivots_among(subchart, point, [k for k, i in enumerate(numbers) if i != row])
+            field = Manifold(subchart.ring, subchart.nodes, subchart.columns, frame, point)
+            return [numbers[k] for k in needed_along(field, subchart.nodes[numbers.index(row)])]
         except (ArithmeticError, NoValueError):
             return list(others)
 
     def rigid(self, rows: Sequence[int]) -> int:
-        """The dimension of the motions of the whole that keep some relations, over the coordinates they mention.
+        """Return the dimension of the motions of the whole that keep some relations, over the coordinates they mention.
 
         0 where they mention not all, or the motions are not known.
         """
-        own = chart_of_rows(self.chart, rows)
-        point = pose_point(own, {**self.drawing, ex.TIME: ex.ZERO}, 3)
-        return 0 if point is None or len(own.symbols) < len(self.chart.symbols) else rigid_motions(own, point)
+        subchart = chart_of_rows(self.chart, rows)
+        point = pose_point(subchart, {**self.drawing, ex.TIME: ex.ZERO}, 3)
+        return 0 if point is None or len(subchart.symbols) < len(self.chart.symbols) else rigid_motions(subchart, point)
 
     def seem_to_follow(self, rows: Sequence[int], others: Sequence[int]) -> bool:
-        """Do relations hold at every point that is found, from random starts, near the drawing where others hold?
+        """Return whether relations hold at every point, searched for near the drawing from random starts, of others.
 
         Numbers, no proof: for sets that are singular all along, whose branches are found as their points are.
         """
@@ -135,35 +135,35 @@ class ImpliedRelations:
         return float(np.max(np.abs([at[n] for n in nodes]) / sizes))
 
 
-def _on_manifold(chart: Chart, known: Mapping[Expr, Expr], rank: int, afar: bool) -> bool | None:
-    """Do the relations cut out a manifold of codimension ``rank``, which is that of all but one of them?"""
+def _on_manifold(chart: Chart, pose: Mapping[Expr, Expr], rank: int, afar: bool) -> bool | None:
+    """Return whether the relations cut out a manifold of codimension ``rank``, that of all but one of them."""
     if "field" not in chart.engines:
         return None
     small, free = smaller(chart)
     gone = len(chart.columns) - len(small.columns) - free
     if not small.nodes:
         return gone == rank
-    point = pose_point(small, known, 3)
+    point = pose_point(small, pose, 3)
     if point is None or not on_variety(small, point):
         return None
     rigid = rigid_motions(small, point)
-    ball = ball_point(small, known, point.rng) if afar and "balls" in chart.engines else None
+    ball = ball_point(small, pose, point.rng) if afar and "balls" in chart.engines else None
     return vanish_near(small, point, ball, rigid, rank - gone)
 
 
 def pivots_among(chart: Chart, point: FieldPoint, rows: Sequence[int]) -> Pivots:
-    """The frame of some rows that are independent at a point."""
+    """Return the frame of some rows that are independent at a point."""
     matrix = field_jacobian(chart, point, [chart.nodes[r] for r in rows])
-    found = sparse_frame(matrix, len(chart.columns), point.p)
-    return replace(found, rows=tuple(rows[r] for r in found.rows))
+    frame = sparse_frame(matrix, len(chart.columns), point.p)
+    return replace(frame, rows=tuple(rows[r] for r in frame.rows))
 
 
-def _within_tolerance(chart: Chart, setting: Setting, known: Mapping[Expr, Expr], rank: int) -> bool | None:
-    """The same of measured relations: does what moves under all but one of them keep that one within the tolerance?"""
+def _within_tolerance(chart: Chart, setting: Setting, pose: Mapping[Expr, Expr], rank: int) -> bool | None:
+    """Return whether what moves under all measured relations but one keeps that one within the tolerance."""
     if "balls" not in chart.engines:
         return None
     try:
-        freedom = measured_freedom(chart, known, setting)
+        freedom = measured_freedom(chart, pose, setting)
     except NoValueError:
         return None
     return None if freedom is None or freedom.dimension is None else freedom.dimension == chart.coordinates - rank
@@ -176,7 +176,7 @@ ORDER = 4
 
 
 def needed_along(field: Manifold, other: int) -> list[int]:
-    """The numbers of the manifold's relations whose multipliers for the dependent one, ``other``, are not 0.
+    """Return the numbers of the manifold's relations whose multipliers for the dependent one, ``other``, are not 0.
 
     Over GF(p), along a random curve, to an order. Raises NoValueError.
     """
@@ -186,17 +186,17 @@ def needed_along(field: Manifold, other: int) -> list[int]:
     p = int(field.sample.modulus())
     orders = [[_sparse(row, k) for row in slopes[:-1]] for k in range(ORDER)]
     turned = FactoredMatrix(transposed(orders[0], len(columns)), p)
-    found: list[list[int]] = []
+    multipliers: list[list[int]] = []
     for k in range(ORDER):
         right = [int(v.coefficient(k)) for v in slopes[-1]]
         for j in range(1, k + 1):
-            for row, factor in zip(orders[j], found[k - j], strict=True):
+            for row, factor in zip(orders[j], multipliers[k - j], strict=True):
                 for c, v in row.items():
                     right[c] = (right[c] - factor * v) % p
-        found.append([int(v) for v in turned.solve(right)])
-    return [field.frame.rows[i] for i in range(len(field.rows)) if any(row[i] for row in found)]
+        multipliers.append([int(v) for v in turned.solve(right)])
+    return [field.frame.rows[i] for i in range(len(field.rows)) if any(row[i] for row in multipliers)]
 
 
 def _sparse(row: Sequence[Series], k: int) -> SparseRow:
-    """The coefficients of s^k without zeros."""
+    """Return the coefficients of s^k without zeros."""
     return {c: v for c, series in enumerate(row) if (v := int(series.coefficient(k)))}

@@ -60,24 +60,24 @@ def elimination(block: Block, positive: frozenset[Expr]) -> LinearElimination | 
     if block.nonlinear or block.conditions or order != sorted(order):
         return None
     place = {ex.coordinate(name): k for k, name in enumerate(block.coordinates)}
-    parts = [p for r in block.rows if (p := _linear_row(r.piece, place)) is not None]
-    if len(parts) < len(block.rows) or not all(_entire(rest) for _, rest in parts):
+    split_rows = [p for r in block.rows if (p := _linear_row(r.piece, place)) is not None]
+    if len(split_rows) < len(block.rows) or not all(_entire(function) for _, function in split_rows):
         return None
-    rows, rests = [row for row, _ in parts], [rest for _, rest in parts]
+    rows, rests = [row for row, _ in split_rows], [function for _, function in split_rows]
     supports = dependences(rows)
     for i, factors in () if supports is None else supports.items():
-        left = _sum_of_rests(rests, finite, {i: fmpq(-1), **factors})
-        if not linear_terms(left) or zero_and_verdict(left, positive) == (True, "proved"):
+        remainder = _sum_of_rests(rests, finite, {i: fmpq(-1), **factors})
+        if not linear_terms(remainder) or zero_and_verdict(remainder, positive) == (True, "proved"):
             continue
-        return LinearElimination(rows, supports or {}, i) if certainly_nonzero(left, positive) else None
+        return LinearElimination(rows, supports or {}, i) if certainly_nonzero(remainder, positive) else None
     return None if supports is None else LinearElimination(rows, supports)
 
 
 def _sum_of_rests(rests: Sequence[Expr], finite: Sequence[bool], factors: Mapping[int, fmpq]) -> Expr:
     """What is left of a sum of rows that is 0: of finite ones the rests, beside forms their rates."""
     rates = not all(finite[k] for k in factors)
-    told = ((v, diff(rests[k], ex.TIME) if rates and finite[k] else rests[k]) for k, v in factors.items())
-    return ex.add(*(ex.mul(ex.num(_fraction(v)), e) for v, e in told if not e.is_zero))
+    terms = ((v, diff(rests[k], ex.TIME) if rates and finite[k] else rests[k]) for k, v in factors.items())
+    return ex.add(*(ex.mul(ex.num(_fraction(v)), e) for v, e in terms if not e.is_zero))
 
 
 def _linear_row(piece: Piece, place: Mapping[Expr, int]) -> tuple[RationalRow, Expr] | None:
@@ -88,17 +88,17 @@ def _linear_row(piece: Piece, place: Mapping[Expr, int]) -> tuple[RationalRow, E
         return {place[ex.coordinate(n)]: _number(a.args[0]) for n, a in piece.coefficients.items()}, piece.dt
     if not isinstance(piece, Finite):
         return None
-    row, rest = RationalRow(), []
+    row, function = RationalRow(), []
     for term in piece.expr.args if piece.expr.op == "add" else (piece.expr,):
-        factor, own = number_and_rest(term) if term.op != "num" else (term.args[0], ex.ONE)
-        k = place.get(own)
+        factor, symbol = number_and_rest(term) if term.op != "num" else (term.args[0], ex.ONE)
+        k = place.get(symbol)
         if k is not None:
             row[k] = row.get(k, fmpq(0)) + _number(factor)
-        elif _moving(own):
+        elif _moving(symbol):
             return None
         else:
-            rest.append(term)
-    return {k: v for k, v in row.items() if v != 0}, ex.add(*rest)
+            function.append(term)
+    return {k: v for k, v in row.items() if v != 0}, ex.add(*function)
 
 
 def _moving(e: Expr) -> bool:
@@ -130,35 +130,35 @@ def _fraction(value: fmpq) -> Fraction:
 
 
 def eliminated(block: Block, setting: Setting) -> Answer | None:
-    """The answer to a large block of finite relations, away from any drawing; None for any other.
+    """Return the answer to a large block of finite relations, away from any drawing; None for any other.
 
     Smaller ones are answered at points like all others, and `confirmed`.
     """
     small = len(block.coordinates) <= BALL_COLUMNS or block.forms or setting.reference is not None
     if small or setting.engines != BOTH or setting.tolerance is not None or "eliminations" not in setting.reductions:
         return None
-    found = elimination(block, setting.positive)
-    if found is None:
+    reduced = elimination(block, setting.positive)
+    if reduced is None:
         return None
     owners = [r.constraint for r in block.rows]
-    if found.contradictory is not None:
-        guilty = [owners[k] for k in (found.contradictory, *found.supports[found.contradictory])]
+    if reduced.contradictory is not None:
+        guilty = [owners[k] for k in (reduced.contradictory, *reduced.supports[reduced.contradictory])]
         minimal = tuple(sorted(guilty)) if max(Counter(owners).values()) == 1 else ()
         return Answer(False, argument="linear contradiction", reasons=[CONTRADICTION], conflict=minimal, method=METHOD)
     p, n = prime_for(1, (), 0), len(block.coordinates)
-    matrix = _modulo(found.rows, p)
+    matrix = _modulo(reduced.rows, p)
     if matrix is None:
         return None
-    kept = [row for i, row in enumerate(matrix) if i not in found.supports]
+    kept = [row for i, row in enumerate(matrix) if i not in reduced.supports]
     columns = last_columns(kept, n, p)
-    if len(columns) != found.rank:
+    if len(columns) != reduced.rank:
         return None
-    supports = {i: tuple(sorted(f)) for i, f in found.supports.items()}
+    supports = {i: tuple(sorted(f)) for i, f in reduced.supports.items()}
     return Answer(
-        dof=n - found.rank,
-        velocity_dof=n - found.rank,
-        verdict="proved" if _same_dependence(found, matrix, p, alone=False) else "probable",
-        derived=(found.rank,),
+        dof=n - reduced.rank,
+        velocity_dof=n - reduced.rank,
+        verdict="proved" if _same_dependence(reduced, matrix, p, alone=False) else "probable",
+        derived=(reduced.rank,),
         matrix=matrix,
         modulus=p,
         supports=lambda: supports,
@@ -170,7 +170,7 @@ def eliminated(block: Block, setting: Setting) -> Answer | None:
 
 
 def _modulo(rows: Sequence[RationalRow], p: int) -> list[SparseRow] | None:
-    """The rows over GF(p); None where p divides a numerator or a denominator."""
+    """Return the rows over GF(p); None where p divides a numerator or a denominator."""
     if any(int(v.p) % p == 0 or int(v.q) % p == 0 for row in rows for v in row.values()):
         return None
     return [{c: int(v.p) * pow(int(v.q), -1, p) % p for c, v in row.items()} for row in rows]
@@ -180,61 +180,61 @@ def _modulo(rows: Sequence[RationalRow], p: int) -> list[SparseRow] | None:
 
 
 def confirmed(block: Block, a: Answer, setting: Setting, alone: bool) -> Answer:
-    """An answer that is only probable, as proved where exact elimination says the same.
+    """Return an answer that is only probable, as proved where exact elimination says the same.
 
     ``alone``: every constraint of the block wrote one row, in this block or any other.
     """
     decided = a.verdict == "probable" and a.consistent is not None and setting.engines == BOTH
     if not decided or setting.tolerance is not None:
         return a
-    found = elimination(block, setting.positive)
-    if found is None:
+    reduced = elimination(block, setting.positive)
+    if reduced is None:
         return a
-    free = len(block.coordinates) - found.rank
-    if a.consistent is not (found.contradictory is None) or (a.consistent and a.dof not in (None, free)):
+    free = len(block.coordinates) - reduced.rank
+    if a.consistent is not (reduced.contradictory is None) or (a.consistent and a.dof not in (None, free)):
         return Answer(None, verdict="undecided", reasons=[OTHERWISE], method=METHOD)
     if not a.consistent:
         return replace(a, verdict="proved", argument="linear contradiction", method=METHOD)
-    if not _agrees(found, a, len(block.coordinates), alone):
+    if not _agrees(reduced, a, len(block.coordinates), alone):
         return a
     labels = {i: replace(label, verdict="proved") for i, label in a.labels.items()}
     return replace(a, verdict="proved", labels=labels, method=METHOD, linear=True, argument="exact elimination")
 
 
-def _agrees(found: LinearElimination, a: Answer, n: int, alone: bool) -> bool:
-    """Does an answer say what the elimination does: freedom, labels, growth, and what depends on what?"""
-    free = n - found.rank
+def _agrees(reduced: LinearElimination, a: Answer, n: int, alone: bool) -> bool:
+    """Return whether an answer has the freedom, labels, growth and dependences that the elimination has."""
+    free = n - reduced.rank
     numbers = {a.dof, a.velocity_dof, *(() if a.instantaneous is None else (a.instantaneous,))}
     grown = a.growth is None or len(set(a.growth)) == 1
-    derived = a.derived is None or set(a.derived) == {found.rank}
+    derived = a.derived is None or set(a.derived) == {reduced.rank}
     holonomic = all(label.holonomic for label in a.labels.values())
     if numbers != {free} or not (grown and derived and holonomic) or a.hidden or a.degenerate:
         return False
     matrix = without_time(a.matrix, n)
-    same = len(a.dependent) == found.rank and matrix == _modulo(found.rows, a.modulus)
-    return same and _same_dependence(found, matrix, a.modulus, alone)
+    same = len(a.dependent) == reduced.rank and matrix == _modulo(reduced.rows, a.modulus)
+    return same and _same_dependence(reduced, matrix, a.modulus, alone)
 
 
-def _same_dependence(found: LinearElimination, matrix: Sequence[SparseRow], p: int, alone: bool) -> bool:
-    """Do the rows depend on each other modulo p as they do over the rationals?
+def _same_dependence(reduced: LinearElimination, matrix: Sequence[SparseRow], p: int, alone: bool) -> bool:
+    """Return whether the rows depend on each other modulo p as they do over the rationals.
 
     The same rows are sums of the same rows before them; where constraints wrote several rows each, other sets of them
     are asked for as well: no minor of the rows concerned is a multiple of p that is not 0, because none is as large
     [Hadamard1893], or because they are those of a graph, all of whose minors are 0 or 1 in size [Kirchhoff1847].
     """
-    told = echelon(matrix, p, supports=True).supports
-    if {i: tuple(sorted(f)) for i, f in found.supports.items()} != told:
+    modular = echelon(matrix, p, supports=True).supports
+    if {i: tuple(sorted(f)) for i, f in reduced.supports.items()} != modular:
         return False
-    core = sorted({k for i, f in found.supports.items() for k in (i, *f)})
+    core = sorted({k for i, f in reduced.supports.items() for k in (i, *f)})
     if alone or not core:
         return True
-    rows = [_primitive(found.rows[i]) for i in core]
+    rows = [_primitive(reduced.rows[i]) for i in core]
     small = math.prod(sum(v * v for v in row) for row in rows) < p * p
     return small or all(sorted(row) in ([-1], [1], [-1, 1]) for row in rows)
 
 
 def _primitive(row: RationalRow) -> list[int]:
-    """The entries as whole numbers without a common factor."""
+    """Return the entries as whole numbers without a common factor."""
     scale = math.lcm(*(int(v.q) for v in row.values()))
     whole = [int(v * scale) for v in row.values()]
     common = math.gcd(*whole)

@@ -46,34 +46,34 @@ def find(chart: Chart, pose: Mapping[Expr, Expr], seed: int = 0) -> Variety:
 
     Where no real point was found it is tried to prove that there is none.
     """
-    found, look = _variety(chart, pose, seed), partial(_variety, pose={}, seed=seed)
-    if _fixes_time(chart, found):
-        found = Variety(None, None, "undecided", reasons=[FIXED], parted=True)
-    timed = chart.time is not None and found.consistent is None and "field" in chart.engines
+    variety, look = _variety(chart, pose, seed), partial(_variety, pose={}, seed=seed)
+    if _fixes_time(chart, variety):
+        variety = Variety(None, None, "undecided", reasons=[FIXED], parted=True)
+    timed = chart.time is not None and variety.consistent is None and "field" in chart.engines
     if timed:
-        found = by_cases(chart, found, look)
-    unseen = found.consistent is not True or ALLOWING in found.reasons
-    looked = {"field", "balls"} <= chart.engines and unseen and found.verdict != "proved"
+        variety = by_cases(chart, variety, look)
+    unseen = variety.consistent is not True or ALLOWING in variety.reasons
+    looked = {"field", "balls"} <= chart.engines and unseen and variety.verdict != "proved"
     if looked and len(chart.relations) <= MAX_RELATIONS and no_solution(chart.relations, chart.positive):
         return Variety(False, None, "proved", reasons=[EMPTY], argument="no real solution")
-    alone = isolated(chart, found) if found.consistent is None or found.dimension is None else None
+    alone = isolated(chart, variety) if variety.consistent is None or variety.dimension is None else None
     if alone is not None:
         return alone
-    by_case = found.dimension is None and "field" in chart.engines and (found.consistent is None or found.parted)
+    by_case = variety.dimension is None and "field" in chart.engines and (variety.consistent is None or variety.parted)
     if by_case and not timed:
-        found = by_cases(chart, found, look)
-    return of_largest_part(chart, found, look, by_case or timed)
+        variety = by_cases(chart, variety, look)
+    return of_largest_part(chart, variety, look, by_case or timed)
 
 
-def _fixes_time(chart: Chart, found: Variety) -> bool:
+def _fixes_time(chart: Chart, variety: Variety) -> bool:
     """Return whether the relations hold at single instants only near all points that were found."""
-    if chart.time is None or not found.consistent:
+    if chart.time is None or not variety.consistent:
         return False
-    if found.samples or found.real is None:
-        return bool(found.samples) and not time_is_free(chart, found.samples[0])
+    if variety.samples or variety.real is None:
+        return bool(variety.samples) and not time_is_free(chart, variety.samples[0])
     ranked = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
-    rows = [[v for v, s in zip(row, ranked, strict=True) if s != ex.TIME] for row in found.real.matrix]
-    return ball_part(rows).rank < found.real.rank
+    rows = [[v for v, s in zip(row, ranked, strict=True) if s != ex.TIME] for row in variety.real.matrix]
+    return ball_part(rows).rank < variety.real.rank
 
 
 def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
@@ -113,7 +113,7 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
 
 
 def _has_joint_positions(chart: Chart) -> bool:
-    """Is generic geometry of joints among the unknowns?"""
+    """Return whether generic geometry of joints is among the unknowns."""
     return any(u.args[1].startswith("_a") for u in chart.unknowns if chart.ring.var_index(u) is not None)
 
 
@@ -141,7 +141,7 @@ def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:
 
 
 def _signed(ring: Ring, node: int) -> bool:
-    """Is there a sign that varies? Another one may make 0 of what is not."""
+    """Return whether there is a sign that varies: another one may make 0 of what is not."""
     inside = (ring.code[i] for i in reachable(ring, [node], through_generators=False))
     return any(op == VAR and ring.vars[k].kind == "sign" and ring.var_expr[k].symbols for op, k in inside)
 
@@ -149,38 +149,38 @@ def _signed(ring: Ring, node: int) -> bool:
 # Isolated zeros
 
 
-def isolated(chart: Chart, found: Variety) -> Variety | None:
+def isolated(chart: Chart, variety: Variety) -> Variety | None:
     """The set where some relations give a coordinate each and the others hold one coordinate each [IsolatedZeros].
 
     All of its points have such a coordinate at an isolated value, so its dimension is the number of the others; that
     it has points is shown by an exact common zero. What says nothing beside those given is left out: sin(z) = 0 beside
     z = pi. None where the relations are not so, or no zero was found. What was
-    ``found`` over GF(p) is kept where it has the same rank.
+    ``variety`` over GF(p) is kept where it has the same rank.
     """
     if "balls" not in chart.engines or chart.time is not None or len(chart.relations) > MAX_RELATIONS:
         return None
     if not all(is_analytic_in_coordinates(g, poles=True) for g in chart.relations):
         return None
-    given, left = explicit_relations(chart.relations)
+    explicit, implicit = explicit_relations(chart.relations)
     symbols = [s for s in chart.symbols if s != ex.TIME]
-    needed = [g for g in left if g.symbols or not is_proved_zero(g, frozenset())]
-    parts = parts_of(needed, symbols)
-    if len(given) == len(chart.relations) or any(not _of_one_coordinate(part) for part in parts):
+    needed = [g for g in implicit if g.symbols or not is_proved_zero(g, frozenset())]
+    groups = parts_of(needed, symbols)
+    if len(explicit) == len(chart.relations) or any(not _of_one_coordinate(part) for part in groups):
         return None
     zeros: dict[Expr, Expr] = {}
-    for part in parts:
+    for part in groups:
         zero = next(_common_zeros(part), None)
         if zero is None:
             return None
         zeros[part.unknowns[0]] = zero
-    dimension = len(symbols) - len(given) - len(parts)
-    samples = [p for p in found.samples if len(symbols) - rank_of_rows(field_jacobian(chart, p), p.p) == dimension]
+    dimension = len(symbols) - len(explicit) - len(groups)
+    samples = [p for p in variety.samples if len(symbols) - rank_of_rows(field_jacobian(chart, p), p.p) == dimension]
     sure = Variety(True, dimension, "proved", samples, argument="isolated zeros")
-    return replace(sure, witness=_witness(symbols, given, zeros))
+    return replace(sure, witness=_witness(symbols, explicit, zeros))
 
 
 def _of_one_coordinate(part: RelationPart) -> bool:
-    """Do the relations hold one coordinate only, and is one of them somewhere not 0?"""
+    """Return whether the relations hold one coordinate only, and one of them is somewhere not 0."""
     if len(part.unknowns) != 1:
         return False
     return any(differs_from_zero(g) for g in part.relations)
@@ -198,13 +198,13 @@ def _common_zeros(part: RelationPart) -> Iterator[Expr]:
             continue
 
 
-def _witness(symbols: Sequence[Expr], given: Sequence[Expr], zeros: dict[Expr, Expr]) -> dict[Expr, str] | None:
-    """A point of the set; None where a coordinate that is given by others is none of short form."""
-    known = {s: zeros.get(s, ex.ZERO) for s in symbols}
-    for g in reversed(given):
+def _witness(symbols: Sequence[Expr], explicit: Sequence[Expr], zeros: dict[Expr, Expr]) -> dict[Expr, str] | None:
+    """Return a point of the set; None where a coordinate that is given by others is none of short form."""
+    point = {s: zeros.get(s, ex.ZERO) for s in symbols}
+    for g in reversed(explicit):
         s = next((s for s in sorted(g.symbols, key=repr) if s not in zeros), None)
         if s is None or any(other != s and other not in zeros for other in g.symbols):
             return None
-        slope = substitute(g, {**known, s: ex.ONE}) - substitute(g, {**known, s: ex.ZERO})
-        known[s] = -substitute(g, {**known, s: ex.ZERO}) / slope
-    return {s: to_text(value) for s, value in known.items()}
+        slope = substitute(g, {**point, s: ex.ONE}) - substitute(g, {**point, s: ex.ZERO})
+        point[s] = -substitute(g, {**point, s: ex.ZERO}) / slope
+    return {s: to_text(value) for s, value in point.items()}

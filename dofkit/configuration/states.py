@@ -85,12 +85,12 @@ class States:
 
     @property
     def independent(self) -> bool:
-        """Is what is not 0 over GF(p) certainly not 0?"""
+        """Whether what is not 0 over GF(p) is certainly not 0."""
         return independent_on_set(self.ring, self.finite)
 
     @property
     def chosen(self) -> bool:
-        """Are there signs that a point over GF(p) chooses at random, or functions that are one branch of an inverse?
+        """Whether there are signs that points over GF(p) draw at random, or functions that are a branch of an inverse.
 
         What holds for one sign need not for the other: atan2(y, x) = pi/4 is y = x on one half of it.
         """
@@ -98,13 +98,13 @@ class States:
 
     @property
     def kinked(self) -> bool:
-        """Do velocities stand in abs()?"""
+        """Whether velocities stand in abs()."""
         signs = (self.ring.var_expr[v.index] for v in self.ring.vars if v.kind == "sign")
         return any(s.args[0] == "velocity" for e in signs for s in e.symbols)
 
     @cached_property
     def rational(self) -> bool:
-        """Are the states rational functions of numbers chosen freely? Then the real ones are as generic as any.
+        """Whether the states are rational functions of numbers chosen freely: then the real ones are as generic as any.
 
         Else the set may have parts over GF(p) that no real state lies on: where r^2 = -l^2 of r^4 = l^4, or where
         exp(u) = 1 and u is not 0.
@@ -117,7 +117,7 @@ class States:
         return all(not s.plan.stuck and all(s.degree(*step) == 1 for step in s.plan.steps) for s in solvers)
 
     def draw(self, seed: int) -> FieldPoint | None:
-        """A generic state over GF(p): velocities at a generic configuration where they can be solved for."""
+        """Return a generic state over GF(p): velocities at a generic configuration where they can be solved for."""
         if "field" not in self.setting.engines:
             return None
         for k in range(TRIES):
@@ -155,7 +155,7 @@ class States:
         return all(at[n] == 0 for n in self.relations)
 
     def real(self, seed: int) -> RealPoint | None:
-        """A real state with balls: velocities at a random configuration where there are some, else any."""
+        """Return a real state with balls: velocities at a random configuration where there are some, else any."""
         if "balls" not in self.setting.engines:
             return None
         places = [*self.places, *self.setting.generic]
@@ -164,9 +164,9 @@ class States:
         for k in range(STARTS):
             symbols = self._spread(search.start(STARTS * seed + k, {}), seed)
             if standing.descend(symbols, seed) is not None and moving.descend(symbols, seed) is not None:
-                found = search.search(seed, symbols, starts=1)
-                if found is not None and found.certified and found.consistent:
-                    return found
+                state = search.search(seed, symbols, starts=1)
+                if state is not None and state.certified and state.consistent:
+                    return state
         return search.search(seed) or at_another_time(search, seed)
 
     def _spread(self, symbols: dict[Expr, float], seed: int) -> dict[Expr, float]:
@@ -181,19 +181,19 @@ class States:
     def certain(self, count: int) -> Iterator[BallPoint]:
         """Real states that are certified, at generic configurations, of so many searches."""
         for k in range(count):
-            found = self.real(k)
-            if found is not None and found.certified and found.consistent:
-                whole, moving, finite = self.ranks(found.point)
+            state = self.real(k)
+            if state is not None and state.certified and state.consistent:
+                whole, moving, finite = self.ranks(state.point)
                 if whole - moving == finite:
-                    yield found.point
+                    yield state.point
 
     def by_velocity(self, point: Any, nodes: Sequence[int]) -> list[list[Scalar]]:
         """The derivatives of some nodes by the velocities; a velocity that nothing mentions has a column of zeros."""
         at = values(self.ring, point)
         zero = at[0] * 0
-        known = [c for c in self.velocities if c is not None]
-        rows = jacobian(self.ring, at, point, nodes, known, zero)
-        place = {c: k for k, c in enumerate(known)}
+        present = [c for c in self.velocities if c is not None]
+        rows = jacobian(self.ring, at, point, nodes, present, zero)
+        place = {c: k for k, c in enumerate(present)}
         return [[zero if c is None else row[place[c]] for c in self.velocities] for row in rows]
 
     def ranks(self, point: FieldPoint | BallPoint) -> tuple[int, int, int]:
@@ -201,10 +201,10 @@ class States:
         at = values(self.ring, point)
         zero = at[0] * 0
         places = [i for s in (*self.places, ex.TIME) if (i := self.ring.var_index(s)) is not None]
-        known = [c for c in self.velocities if c is not None]
+        present = [c for c in self.velocities if c is not None]
         return (
-            _rank(jacobian(self.ring, at, point, self.relations, [*places, *known], zero), point),
-            _rank(jacobian(self.ring, at, point, self.moving, known, zero), point),
+            _rank(jacobian(self.ring, at, point, self.relations, [*places, *present], zero), point),
+            _rank(jacobian(self.ring, at, point, self.moving, present, zero), point),
             _rank(jacobian(self.ring, at, point, self.finite, places, zero), point),
         )
 
@@ -216,18 +216,18 @@ def state_relations(rows: Sequence[Row], hidden: Sequence[Expr]) -> tuple[list[E
     return finite, [*map(rate, finite), *forms], [r.piece.expr for r in rows if isinstance(r.piece, Nonlinear)]
 
 
-def rows_at(relations: Sequence[Expr], known: Mapping[Expr, Expr]) -> tuple[Row, ...]:
+def rows_at(relations: Sequence[Expr], pose: Mapping[Expr, Expr]) -> tuple[Row, ...]:
     """What relations say of velocities at one configuration: rows with constant coefficients. Raises NoValueError."""
-    found = []
-    for e in (substitute(e, known) for e in relations if velocities_of(e)):
+    rows = []
+    for e in (substitute(e, pose) for e in relations if velocities_of(e)):
         form = linear_form(e)
         if not e.is_zero:
-            found.append(Row(0, Nonlinear(e) if form is None else form))
-    return tuple(found)
+            rows.append(Row(0, Nonlinear(e) if form is None else form))
+    return tuple(rows)
 
 
 def moves(ring: Ring, index: int) -> bool:
-    """Does a generator depend on velocities?"""
+    """Return whether a generator depends on velocities."""
     return any(s.args[0] == "velocity" for s in ring.var_expr[index].symbols)
 
 
@@ -244,7 +244,7 @@ def vanishes(value: Scalar) -> bool:
 
 
 def value_at(ring: Ring, point: FieldPoint | BallPoint, node: int) -> Scalar | None:
-    """The value of a node; None where it has none there."""
+    """Return the value of a node; None where it has none there."""
     try:
         return values(ring, point, node + 1)[node]
     except NoValueError:

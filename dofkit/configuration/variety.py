@@ -56,14 +56,14 @@ def of_real_point(chart: Chart, real: RealPoint | None) -> Witness | None:
     """Coordinates, time and named parameters at a point whose ball holds a true zero; None without one."""
     if real is None or not real.certified or not real.consistent or real.solved < real.rank:
         return None
-    known = {s: v for s, v in real.point.symbols.items() if not str(s.args[-1]).startswith("_")}
-    return {**dict.fromkeys(chart.symbols, "0"), **{s: _text(v) for s, v in known.items()}}
+    named = {s: v for s, v in real.point.symbols.items() if not str(s.args[-1]).startswith("_")}
+    return {**dict.fromkeys(chart.symbols, "0"), **{s: _text(v) for s, v in named.items()}}
 
 
 def of_reference(symbols: Iterable[Expr], reference: Mapping[Expr, Expr]) -> Witness:
-    """The reference configuration; t = 0 there."""
-    told = ((s, ex.ZERO if s == ex.TIME else reference[s]) for s in symbols if s == ex.TIME or s in reference)
-    return {s: "0" if value.is_zero else to_text(value) for s, value in told}
+    """Return the reference configuration; t = 0 there."""
+    pose = ((s, ex.ZERO if s == ex.TIME else reference[s]) for s in symbols if s == ex.TIME or s in reference)
+    return {s: "0" if value.is_zero else to_text(value) for s, value in pose}
 
 
 def _text(value: Any) -> str:

@@ -79,13 +79,13 @@ def _is_inside_branch(name: str, arguments: Sequence[Expr], positive: frozenset[
 
 def _is_positive(e: Expr, positive: frozenset[Expr]) -> bool:
     """Return whether ``e`` is greater than 0 by its form, at every real point."""
-    parts = partial(_is_positive, positive=positive)
+    positive_parts = partial(_is_positive, positive=positive)
     if e.op == "add":
-        return all(never_negative(part, positive) for part in e.args) and any(map(parts, e.args))
+        return all(never_negative(part, positive) for part in e.args) and any(map(positive_parts, e.args))
     if e.op == "mul":
-        return all(map(parts, e.args))
+        return all(map(positive_parts, e.args))
     if e.op == "pow":
-        return parts(e.args[0])
+        return positive_parts(e.args[0])
     return (
         e in positive
         or e.op == "const"

@@ -101,9 +101,9 @@ def _meet_or_none(a: Interval, b: Interval) -> Interval | None:
     return None if low > high else (low, high)
 
 
-def _hull(parts: Iterable[Interval | None]) -> Interval:
+def _hull(pieces: Iterable[Interval | None]) -> Interval:
     """Return the smallest interval that contains all parts. Raises EmptyError where there is none."""
-    intervals = [p for p in parts if p is not None]
+    intervals = [p for p in pieces if p is not None]
     if not intervals:
         raise EmptyError
     return min(p[0] for p in intervals), max(p[1] for p in intervals)

@@ -33,14 +33,14 @@ Poly = Any
 Table = dict[tuple[int, ...], Fraction]
 
 
-def dimension_of(canon: Canon, own: Sequence[Poly], moving: Sequence[int]) -> int | None:
+def dimension_of(canon: Canon, generators: Sequence[Poly], moving: Sequence[int]) -> int | None:
     """Return the dimension of the complex points at which polynomials of a canonical ring vanish, -1 where none do.
 
     Parameters are generic; ``moving``: the generators that are coordinates. It is that of the ideal of leading
     monomials: the largest number of unknowns of which no leading monomial is a product. None where other functions
     than sines and cosines of single coordinates occur, or where it would take long.
     """
-    integral = _integer_polynomials(canon, own, moving)
+    integral = _integer_polynomials(canon, generators, moving)
     basis = None if integral is None else _basis(integral[0])
     if integral is None or basis is None:
         return None
@@ -57,12 +57,12 @@ def dimension_of(canon: Canon, own: Sequence[Poly], moving: Sequence[int]) -> in
 
 
 def _integer_polynomials(
-    canon: Canon, own: Sequence[Poly], moving: Sequence[int]
+    canon: Canon, generators: Sequence[Poly], moving: Sequence[int]
 ) -> tuple[list[Poly], int, int] | None:
     """Return polynomials over the integers, their number of unknowns, and that of coordinates they do not mention."""
     ring = canon.ring
-    used = sorted({i for p in own for i in canon.generators_in(p)})
-    if any(len(p) > MAX_LENGTH or p.total_degree() > MAX_DEGREE for p in own):
+    used = sorted({i for p in generators for i in canon.generators_in(p)})
+    if any(len(p) > MAX_LENGTH or p.total_degree() > MAX_DEGREE for p in generators):
         return None
     kept = _unknowns(ring, used, moving)
     if kept is None or len(kept) > MAX_UNKNOWNS:
@@ -73,7 +73,7 @@ def _integer_polynomials(
     place = {i: k for k, i in enumerate(kept)}
     ctx = fmpz_mpoly_ctx.get([f"u{k}" for k in range(len(kept))], Ordering.degrevlex)
     gens = ctx.gens()
-    polynomials = [ctx.from_dict(_whole(_table(p, len(ring.vars), place, values))) for p in own]
+    polynomials = [ctx.from_dict(_whole(_table(p, len(ring.vars), place, values))) for p in generators]
     circles = [gens[place[c]] ** 2 + gens[place[s]] ** 2 - 1 for c, s in pairs]
     return [*polynomials, *circles], len(kept), len(moving) - len(seen)
 
@@ -138,10 +138,10 @@ def _whole(table: Table) -> dict[tuple[int, ...], int]:
 
 def _basis(polynomials: Sequence[Poly]) -> list[Poly] | None:
     """Return a Groebner basis in degree reverse lexicographic order; None where it would be too large."""
-    given = [p for p in polynomials if p != 0]
-    if not given:
+    nonzero = [p for p in polynomials if p != 0]
+    if not nonzero:
         return []
-    vector: Any = fmpz_mpoly_vec(given, given[0].context())
+    vector: Any = fmpz_mpoly_vec(nonzero, nonzero[0].context())
     basis, complete = vector.buchberger_naive(limits=LIMITS)
     return list(basis) if complete else None
 

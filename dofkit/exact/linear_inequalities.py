@@ -50,10 +50,10 @@ def solution(conditions: Sequence[LinearCondition]) -> Vector | Literal[False] |
     inequalities = [_restricted(c, graph) for c in conditions if c.sense != "="]
     if (len(inequalities) + len(graph.free) + 2) * (len(graph.free) + 2) > MAX_TABLEAU:
         return None
-    found = _alternative(inequalities, len(graph.free))
-    if found is None or found is False:
-        return found
-    whole = graph.point(found)
+    free_point = _alternative(inequalities, len(graph.free))
+    if free_point is None or free_point is False:
+        return free_point
+    whole = graph.point(free_point)
     return whole if all(c.holds(whole) for c in conditions) else None
 
 
@@ -67,9 +67,9 @@ class _Graph:
 
     def point(self, at: Vector) -> Vector:
         """Return all coordinates from the free ones."""
-        known = dict(zip(self.free, at, strict=True))
-        known |= {c: _dot(row[:-1], at) + row[-1] for c, row in self.rows.items()}
-        return tuple(known[c] for c in range(self.n))
+        coordinates = dict(zip(self.free, at, strict=True))
+        coordinates |= {c: _dot(row[:-1], at) + row[-1] for c, row in self.rows.items()}
+        return tuple(coordinates[c] for c in range(self.n))
 
 
 def _graph(equations: Sequence[LinearCondition], n: int) -> _Graph | None:

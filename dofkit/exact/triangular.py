@@ -119,8 +119,8 @@ class Planner:
             if node in peeled:
                 continue
             check()
-            own = [u for u in of[node] if where[u] == {node}]
-            best = self._best(node, own)
+            private = [u for u in of[node] if where[u] == {node}]
+            best = self._best(node, private)
             if best is None:
                 continue
             peeled.add(node)
@@ -132,12 +132,12 @@ class Planner:
         remaining[:] = [node for node in remaining if node not in peeled]
         return bool(peeled)
 
-    def _best(self, node: int, own: Sequence[Unit]) -> Unit | None:
+    def _best(self, node: int, units: Sequence[Unit]) -> Unit | None:
         """Return the unknown of lowest degree; of equals, what is not a parameter, then by order."""
         if self._parameters_only(node):
             return None
         ranked = []
-        for unit in own:
+        for unit in units:
             degree = self.degree(node, unit)
             if degree:
                 ranked.append((degree, _rank(self.ring, unit), unit))

@@ -122,14 +122,14 @@ def univariate(ring: Ring, node: int, unit: Unit, point: FieldPoint) -> nmod_pol
     """Return the numerator of a relation as a polynomial in one unknown. Raises NoValueError."""
     check()
     x = nmod_poly([0, 1], point.p)
-    one = nmod_poly([1], point.p)
+    constant_one = nmod_poly([1], point.p)
     if unit[0] == "angle":
-        below = 5 * (one + x * x)
-        cos, sin = (Rational(top, below) for top in circle(x, one))
+        below = 5 * (constant_one + x * x)
+        cos, sin = (Rational(top, below) for top in circle(x, constant_one))
         var = ring.vars[unit[1]]
         pair = {var.index: cos if var.kind == "cos" else sin, var.partner: sin if var.kind == "cos" else cos}
     else:
-        pair = {unit[1]: Rational(x, one)}
+        pair = {unit[1]: Rational(x, constant_one)}
     result = value_along(ring, node, pair, point)
     top: nmod_poly = result.numerator() if isinstance(result, Rational) else nmod_poly([result], point.p)
     return top
@@ -179,8 +179,8 @@ def _independent(ring: Ring, index: int, point: FieldPoint) -> Any:
 
 def is_linear(ring: Ring, node: int, index: int, point: FieldPoint) -> bool:
     """Return whether the relation is a polynomial of degree 1 in a generator. Raises NoValueError."""
-    x, one = nmod_poly([0, 1], point.p), nmod_poly([1], point.p)
-    result = value_along(ring, node, {index: Rational(x, one)}, point)
+    x, constant_one = nmod_poly([0, 1], point.p), nmod_poly([1], point.p)
+    result = value_along(ring, node, {index: Rational(x, constant_one)}, point)
     return isinstance(result, Rational) and result.bottom.degree() == 0 and result.top.degree() == 1
 
 
@@ -194,7 +194,7 @@ def roots_of(polynomial: nmod_poly) -> list[nmod]:
     return [-nmod(int(polynomial[0]), p) / nmod(int(polynomial[1]), p)]
 
 
-def circle(w: Any, one: Any) -> tuple[Any, Any]:
+def circle(w: Any, unit: Any) -> tuple[Any, Any]:
     """5 (1 + w^2) times cos and sin of 2 atan(w) + atan(4/3): the point that no w gives is no special one."""
-    cos, sin = one - w * w, 2 * w
+    cos, sin = unit - w * w, 2 * w
     return 3 * cos - 4 * sin, 4 * cos + 3 * sin

@@ -182,12 +182,12 @@ def _one_constant(ring: Ring) -> bool:
     These are transcendental [Lindemann1882]; of two of them it is not known, or they are related as e and e^1000 are.
     """
     constants = [v for v in ring.vars if not ring.var_expr[v.index].symbols]
-    found = {
+    kinds = {
         ("pi", ex.PI) if v.kind == "pi" else (v.kind.replace("sin", "cos"), v.key[0])
         for v in constants
         if v.kind in ("pi", "cos", "sin", "exp")
     }
-    return len(found) < 2 and all(kind == "pi" or _is_rational(e) for kind, e in found)
+    return len(kinds) < 2 and all(kind == "pi" or _is_rational(e) for kind, e in kinds)
 
 
 def _is_rational(e: Expr) -> bool:
@@ -280,8 +280,10 @@ def _related_functions(ring: Ring) -> bool:
 
 def _changes_sign(ring: Ring, var: Var) -> bool:
     """Return whether the argument of a sign is linear in a symbol, so that both signs occur."""
-    shown = ring.var_expr[var.index]
-    return any(_linear_somewhere(node.args[1]) for node in ex.nodes(shown) if node.op == "fn" and node.args[0] == "abs")
+    expression = ring.var_expr[var.index]
+    return any(
+        _linear_somewhere(node.args[1]) for node in ex.nodes(expression) if node.op == "fn" and node.args[0] == "abs"
+    )
 
 
 def _odd_arguments(moving: Sequence[Var]) -> bool:
@@ -310,16 +312,23 @@ def _apart(ring: Ring, functions: Sequence[Var], roots: bool) -> bool:
 
     They are looked at as polynomials in one symbol at a time: what has no common factor there has none at all.
     """
-    left, canon = list(functions), Canon(ring)
+    remaining, canon = list(functions), Canon(ring)
     symbols = [v.index for v in ring.vars if v.kind == "symbol"]
-    while left:
+    while remaining:
         try:
-            independent = next((own for i in symbols if (own := _independent_along(canon, left, i, roots))), None)
+            independent = next(
+                (
+                    independent_here
+                    for i in symbols
+                    if (independent_here := _independent_along(canon, remaining, i, roots))
+                ),
+                None,
+            )
         except NoValueError:
             return False
         if independent is None:
             return False
-        left = [v for v in left if v not in independent]
+        remaining = [v for v in remaining if v not in independent]
     return True
 
 
@@ -327,9 +336,9 @@ def _independent_along(canon: Canon, functions: Sequence[Var], index: int, roots
     """Return those whose arguments hold a symbol, if they are independent over all functions of the other symbols."""
     ring, place = canon.ring, len(canon.ring.vars) - 1 - index
     symbol = ring.var_expr[index]
-    own = [v for v in functions if symbol in ring.var_expr[v.index].symbols]
+    along = [v for v in functions if symbol in ring.var_expr[v.index].symbols]
     polynomials = []
-    for var in own:
+    for var in along:
         top, bottom = canon.quotient(var.args[0])
         polynomial = top * bottom ** (var.degree - 1 if roots else 1)
         held = {ring.var_expr[i] for i in canon.generators_in(polynomial)}
@@ -338,4 +347,4 @@ def _independent_along(canon: Canon, functions: Sequence[Var], index: int, roots
         polynomials.append(polynomial)
     pairs = [(a, b) for a, b in combinations(polynomials, 2)]
     pairs += [(p, p.derivative(place)) for p in polynomials if roots]
-    return own if all(canon.reduce(a.resultant(b, place)) != 0 for a, b in pairs) else []
+    return along if all(canon.reduce(a.resultant(b, place)) != 0 for a, b in pairs) else []

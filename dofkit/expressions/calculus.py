@@ -86,8 +86,8 @@ def _diff_node(node: Expr, go: Callable[[Expr], Expr]) -> Expr:
     if node.op == "add":
         return add(*(go(term) for term in node.args))
     if node.op == "mul":
-        parts = node.args
-        return add(*(mul(go(part), *parts[:i], *parts[i + 1 :]) for i, part in enumerate(parts)))
+        factors = node.args
+        return add(*(mul(go(part), *factors[:i], *factors[i + 1 :]) for i, part in enumerate(factors)))
     if node.op == "pow":
         base, exponent = node.args
         if exponent.op == "num":

@@ -29,13 +29,13 @@ def interval_of(e: Expr, values: Mapping[Expr, Fraction | arb] | None = None, bi
     """Return a ball that holds the real value of ``e``, symbols replaced by ``values``; None where there is none."""
 
     def go(node: Expr) -> arb:
-        if node not in known:
-            known[node] = _combined(node, [go(part) for part in children(node)])
-        return known[node]
+        if node not in balls:
+            balls[node] = _combined(node, [go(part) for part in children(node)])
+        return balls[node]
 
     with ctx.workprec(bits):
         try:
-            known = {
+            balls = {
                 symbol: _ball(value) if isinstance(value, Fraction) else value
                 for symbol, value in (values or {}).items()
             }
@@ -49,21 +49,21 @@ def _ball(value: Fraction) -> arb:
     return arb(fmpq(value.numerator, value.denominator))
 
 
-def _combined(node: Expr, parts: Sequence[arb]) -> arb:
+def _combined(node: Expr, balls: Sequence[arb]) -> arb:
     """Return the value of a node from those of its parts. Raises KeyError where it has none."""
     if node.op == "num":
         return _ball(node.args[0])
     if node.op == "const":
         return arb.pi() if node.args[0] == "pi" else arb.const_e()
     if node.op == "add":
-        return sum(parts, arb(0))
+        return sum(balls, arb(0))
     if node.op == "mul":
-        return math.prod(parts, start=arb(1))
+        return math.prod(balls, start=arb(1))
     if node.op == "pow":
-        return parts[0].sqrt() if node.args[1] == HALF else parts[0] ** parts[1]
+        return balls[0].sqrt() if node.args[1] == HALF else balls[0] ** balls[1]
     if node.op == "fn":
         name = node.args[0]
-        return abs(parts[0]) if name == "abs" else getattr(arb, name)(*parts)
+        return abs(balls[0]) if name == "abs" else getattr(arb, name)(*balls)
     raise KeyError(node)
 
 

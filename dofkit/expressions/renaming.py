@@ -141,17 +141,17 @@ class Renaming:
             return self._symbol(e)
         if op == "num" or op == "const":
             return e
-        known = self._known.get(id(e))
-        if known is not None:
-            return known[1]
-        parts: tuple[Any, ...]
+        earlier = self._known.get(id(e))
+        if earlier is not None:
+            return earlier[1]
+        renamed: tuple[Any, ...]
         if op == "fn":
-            parts = (args[0], *map(self.of, args[1:]))
+            renamed = (args[0], *map(self.of, args[1:]))
         elif op == "call":
-            parts = (args[0], args[1], tuple(map(self.of, args[2])))
+            renamed = (args[0], args[1], tuple(map(self.of, args[2])))
         else:
-            parts = tuple(map(self.of, args))
-        made = Expr(op, parts)
+            renamed = tuple(map(self.of, args))
+        made = Expr(op, renamed)
         if e.shape is not None:
             made.shape = e.shape._replace(names=tuple(self.names.get(n, n) for n in e.shape.names))
         self._known[id(e)] = e, made
@@ -171,7 +171,7 @@ class _Step(NamedTuple):
 
     op: str
     before: tuple[Any, ...]
-    parts: tuple[int, ...]
+    children: tuple[int, ...]
     shape: ExpressionShape | None
 
 
@@ -195,17 +195,17 @@ class Template:
         self.op, self.functions = e.op, e.functions
         self._called = [(s.args[0], number[s.args[1]]) for s in self.symbols]
         self._named = [next(i for i, s in enumerate(self.symbols) if s.args[1] == name) for name in self.names]
-        own = frozenset(self.symbols)
-        self._kept = [node for node in nodes(e) if own.isdisjoint(node.symbols)]
+        own_symbols = frozenset(self.symbols)
+        self._kept = [node for node in nodes(e) if own_symbols.isdisjoint(node.symbols)]
         places = {node: k for k, node in enumerate((*self.symbols, *self._kept))}
         self._steps: list[_Step] = []
         for node in nodes(e):
             if node not in places:
                 places[node] = len(places)
-                parts = tuple([places[part] for part in children(node)])
+                child_places = tuple([places[part] for part in children(node)])
                 before = node.args[:2] if node.op == "call" else node.args[:1] if node.op == "fn" else ()
                 shape = None if node is e else node.shape
-                self._steps.append(_Step(node.op, before, parts, shape))
+                self._steps.append(_Step(node.op, before, child_places, shape))
         self._root = places[e]
 
     def of(self, names: Sequence[str]) -> Expr:
@@ -217,8 +217,8 @@ class Template:
         names = [symbols[k].args[1] for k in self._named]
         rename = dict(zip(self.names, names, strict=True))
         written = [*symbols, *self._kept]
-        for op, before, parts, shape in self._steps:
-            below = tuple([written[k] for k in parts])
+        for op, before, child_places, shape in self._steps:
+            below = tuple([written[k] for k in child_places])
             node = Expr(op, (*before, below) if op == "call" else before + below)
             if shape is not None:
                 node.shape = shape._replace(names=tuple([rename[n] for n in shape.names]))

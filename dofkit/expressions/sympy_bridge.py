@@ -65,16 +65,16 @@ class Bridge:
             return self._symbol(e)
         if e.op == "const":
             return sp.pi if e.args[0] == "pi" else sp.E
-        parts = [self._memo[child] for child in ex.children(e)]
+        translated = [self._memo[child] for child in ex.children(e)]
         if e.op == "add":
-            return sp.Add(*parts)
+            return sp.Add(*translated)
         if e.op == "mul":
-            return sp.Mul(*parts)
+            return sp.Mul(*translated)
         if e.op == "pow":
-            return sp.Pow(*parts)
+            return sp.Pow(*translated)
         if e.op == "fn":
-            return getattr(sp, _ELEMENTARY[e.args[0]])(*parts)
-        return self._call(e.args[0], e.args[1], parts)
+            return getattr(sp, _ELEMENTARY[e.args[0]])(*translated)
+        return self._call(e.args[0], e.args[1], translated)
 
     def _symbol(self, e: Expr) -> Any:
         kind, name = e.args
@@ -102,10 +102,10 @@ class Bridge:
 
     def expr(self, e: Any) -> Expr:
         """Return a SymPy expression as one of ours. Raises UntranslatableError where that is not possible."""
-        found = self._back.get(e)
-        if found is None:
-            found = self._back[e] = self._from_sympy(e)
-        return found
+        translated = self._back.get(e)
+        if translated is None:
+            translated = self._back[e] = self._from_sympy(e)
+        return translated
 
     def _from_sympy(self, e: Any) -> Expr:
         sp = self._sympy
@@ -122,10 +122,10 @@ class Bridge:
                 return read(self, e)
         if isinstance(e, sp.core.function.AppliedUndef):
             return ex.call(str(e.func.__name__), map(self.expr, e.args))
-        own = _BACK.get(type(e).__name__)
-        if own is None:
+        elementary = _BACK.get(type(e).__name__)
+        if elementary is None:
             raise UntranslatableError(f"SymPy's {type(e).__name__} cannot be written here")
-        return ex.fn(own, *map(self.expr, e.args))
+        return ex.fn(elementary, *map(self.expr, e.args))
 
     def _parameter(self, e: Any) -> Expr:
         return self._parameters.get(e) or ex.parameter(str(e.name))
@@ -157,9 +157,9 @@ class Bridge:
         inner = e.expr
         if not isinstance(inner, self._sympy.Derivative):
             raise UntranslatableError("a substitution that was not carried out")
-        given = dict(zip(e.variables, e.point, strict=True))
+        values = dict(zip(e.variables, e.point, strict=True))
         steps = {variable: int(order) for variable, order in inner.variable_count}
-        arguments = [self.expr(given.get(a, a)) for a in inner.expr.args]
+        arguments = [self.expr(values.get(a, a)) for a in inner.expr.args]
         return ex.call(str(inner.expr.func.__name__), arguments, self._orders(inner.expr, steps))
 
 

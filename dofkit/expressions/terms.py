@@ -42,29 +42,29 @@ def linear_terms(e: Expr) -> dict[Expr, Fraction]:
     terms: dict[Expr, Fraction] = {}
     cancels = False
     for term in total.args if total.op == "add" else (total,):
-        factor, rest = (term.args[0], ex.ONE) if term.op == "num" else number_and_rest(term)
+        factor, base = (term.args[0], ex.ONE) if term.op == "num" else number_and_rest(term)
         if factor:
-            rest = sorted_product(rest)
-            if rest in terms:
-                factor += terms[rest]
+            base = sorted_product(base)
+            if base in terms:
+                factor += terms[base]
                 cancels = cancels or not factor
-            terms[rest] = factor
-    return {rest: factor for rest, factor in terms.items() if factor} if cancels else terms
+            terms[base] = factor
+    return {base: factor for base, factor in terms.items() if factor} if cancels else terms
 
 
 def without_cancelled(e: Expr) -> Expr:
     """Return ``e`` without the terms of sums that cancel as they are written, functions and quotients apart."""
-    parts = ex.children(e)
-    if not parts:
+    subexpressions = ex.children(e)
+    if not subexpressions:
         return e
-    node = ex.rebuild(e, tuple(map(without_cancelled, parts)))
+    node = ex.rebuild(e, tuple(map(without_cancelled, subexpressions)))
     if node.op != "add":
         return node
     total: dict[Expr, Fraction] = {}
     keys = []
     for term in node.args:
-        factor, rest = (Fraction(1), ex.ONE) if term.op == "num" else number_and_rest(term)
-        keys.append(sorted_product(rest))
+        factor, base = (Fraction(1), ex.ONE) if term.op == "num" else number_and_rest(term)
+        keys.append(sorted_product(base))
         total[keys[-1]] = total.get(keys[-1], Fraction(0)) + factor
     return ex.add(*(t for t, key in zip(node.args, keys, strict=True) if total[key] or key.functions))
 
@@ -72,8 +72,8 @@ def without_cancelled(e: Expr) -> Expr:
 def number_and_rest(term: Expr) -> tuple[Fraction, Expr]:
     """Return a term as a number times the rest."""
     if term.op == "mul" and term.args[0].op == "num":
-        rest = term.args[1:]
-        return term.args[0].args[0], rest[0] if len(rest) == 1 else Expr("mul", rest)
+        factors = term.args[1:]
+        return term.args[0].args[0], factors[0] if len(factors) == 1 else Expr("mul", factors)
     return Fraction(1), term
 
 
@@ -84,7 +84,7 @@ def sorted_product(e: Expr) -> Expr:
 
 def sorted_sum(e: Expr) -> tuple[tuple[str, Fraction], ...]:
     """Return a key that does not depend on the order of terms."""
-    return tuple(sorted((repr(rest), factor) for rest, factor in linear_terms(e).items()))
+    return tuple(sorted((repr(base), factor) for base, factor in linear_terms(e).items()))
 
 
 def content(e: Expr) -> tuple[Fraction, Expr]:
@@ -134,10 +134,10 @@ def combined(e: Expr) -> Combined:
         pivot = next((s for s in sorted(terms, key=repr) if s.args[0] == "coordinate"), None)
         if pivot is None:
             continue
-        rest = total - ex.num(terms[pivot]) * pivot
-        found = substitute(e, {pivot: (pivot - rest) / ex.num(terms[pivot])})
-        if found.symbols.isdisjoint(total.symbols - {pivot}):
-            e, sums[str(pivot.args[1])] = found, total
+        others = total - ex.num(terms[pivot]) * pivot
+        substituted = substitute(e, {pivot: (pivot - others) / ex.num(terms[pivot])})
+        if substituted.symbols.isdisjoint(total.symbols - {pivot}):
+            e, sums[str(pivot.args[1])] = substituted, total
     return Combined(e, sums)
 
 

@@ -111,9 +111,9 @@ class Expr:
             else:
                 symbols: frozenset[Expr] = _NO_SYMBOLS
                 for child in children(self):
-                    own = child.symbols
-                    if own and not own <= symbols:
-                        symbols = own if symbols <= own else symbols | own
+                    of_child = child.symbols
+                    if of_child and not of_child <= symbols:
+                        symbols = of_child if symbols <= of_child else symbols | of_child
                 self._symbols = symbols
         return self._symbols
 
@@ -123,9 +123,9 @@ class Expr:
         if self._functions is None:
             functions = _NO_NAMES if self.op in ("num", "sym", "const", "add", "mul") else _function_of(self)
             for child in children(self):
-                own = child.functions
-                if own and not own <= functions:
-                    functions = functions | own
+                of_child = child.functions
+                if of_child and not of_child <= functions:
+                    functions = functions | of_child
             self._functions = functions
         return self._functions
 
@@ -203,8 +203,8 @@ def _split(term: Expr) -> tuple[Fraction, Expr]:
     if term.op == "num":
         return term.args[0], ONE
     if term.op == "mul" and term.args[0].op == "num":
-        rest = term.args[1:]
-        return term.args[0].args[0], rest[0] if len(rest) == 1 else Expr("mul", rest)
+        factors = term.args[1:]
+        return term.args[0].args[0], factors[0] if len(factors) == 1 else Expr("mul", factors)
     return _ONCE, term
 
 
@@ -213,22 +213,22 @@ def add(*terms: Expr) -> Expr:
     collected: dict[Expr, Fraction] = {}
     for term in terms:
         for part in term.args if term.op == "add" else (term,):
-            factor, rest = _split(part)
-            known = collected.get(rest)
-            collected[rest] = factor if known is None else known + factor
-    parts = []
-    for rest, factor in collected.items():
+            factor, base = _split(part)
+            earlier = collected.get(base)
+            collected[base] = factor if earlier is None else earlier + factor
+    summands = []
+    for base, factor in collected.items():
         if factor:
-            parts.append(num(factor) if rest is ONE or rest == ONE else _scaled(factor, rest))
-    if not parts:
+            summands.append(num(factor) if base is ONE or base == ONE else _scaled(factor, base))
+    if not summands:
         return ZERO
-    return parts[0] if len(parts) == 1 else Expr("add", tuple(parts))
+    return summands[0] if len(summands) == 1 else Expr("add", tuple(summands))
 
 
-def _scaled(factor: Fraction, rest: Expr) -> Expr:
+def _scaled(factor: Fraction, base: Expr) -> Expr:
     if factor == 1:
-        return rest
-    return Expr("mul", (num(factor), *(rest.args if rest.op == "mul" else (rest,))))
+        return base
+    return Expr("mul", (num(factor), *(base.args if base.op == "mul" else (base,))))
 
 
 def mul(*factors: Expr) -> Expr:
@@ -246,10 +246,10 @@ def mul(*factors: Expr) -> Expr:
             powers[base] = powers.get(base, 0) + exponent
     if not number:
         return ZERO
-    parts = [base if e == 1 else power(base, num(e)) for base, e in powers.items() if e]
-    if len(parts) == 1 and number != 1 and parts[0].op == "add":
-        return add(*(mul(num(number), term) for term in parts[0].args))
-    flat = [p for part in parts for p in (part.args if part.op == "mul" else (part,))]
+    grouped = [base if e == 1 else power(base, num(e)) for base, e in powers.items() if e]
+    if len(grouped) == 1 and number != 1 and grouped[0].op == "add":
+        return add(*(mul(num(number), term) for term in grouped[0].args))
+    flat = [p for part in grouped for p in (part.args if part.op == "mul" else (part,))]
     for p in flat:
         if p.op == "num":
             number *= p.args[0]
@@ -296,15 +296,15 @@ def fn(name: str, *arguments: Expr) -> Expr:
     if first.op == "num":
         value = value_at(name, first.args[0])
     else:
-        multiple, rest = _split(first) if name in TURNING else (_ONCE, ONE)
-        value = value_at_turn(name, multiple) if rest == PI else None
+        multiple, base = _split(first) if name in TURNING else (_ONCE, ONE)
+        value = value_at_turn(name, multiple) if base == PI else None
     return Expr("fn", (name, *arguments)) if value is None else num(value)
 
 
 def call(name: str, arguments: Iterable[Expr], orders: Iterable[int] | None = None) -> Expr:
     """Return the unknown function ``name`` at ``arguments``, differentiated ``orders[i]`` times by the i-th."""
-    given = tuple(arguments)
-    return Expr("call", (name, tuple(orders) if orders is not None else (0,) * len(given), given))
+    values = tuple(arguments)
+    return Expr("call", (name, tuple(orders) if orders is not None else (0,) * len(values), values))
 
 
 def children(e: Expr) -> tuple[Expr, ...]:
@@ -318,18 +318,18 @@ def children(e: Expr) -> tuple[Expr, ...]:
     return e.args
 
 
-def rebuild(e: Expr, parts: tuple[Expr, ...]) -> Expr:
+def rebuild(e: Expr, new_children: tuple[Expr, ...]) -> Expr:
     """Return ``e`` with its children replaced, folded again."""
     if e.op == "add":
-        return add(*parts)
+        return add(*new_children)
     if e.op == "mul":
-        return mul(*parts)
+        return mul(*new_children)
     if e.op == "pow":
-        return power(*parts)
+        return power(*new_children)
     if e.op == "fn":
-        return fn(e.args[0], *parts)
+        return fn(e.args[0], *new_children)
     if e.op == "call":
-        return call(e.args[0], parts, e.args[1])
+        return call(e.args[0], new_children, e.args[1])
     return e
 
 

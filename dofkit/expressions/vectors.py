@@ -16,23 +16,23 @@ Matrix = tuple[Vec, ...]
 _Number = int | Fraction
 
 
-def total(parts: Iterable[tuple[_Number, Expr]]) -> Expr:
+def total(multiples: Iterable[tuple[_Number, Expr]]) -> Expr:
     """Return the sum of numbers times expressions, equal terms collected: `add` for many short sums.
 
     Whole numbers are kept as int while they are added, which is several times faster than Fraction.
     """
-    found: dict[Expr, _Number] = {}
-    for factor, e in parts:
+    collected: dict[Expr, _Number] = {}
+    for factor, e in multiples:
         for term in e.args if e.op == "add" else (e,):
             number: _Number = factor
             if term.op == "num":
                 number, term = factor * _whole(term.args[0]), ONE
             elif term.op == "mul" and term.args[0].op == "num":
                 number = factor * _whole(term.args[0].args[0])
-                rest = term.args[1:]
-                term = rest[0] if len(rest) == 1 else Expr("mul", rest)
-            found[term] = found[term] + number if term in found else number
-    terms = [_times(number, term) for term, number in found.items() if number]
+                factors = term.args[1:]
+                term = factors[0] if len(factors) == 1 else Expr("mul", factors)
+            collected[term] = collected[term] + number if term in collected else number
+    terms = [_times(number, term) for term, number in collected.items() if number]
     if len(terms) > 1:
         return Expr("add", tuple(terms))
     return terms[0] if terms else ZERO
@@ -53,7 +53,7 @@ def _times(number: _Number, term: Expr) -> Expr:
 
 def plus(*vectors: Vec) -> Vec:
     """Return the sum."""
-    return tuple(total([(1, part) for part in parts]) for parts in zip(*vectors, strict=True))
+    return tuple(total([(1, part) for part in components]) for components in zip(*vectors, strict=True))
 
 
 def minus(a: Vec, b: Vec) -> Vec:
@@ -111,10 +111,10 @@ def apply(matrix: Matrix, a: Vec) -> Vec:
     return tuple(dot(row, a) for row in matrix)
 
 
-def product(left: Matrix, right: Matrix) -> Matrix:
+def product(first: Matrix, second: Matrix) -> Matrix:
     """Return the product of two matrices."""
-    columns = tuple(zip(*right, strict=True))
-    return tuple(tuple(dot(row, column) for column in columns) for row in left)
+    columns = tuple(zip(*second, strict=True))
+    return tuple(tuple(dot(row, column) for column in columns) for row in first)
 
 
 def transposed(matrix: Matrix) -> Matrix:
@@ -142,7 +142,7 @@ def across(n: Vec, pivot: int) -> tuple[Vec, ...]:
     spanning = []
     for i in range(len(n)):
         if i != pivot:
-            parts = [ZERO] * len(n)
-            parts[i], parts[pivot] = n[pivot], mul(MINUS_ONE, n[i])
-            spanning.append(tuple(parts))
+            vector = [ZERO] * len(n)
+            vector[i], vector[pivot] = n[pivot], mul(MINUS_ONE, n[i])
+            spanning.append(tuple(vector))
     return tuple(spanning)

@@ -57,11 +57,11 @@ class AssignmentError(DofkitError):
 
 def _attempts(value: object) -> object:
     """A number of attempts, 1 or more; without it they are unlimited."""
-    found = exact(value)
-    if found.denominator != 1 or found < 1:
+    attempts = exact(value)
+    if attempts.denominator != 1 or attempts < 1:
         hint = "omit it if attempts are unlimited"
         raise fault_error(f"attempts are a whole number, 1 or more, not {value}", hint)
-    return int(found)
+    return int(attempts)
 
 
 class Assignment(WrittenModel):
@@ -94,8 +94,8 @@ class Assignment(WrittenModel):
     )
 
     @property
-    def shown(self) -> Visibility:
-        """When students see what their answers are worth."""
+    def points_visibility(self) -> Visibility:
+        """Return when students see their points."""
         return self.visibility or ("after_due_date" if self.attempts is None else "visible")
 
 
@@ -131,7 +131,7 @@ class Prepared:
                 yield problem, question
 
     def most_points(self) -> dict[tuple[str, str], Fraction]:
-        """How many points each question is worth."""
+        """Return how many points each question is worth."""
         return {(problem.id, question.id): question.points for problem, question in self.questions()}
 
     def columns(self) -> dict[str, tuple[str, str]]:
@@ -172,18 +172,18 @@ def load_assignment(source: str | os.PathLike[str] | Mapping[str, Any], base: Pa
         return _prepared(source, base or Path(), None)
     if not isinstance(source, str | os.PathLike):
         raise ArgumentError(f"an assignment is given as a path or a mapping, not {description_of(source)}")
-    shown = os.fspath(source)
+    path = os.fspath(source)
     try:
-        found = find(shown)
+        file = find(path)
     except SceneError as error:
-        raise AssignmentError(tuple(_as_file(f) for f in error.faults), shown) from None
-    document = read_document(found.data, found.name)
+        raise AssignmentError(tuple(_as_file(f) for f in error.faults), path) from None
+    document = read_document(file.data, file.name)
     if document.faults or not isinstance(document.value, dict):
         hint = "begin with 'title:' and 'problems:'"
         faults = document.faults or (Fault("an assignment is a mapping of keys to values", hint=hint),)
         faults = tuple(replace(f, hint=hint) if "file is empty" in f.message else f for f in faults)
-        raise AssignmentError(faults, shown)
-    return _prepared(document.value, Path(shown).parent, document)
+        raise AssignmentError(faults, path)
+    return _prepared(document.value, Path(path).parent, document)
 
 
 def _as_file(fault: Fault) -> Fault:
@@ -241,8 +241,8 @@ def _variants(problem: Problem, base: Path, faults: list[Fault], i: int) -> Iter
 
 def _written_scene(source: str, base: Path) -> object:
     """Return what the file of a scene, or of one in the catalog, says."""
-    found = find(base / source if (base / source).is_file() else source)
-    return read_document(found.data, found.name).value
+    file = find(base / source if (base / source).is_file() else source)
+    return read_document(file.data, file.name).value
 
 
 def _of_variant(fault: Fault, problem: Problem, pick: Pick) -> Fault:

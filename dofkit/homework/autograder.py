@@ -33,7 +33,7 @@ from dofkit.homework.judgement import needs_review
 from dofkit.homework.result import Item, Result
 from dofkit.homework.runs.batch import MODULES, Keeper, Orders
 from dofkit.homework.sentences import Language
-from dofkit.homework.variants import NobodysVariantError, own
+from dofkit.homework.variants import NobodysVariantError, sheet_of
 
 #: A longer file of a platform is not read.
 MOST_BYTES = 8_000_000
@@ -62,33 +62,33 @@ class Site:
 def _gradescope_users(root: Path) -> list[Participant]:
     """Those who handed in, called by their addresses, or by their names."""
     users = _object(_json(root / "submission_metadata.json")).get("users")
-    known = [_object(user) for user in users] if isinstance(users, list) else []
-    found = [[clean(str(user.get(key) or "")) for key in ("email", "name", "sid", "id")] for user in known]
+    persons = [_object(user) for user in users] if isinstance(users, list) else []
+    identities = [[clean(str(user.get(key) or "")) for key in ("email", "name", "sid", "id")] for user in persons]
     return [
-        Participant(email or name or own, name=name, email=email, number=sid, other=own)
-        for email, name, sid, own in found
-        if email or name or own
+        Participant(email or name or other_id, name=name, email=email, number=sid, other=other_id)
+        for email, name, sid, other_id in identities
+        if email or name or other_id
     ]
 
 
 def _gradescope_visibility(prepared: Prepared | None, root: Path) -> Visibility:
-    """When points are shown; never is no answer: without a due date that is when grades are published."""
-    shown = gradescope.visibility_of(prepared)
+    """Return when points are shown: without a due date when grades are published."""
+    visibility = gradescope.visibility_of(prepared)
     dates = _object(_object(_json(root / "submission_metadata.json")).get("assignment"))
     endless = "due_date" in dates and not (dates["due_date"] or dates.get("late_due_date"))
-    return "after_published" if shown == "after_due_date" and endless else shown
+    return "after_published" if visibility == "after_due_date" and endless else visibility
 
 
 def _prairielearn_form(root: Path, prepared: Prepared) -> Handed | None:
     """The answers that were typed into a question, in inputs named ``PROBLEM.QUESTION``, or with ``_`` or ``-``."""
-    given = _object(_json(root / "data" / "data.json")).get("submitted_answers")
-    if not isinstance(given, dict):
+    submitted = _object(_json(root / "data" / "data.json")).get("submitted_answers")
+    if not isinstance(submitted, dict):
         return None
     answers: dict[str, dict[str, Any]] = {}
     for problem, question in prepared.columns().values():
-        name = next((name for sign in ".-_" if (name := f"{problem}{sign}{question}") in given), None)
+        name = next((name for sign in ".-_" if (name := f"{problem}{sign}{question}") in submitted), None)
         if name is not None:
-            value = given[name]
+            value = submitted[name]
             symbolic = isinstance(value, dict) and value.get("_type") == "sympy"
             answers.setdefault(problem, {})[question] = value.get("_value") if symbolic else value
     return Handed("student", FilePlace("data.json"), {"answers": answers})
@@ -116,10 +116,10 @@ SITES: dict[str, Site] = {
 
 def undecided(prepared: Prepared, student: str, reason: str) -> Result:
     """The result in which every answer needs a review."""
-    found = needs_review("", reason)
+    review = needs_review("", reason)
     items = [
         Item(problem=problem.id, question=question.id, score=None, max_score=float(question.points),
-             status=found.status, codes=[], read_as="", feedback=found.feedback(prepared.assignment.language))
+             status=review.status, codes=[], read_as="", feedback=review.feedback(prepared.assignment.language))
         for problem, question in prepared.questions()
     ]  # fmt: skip
     most = sum(item.max_score for item in items)
@@ -137,12 +137,14 @@ def grade_at(site: Site, assignment: Path, memory: int, reviewed: Path | None = 
     prepared = _prepared(site, assignment, student, reviewed)
     _write(site, undecided(prepared, student, "grading was interrupted."), prepared)
     try:
-        prepared = own(prepared, [name for user in users for name in (user.student, *user.called())])
-        one = _only_hand_in(site, prepared)
+        prepared = sheet_of(prepared, [name for user in users for name in (user.student, *user.called())])
+        handed = _only_hand_in(site, prepared)
     except NobodysVariantError as error:
-        one = Result(student=student, score=None, max_score=Orders.of(prepared).max_score, items=[], error=str(error))
-    result = one if isinstance(one, Result) else _result(one, prepared, site.seconds, memory, student)
-    named = isinstance(one, Handed) and result.student not in ("", student, *one.claims)
+        handed = Result(
+            student=student, score=None, max_score=Orders.of(prepared).max_score, items=[], error=str(error)
+        )
+    result = handed if isinstance(handed, Result) else _result(handed, prepared, site.seconds, memory, student)
+    named = isinstance(handed, Handed) and result.student not in ("", student, *handed.claims)
     doubt = doubt_of_platform(users, result.student) if named else None
     result = result.model_copy(update={"student": student, "doubt": doubt})
     _write(site, result, prepared)
@@ -150,10 +152,10 @@ def grade_at(site: Site, assignment: Path, memory: int, reviewed: Path | None = 
 
 
 def _prepared(site: Site, assignment: Path, student: str, reviewed: Path | None) -> Prepared:
-    beside = assignment.with_name(TABLE)
+    review_table = assignment.with_name(TABLE)
     try:
         prepared = load_assignment(assignment)
-        table = reviewed or (beside if beside.is_file() else None)
+        table = reviewed or (review_table if review_table.is_file() else None)
         return RunReview.read(prepared, table, None).applied(prepared)
     except (DofkitError, OSError):
         _write(site, Result(student=student, score=None, max_score=0.0, items=[], error=BROKEN), None)
@@ -171,12 +173,14 @@ def _only_hand_in(site: Site, prepared: Prepared) -> Handed | Result:
     if not chosen and (typed := site.form(site.root, prepared)) is not None:
         return typed
     if len(chosen) == 1:
-        known = prepared.columns()
-        shown = str(chosen[0].relative_to(folder))
-        found = [replace(one, place=replace(one.place, file=shown)) for one in hand_ins([str(chosen[0])], known)]
-        if len(found) == 1:
-            return found[0]
-        why = f"{chosen[0].name} contains {len(found)} submissions, not one"
+        asked = prepared.columns()
+        relative = str(chosen[0].relative_to(folder))
+        submissions = [
+            replace(handed, place=replace(handed.place, file=relative)) for handed in hand_ins([str(chosen[0])], asked)
+        ]
+        if len(submissions) == 1:
+            return submissions[0]
+        why = f"{chosen[0].name} contains {len(submissions)} submissions, not one"
     elif chosen:
         names = ", ".join(str(path.relative_to(folder)) for path in chosen)
         why = f"there is more than one file: {names}; name one of them answers.yaml"
@@ -186,14 +190,14 @@ def _only_hand_in(site: Site, prepared: Prepared) -> Handed | Result:
 
 
 def _is_hand_in(path: Path, folder: Path) -> bool:
-    """Is it a file that was handed in, in whatever folder? Links are not followed, hidden files are nobody's."""
-    parts = path.relative_to(folder).parts
-    around = [folder.joinpath(*parts[:n]) for n in range(1, len(parts) + 1)]
-    hidden = any(part.startswith(".") or part == "__MACOSX" for part in parts)
+    """Return whether it is a submitted file, in whatever folder; links and hidden files are none."""
+    names = path.relative_to(folder).parts
+    around = [folder.joinpath(*names[:n]) for n in range(1, len(names) + 1)]
+    hidden = any(part.startswith(".") or part == "__MACOSX" for part in names)
     return not hidden and path.is_file() and not any(place.is_symlink() for place in around)
 
 
-def _result(one: Handed, prepared: Prepared, seconds: float, memory: int, student: str) -> Result:
+def _result(handed: Handed, prepared: Prepared, seconds: float, memory: int, student: str) -> Result:
     """The result of what was handed in; each answer has its share of the time."""
     count = sum(1 for _ in prepared.questions())
     orders = Orders.of(prepared)
@@ -204,13 +208,13 @@ def _result(one: Handed, prepared: Prepared, seconds: float, memory: int, studen
         watch = threading.Timer(seconds, pool.close)
         watch.start()
         try:
-            lines = Keeper(orders, pool).grade(one)
+            lines = Keeper(orders, pool).grade(handed)
         except StoppedError:
             return undecided(prepared, student, TOO_LONG)
         finally:
             watch.cancel()
     if len(lines) != 1:
-        why = f"{one.place}: it contains {len(lines)} submissions, not one"
+        why = f"{handed.place}: it contains {len(lines)} submissions, not one"
         return Result(student="", score=None, max_score=orders.max_score, items=[], error=why)
     return Result.model_validate_json(lines[0])
 
@@ -219,13 +223,13 @@ def _write(site: Site, result: Result, prepared: Prepared | None) -> None:
     """Write the result whole: it never stands there in part."""
     path = site.root / site.results
     path.parent.mkdir(parents=True, exist_ok=True)
-    beside = path.with_name(f".{path.name}.new")
-    beside.write_text(text(site.document(result, prepared, site.root)), encoding="ascii")
-    os.replace(beside, path)
+    temporary = path.with_name(f".{path.name}.new")
+    temporary.write_text(text(site.document(result, prepared, site.root)), encoding="ascii")
+    os.replace(temporary, path)
 
 
 def _json(path: Path) -> Any:
-    """What a platform's file says; None where it cannot be read."""
+    """Return the content of a platform's file, or None if it cannot be read."""
     try:
         with path.open("rb") as file:
             return json.loads(file.read(MOST_BYTES))
@@ -246,11 +250,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--seconds", type=float, help="for the whole submission")
     parser.add_argument("--reviewed", type=Path, metavar="CSV", help="points of a person, else review.csv beside it")
     parser.add_argument("--memory", type=int, default=2048, metavar="MB", help="address space for judging answers")
-    given = parser.parse_args(arguments)
-    site = SITES[given.site]
-    site = replace(site, root=given.root or site.root, seconds=given.seconds or site.seconds)
+    options = parser.parse_args(arguments)
+    site = SITES[options.site]
+    site = replace(site, root=options.root or site.root, seconds=options.seconds or site.seconds)
     try:
-        result = grade_at(site, given.assignment, given.memory << 20, given.reviewed)
+        result = grade_at(site, options.assignment, options.memory << 20, options.reviewed)
     except (DofkitError, OSError) as error:
         print(f"no result: {error}", file=sys.stderr)
         return 2

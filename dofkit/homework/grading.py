@@ -39,7 +39,7 @@ from dofkit.homework.questions import QuestionBase
 from dofkit.homework.result import Item, PossibleReading, Result
 from dofkit.homework.review import Decision, answer_id, read_table
 from dofkit.homework.sentences import Said, in_language, say
-from dofkit.homework.variants import NobodysVariantError, own
+from dofkit.homework.variants import NobodysVariantError, sheet_of
 from dofkit.report import ReportModel
 
 #: Seconds of processor time for one answer; what is not decided then needs a review.
@@ -95,7 +95,7 @@ class Grader:
             return self.refused(submission.student, submission.error)
         if self.prepared.assignment.variants is not None:
             try:
-                sheet = own(self.prepared, submission.student)
+                sheet = sheet_of(self.prepared, submission.student)
             except NobodysVariantError as error:
                 return self.refused(submission.student, str(error))
             grader = self._variants.setdefault(sheet.variant, Grader(sheet, self.seconds))
@@ -118,11 +118,11 @@ class Grader:
             student=student, score=float(score), max_score=float(self.max_score), items=items, needs_review=review
         )
 
-    def _problem(self, problem: Problem, given: Mapping[str, Given]) -> Generator[Spot, None, list[Item]]:
+    def _problem(self, problem: Problem, answers: Mapping[str, Given]) -> Generator[Spot, None, list[Item]]:
         earlier: dict[str, Fraction] = {}
         items: list[Item] = []
         for question in problem.questions:
-            answer = given.get(question.id)
+            answer = answers.get(question.id)
             if answer is None or says_nothing(answer):
                 items.append(self._item(problem, question, _MISSING))
                 continue
@@ -135,14 +135,14 @@ class Grader:
             spot = _spot(problem, question, answer, earlier) + self.prepared.marks.get((problem.id, question.id), "")
             if spot not in self._known and spot not in self.condemned:
                 yield spot
-            found, number = self.judge(spot, problem, question, answer, earlier)
-            items.append(self._item(problem, question, found, answer))
+            judgement, number = self.judge(spot, problem, question, answer, earlier)
+            items.append(self._item(problem, question, judgement, answer))
             if number is not None:
                 earlier.setdefault(question.kind(), number)
         return items
 
     def _decision(self, problem: Problem, question: QuestionBase, answer: Given) -> Decision | None:
-        """What a person decided of this answer, whoever gave it."""
+        """Return what a person decided about this answer, whoever gave it."""
         if not self.prepared.decisions:
             return None
         variant = self.prepared.marks.get((problem.id, question.id), "")
@@ -151,22 +151,22 @@ class Grader:
     def _decided(self, problem: Problem, question: QuestionBase, decision: Decision, answer: Given) -> Item:
         """An answer with the points that a person gave it."""
         share = decision.points / question.points if question.points else FULL
-        found = partly(share, "", decision.remark or "A person has reviewed this answer.")
-        item = self._item(problem, question, found, answer)
+        judgement = partly(share, "", decision.remark or "A person has reviewed this answer.")
+        item = self._item(problem, question, judgement, answer)
         return item.model_copy(update={"score": float(decision.points), "decided_by": decision.by})
 
     def judge(
         self, spot: Spot, problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]
     ) -> tuple[Judgement, Fraction | None]:
-        """What an answer is worth, and the number that it gives; after the same earlier ones always the same."""
+        """Return what an answer is worth, and its number; after the same earlier answers always the same."""
         if spot in self.condemned:
             return needs_review("", self.condemned[spot]), None
-        found = self._known.get(spot)
-        if found is None:
-            found = self._judgement(problem, question, answer, earlier), _number(question, answer)
+        remembered = self._known.get(spot)
+        if remembered is None:
+            remembered = self._judgement(problem, question, answer, earlier), _number(question, answer)
             if len(self._known) < MOST_REMEMBERED and len(spot) < LONGEST_REMEMBERED:
-                self._known[spot] = found
-        return found
+                self._known[spot] = remembered
+        return remembered
 
     def _judgement(
         self, problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]
@@ -174,10 +174,10 @@ class Grader:
         key = self.prepared.keys[problem.id]
         try:
             with by_processor(self.seconds), ctx.workprec(PRECISION):
-                found = self._read(question, answer, key, earlier)
-            if self.prepared.assignment.feedback == "full" and found.status in ("wrong", "partly"):
-                return found.saying(question.solution(key))
-            return found
+                judgement = self._read(question, answer, key, earlier)
+            if self.prepared.assignment.feedback == "full" and judgement.status in ("wrong", "partly"):
+                return judgement.saying(question.solution(key))
+            return judgement
         except OutOfTimeError:
             return needs_review("", "the time limit was reached.")
         except MemoryError:
@@ -193,36 +193,40 @@ class Grader:
             return replace(needs_review("", error.message), certain=False)
         except TextError as error:
             return self._unread(error, question, answer, key)
-        shown, certain = shown_text_of(readings), all(one.certain for one in readings)
+        understood, certain = shown_text_of(readings), all(way.certain for way in readings)
         try:
-            found = verdict(readings, lambda reading: question.judged(reading, key, earlier))
+            judgement = verdict(readings, lambda reading: question.judged(reading, key, earlier))
         except DoubtError as error:
-            found = needs_review(shown, error.message)
+            judgement = needs_review(understood, error.message)
         except TextError as error:  # no scene can hold what it says
             return self._unread(error, question, answer, key)
-        several = len({one.shown for one in readings}) > 1
-        return replace(found, read_as=shown, certain=certain and not several)
+        several = len({way.text for way in readings}) > 1
+        return replace(judgement, read_as=understood, certain=certain and not several)
 
     def _unread(self, error: TextError, question: QuestionBase, answer: Given, key: Key) -> Judgement:
         """Return that an answer could not be read, and where."""
-        found = unreadable(in_whole(answer, error, lambda part: question.read(part, key.declared)))
-        return found if self.prepared.assignment.unreadable == "review" else replace(found, share=NOTHING)
+        judgement = unreadable(in_whole(answer, error, lambda part: question.read(part, key.declared)))
+        return judgement if self.prepared.assignment.unreadable == "review" else replace(judgement, share=NOTHING)
 
-    def _item(self, problem: Problem, question: QuestionBase, found: Judgement, answer: Given | None = None) -> Item:
+    def _item(
+        self, problem: Problem, question: QuestionBase, judgement: Judgement, answer: Given | None = None
+    ) -> Item:
         return Item(
             problem=problem.id,
             question=question.id,
-            score=_points(found.share, question),
+            score=_points(judgement.share, question),
             max_score=float(question.points),
-            status=found.status,
-            codes=list(found.codes),
-            read_as=found.read_as,
-            feedback=found.feedback(self.prepared.assignment.language),
-            column=found.column,
+            status=judgement.status,
+            codes=list(judgement.codes),
+            read_as=judgement.read_as,
+            feedback=judgement.feedback(self.prepared.assignment.language),
+            column=judgement.column,
             answer=None if answer is None else shown_text(answer),
             variant=self.prepared.marks.get((problem.id, question.id)),
-            certain=found.certain,
-            readings=[PossibleReading(read_as=way.read_as, score=_points(way.share, question)) for way in found.ways],
+            certain=judgement.certain,
+            readings=[
+                PossibleReading(read_as=way.read_as, score=_points(way.share, question)) for way in judgement.ways
+            ],
         )
 
 
@@ -261,12 +265,12 @@ def unasked(prepared: Prepared, submission: Submission) -> Iterator[Item]:
         if question not in asked.get(problem, ())
     )
     for problem_id, question_id in islice(places, MOST_UNASKED):
-        known = asked.get(problem_id)
-        word, names = (problem_id, [*asked]) if known is None else (question_id, known)
-        what = "problem" if known is None else "question"
+        asked_there = asked.get(problem_id)
+        word, names = (problem_id, [*asked]) if asked_there is None else (question_id, asked_there)
+        what = "problem" if asked_there is None else "question"
         near = nearest(word, names)
         hint = f"did you mean '{near}'?" if near else f"the {what}s are {', '.join(names[:12])}"
-        sentence = _NO_PROBLEM if known is None else _NO_QUESTION
+        sentence = _NO_PROBLEM if asked_there is None else _NO_QUESTION
         yield Item(
             problem=problem_id[:LONGEST_NAME], question=question_id[:LONGEST_NAME], score=0.0, max_score=0.0,
             status="unreadable", codes=[], read_as="",
@@ -309,8 +313,8 @@ def grade(assignment: Any, submission: Any, reviewed: str | os.PathLike[str] | N
     if reviewed is not None:
         decided = read_table(Path(reviewed), prepared.most_points()).decisions
         prepared = replace(prepared, decisions={**prepared.decisions, **decided})
-    given = submission if isinstance(submission, Submission) else read_submission(submission, prepared.columns())
-    return Grader(prepared).grade(given)
+    handed = submission if isinstance(submission, Submission) else read_submission(submission, prepared.columns())
+    return Grader(prepared).grade(handed)
 
 
 class EchoedAnswer(ReportModel):
@@ -338,7 +342,7 @@ def echo(prepared: Prepared, submission: Submission) -> Echo:
     if submission.error is not None:
         return Echo(student=submission.student, items=[], error=submission.error)
     try:
-        prepared = own(prepared, submission.student)
+        prepared = sheet_of(prepared, submission.student)
     except NobodysVariantError as error:
         return Echo(student=submission.student, items=[], error=str(error))
     items = [
@@ -348,8 +352,8 @@ def echo(prepared: Prepared, submission: Submission) -> Echo:
         for problem, question in prepared.questions()
     ]
     for item in unasked(prepared, submission):
-        told = {"status": "unreadable", "read_as": "", "feedback": item.feedback}
-        items.append(EchoedAnswer.model_validate({"problem": item.problem, "question": item.question, **told}))
+        fields = {"status": "unreadable", "read_as": "", "feedback": item.feedback}
+        items.append(EchoedAnswer.model_validate({"problem": item.problem, "question": item.question, **fields}))
     return Echo(student=submission.student, items=items)
 
 
@@ -358,14 +362,14 @@ def _echoed(problem: str, question: QuestionBase, key: Key, answer: Given | None
         return EchoedAnswer(problem=problem, question=question.id, status="missing", read_as="")
     try:
         with by_processor(ANSWER_SECONDS):
-            shown = question.read(answer, key.declared)
+            understood = question.read(answer, key.declared)
     except MemoryError:
         raise
     except Exception as error:
-        found = error if isinstance(error, TextError) else TextError(f"it could not be read ({type(error).__name__})")
-        hint = f" ({found.hint})" if found.hint else ""
+        failure = error if isinstance(error, TextError) else TextError(f"it could not be read ({type(error).__name__})")
+        hint = f" ({failure.hint})" if failure.hint else ""
         return EchoedAnswer(
             problem=problem, question=question.id, status="unreadable", read_as="",
-            feedback=f"{found.message}{hint}", column=found.column or 1,
+            feedback=f"{failure.message}{hint}", column=failure.column or 1,
         )  # fmt: skip
-    return EchoedAnswer(problem=problem, question=question.id, status="read", read_as=shown)
+    return EchoedAnswer(problem=problem, question=question.id, status="read", read_as=understood)

@@ -34,12 +34,12 @@ class JudgedReading(NamedTuple):
 class Reading(NamedTuple):
     """One way to understand an answer, by its text, the question's kind and the declared names alone.
 
-    ``value``: what the question judges; ``shown``: the same in words or in the grammar of scenes. ``rank``: 0 for a
+    ``value``: what the question judges; ``text``: the same in words or in the grammar of scenes. ``rank``: 0 for a
     plain reading, larger for one that supposes more. ``certain``: False if it has names that nobody declared.
     """
 
     value: Any
-    shown: str
+    text: str
     rank: int = 0
     certain: bool = True
 
@@ -66,12 +66,12 @@ class Judgement:
         return replace(self, said=(*self.said, *_said(*sentences)))
 
     def feedback(self, language: Language = "en") -> str:
-        """What is said, in a language."""
-        return " ".join(one.told(language) for one in self.said)
+        """Return the feedback in a language."""
+        return " ".join(sentence.translated(language) for sentence in self.said)
 
 
 def _said(*sentences: Sentence) -> tuple[Said, ...]:
-    return tuple(Said(one) if isinstance(one, str) else one for one in sentences if one)
+    return tuple(Said(sentence) if isinstance(sentence, str) else sentence for sentence in sentences if sentence)
 
 
 def right(read_as: str, *feedback: Sentence) -> Judgement:
@@ -94,15 +94,15 @@ def partly(share: Fraction, read_as: str, feedback: Sentence = "", *codes: str) 
 def needs_review(read_as: str, reason: Sentence) -> Judgement:
     """Not decided: a person has to look."""
     (why,) = _said(reason)
-    told = (Said("A person will review this answer:"), why)
-    return Judgement("needs_review", None, read_as, (), told)
+    sentences = (Said("A person will review this answer:"), why)
+    return Judgement("needs_review", None, read_as, (), sentences)
 
 
 def unreadable(error: TextError) -> Judgement:
     """Return what could not be read, and where: open until a person decides."""
     said = say("{fault} ({hint})", fault=error.message, hint=error.hint) if error.hint else None
-    told = say("{fault}", fault=error.message) if said is None else said
-    return Judgement("unreadable", None, "", (), (told,), error.column or 1)
+    sentence = say("{fault}", fault=error.message) if said is None else said
+    return Judgement("unreadable", None, "", (), (sentence,), error.column or 1)
 
 
 def verdict(readings: Sequence[Reading], judge: Callable[[Reading], Judgement]) -> Judgement:
@@ -114,31 +114,31 @@ def verdict(readings: Sequence[Reading], judge: Callable[[Reading], Judgement]) 
     """
     judged: list[tuple[int, Judgement]] = []
     failure: TextError | None = None
-    for reading in sorted(readings, key=lambda one: one.rank):
+    for reading in sorted(readings, key=lambda candidate: candidate.rank):
         try:
-            found = judge(reading)
+            judgement = judge(reading)
         except TextError as error:
             failure = failure or error
             continue
-        judged.append((reading.rank, found if found.read_as else replace(found, read_as=reading.shown)))
-        if reading.rank > judged[0][0] and found.share != judged[0][1].share:
+        judged.append((reading.rank, judgement if judgement.read_as else replace(judgement, read_as=reading.text)))
+        if reading.rank > judged[0][0] and judgement.share != judged[0][1].share:
             break
     if not judged:
         raise failure or TextError("there is nothing to judge", 1)
     first = judged[0][1]
-    plausible = [found for rank, found in judged if rank == judged[0][0]]
-    shown = " or ".join(dict.fromkeys(one.read_as for one in plausible))
-    same = all((one.status, one.share) == (first.status, first.share) for one in plausible)
-    if same and (first.status == "right" or all(found.share == first.share for _, found in judged)):
-        return replace(first, read_as=shown)
-    full = [one for one in plausible if one.status == "right"]
-    if full and all(one.share in (FULL, None) for one in plausible):
-        return replace(full[0], read_as=shown)
-    ways = tuple(dict.fromkeys(JudgedReading(found.read_as, found.share) for _, found in judged))
-    return replace(needs_review(shown, "it can be read in more than one way."), ways=ways)
+    plausible = [judgement for rank, judgement in judged if rank == judged[0][0]]
+    text = " or ".join(dict.fromkeys(candidate.read_as for candidate in plausible))
+    same = all((candidate.status, candidate.share) == (first.status, first.share) for candidate in plausible)
+    if same and (first.status == "right" or all(judgement.share == first.share for _, judgement in judged)):
+        return replace(first, read_as=text)
+    full = [candidate for candidate in plausible if candidate.status == "right"]
+    if full and all(candidate.share in (FULL, None) for candidate in plausible):
+        return replace(full[0], read_as=text)
+    ways = tuple(dict.fromkeys(JudgedReading(judgement.read_as, judgement.share) for _, judgement in judged))
+    return replace(needs_review(text, "it can be read in more than one way."), ways=ways)
 
 
 def shown_text_of(readings: Sequence[Reading]) -> str:
     """Return how an answer is understood: its plainest readings, with "or" between them."""
-    least = min((one.rank for one in readings), default=0)
-    return " or ".join(dict.fromkeys(one.shown for one in readings if one.rank == least))
+    least = min((reading.rank for reading in readings), default=0)
+    return " or ".join(dict.fromkeys(reading.text for reading in readings if reading.rank == least))

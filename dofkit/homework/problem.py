@@ -71,12 +71,12 @@ def combinations_of(vary: Mapping[str, Sequence[Any]]) -> list[Pick]:
 
 def pick_text(vary: Mapping[str, Sequence[Any]], pick: Pick) -> str:
     """Return a combination in words, as `n = 3, support = driven`."""
-    parts = []
+    texts = []
     for name, options in vary.items():
         value = options[pick.get(name, 0)]
-        shown = next(iter(value.values()), "") if isinstance(value, Mapping) else value
-        parts.append(f"{name} = {shown if isinstance(shown, str) else as_written(shown)}")
-    return ", ".join(parts)
+        label = next(iter(value.values()), "") if isinstance(value, Mapping) else value
+        texts.append(f"{name} = {label if isinstance(label, str) else as_written(label)}")
+    return ", ".join(texts)
 
 
 def with_values(value: Any, vary: Mapping[str, Sequence[Any]], pick: Pick) -> Any:
@@ -85,7 +85,7 @@ def with_values(value: Any, vary: Mapping[str, Sequence[Any]], pick: Pick) -> An
     for name, options in vary.items():
         option = options[pick[name]]
         table |= (
-            {f"{name}.{key}": one for key, one in option.items()} if isinstance(option, Mapping) else {name: option}
+            {f"{name}.{key}": part for key, part in option.items()} if isinstance(option, Mapping) else {name: option}
         )
     return _with_values(value, table)
 
@@ -111,7 +111,7 @@ def _aliases(value: object) -> object:
     """One other name needs no list."""
     if not isinstance(value, Mapping):
         return {} if value is None else value
-    return {name: (given,) if isinstance(given, str) else given for name, given in value.items()}
+    return {name: (aliases,) if isinstance(aliases, str) else aliases for name, aliases in value.items()}
 
 
 class Problem(WrittenModel):
@@ -166,9 +166,13 @@ class Variants(WrittenModel):
     students: tuple[StudentVariant, ...] = Field((), description="the students")
 
     def find(self, text: str) -> StudentVariant | None:
-        """Whose name, address or number it is; None for nobody's, and for that of two."""
-        found = [one for one in self.students if plain_name(text) in map(plain_name, (one.student, *one.known_as))]
-        return found[0] if len(found) == 1 else None
+        """Return whose name, address or number it is; None for nobody's, and for that of two."""
+        matches = [
+            member
+            for member in self.students
+            if plain_name(text) in map(plain_name, (member.student, *member.known_as))
+        ]
+        return matches[0] if len(matches) == 1 else None
 
 
 def plain_name(text: str) -> str:
@@ -211,7 +215,7 @@ def named(scene: Scene) -> dict[str, ConstraintBase]:
 
 
 def places(text: str) -> list[tuple[str, str | None]]:
-    """What a text leaves to the scene: a name, and a field of it."""
+    """Return the places of a text that the scene fills: a name, and a field of it."""
     return [(match[1], match[2]) for match in _SCENE_PLACE.finditer(text)]
 
 
@@ -222,30 +226,41 @@ def filled(text: str, scene: Scene, hidden: Collection[str] = (), language: Lang
     """
 
     def place(match: re.Match[str]) -> str:
-        told = _told(match[1], match[2], scene, hidden, language) or match[0]
-        return f"\n\n{told}\n\n" if (match[1], match[2]) == (ALL, None) else told  # a list begins on its own line
+        replacement = _replacement(match[1], match[2], scene, hidden, language) or match[0]
+        return (
+            f"\n\n{replacement}\n\n" if (match[1], match[2]) == (ALL, None) else replacement
+        )  # a list begins on its own line
 
     return _SCENE_PLACE.sub(place, text)
 
 
-def _told(
+def _replacement(
     name: str, field: str | None, scene: Scene, hidden: Collection[str] = (), language: Language = "en"
 ) -> str | None:
     constraints = named(scene)
     secret = {each for each in hidden if each in constraints and constraints[each].facts.written}
     if name == ALL and field is None:
-        listed = [(each, "" if each in secret else f": {shown(one, language)}") for each, one in constraints.items()]
-        return "\n".join(f"- `{each}`{told}" for each, told in listed)
+        listed = [
+            (each, "" if each in secret else f": {constraint_text(constraint, language)}")
+            for each, constraint in constraints.items()
+        ]
+        return "\n".join(f"- `{each}`{suffix}" for each, suffix in listed)
     if name in secret:
         return f"`{name}`"
     if name in constraints and field is None:
-        return shown(constraints[name], language)
+        return constraint_text(constraints[name], language)
     if field is not None:
         value = getattr(constraints.get(name), field, None)
         return None if value is None else _value(value)
     table = coordinate_table(scene)
-    known = {*scene.parameters, *scene.functions, *table.particles, *table.bodies, *(c.name for c in table.coordinates)}
-    return f"${name}$" if name in known else None
+    symbols = {
+        *scene.parameters,
+        *scene.functions,
+        *table.particles,
+        *table.bodies,
+        *(c.name for c in table.coordinates),
+    }
+    return f"${name}$" if name in symbols else None
 
 
 def _value(value: Any) -> str:
@@ -257,7 +272,7 @@ def _value(value: Any) -> str:
     return f"${as_written(value)}$" if not isinstance(value, str) or typeset(value) else f"`{value}`"
 
 
-def shown(constraint: ConstraintBase, language: Language = "en") -> str:
+def constraint_text(constraint: ConstraintBase, language: Language = "en") -> str:
     """A constraint as a sheet tells it: its equations as formulas, else its words."""
     texts = list(constraint.texts()) if constraint.facts.written and not constraint.facts.lettered else []
     if texts and all(typeset(text) for text in texts):
@@ -276,9 +291,9 @@ def marked(text: str) -> str:
 
 def faults_of_places(text: str, scene: Scene) -> Iterator[Fault]:
     """Places that stand for nothing in the scene."""
-    known = [ALL, *named(scene), *scene.parameters, *scene.functions]
-    known += [*coordinate_table(scene).particles, *coordinate_table(scene).bodies]
+    names = [ALL, *named(scene), *scene.parameters, *scene.functions]
+    names += [*coordinate_table(scene).particles, *coordinate_table(scene).bodies]
     for name, field in places(text):
-        if _told(name, field, scene) is None:
+        if _replacement(name, field, scene) is None:
             what = name if field is None else f"{name}.{field}"
-            yield Fault(f"[[{what}]] is not a name in the scene", (), hint=suggestion(name, known, "names"))
+            yield Fault(f"[[{what}]] is not a name in the scene", (), hint=suggestion(name, names, "names"))

@@ -57,7 +57,7 @@ class ReviewRow:
 
     @property
     def filled(self) -> bool:
-        """Has a person written anything into it?"""
+        """Return whether a person has written anything into it."""
         return self.decision is not None or bool(self.cells.get("remark"))
 
 
@@ -92,14 +92,14 @@ def mark_of(identity: str) -> str | None:
     >>> mark_of(answer_id("p", "f", "1")) == question_mark("p", "f"), mark_of("bcdfg-bcdfghjkmn-x")
     (True, None)
     """
-    found = _SHAPE.fullmatch(identity)
-    if found is None or _letters(1, f"{found[1]}-{found[2]}") != found[3]:
+    match = _SHAPE.fullmatch(identity)
+    if match is None or _letters(1, f"{match[1]}-{match[2]}") != match[3]:
         return None
-    return found[1]
+    return match[1]
 
 
-def _letters(count: int, *parts: str) -> str:
-    data = "\0".join(parts).encode("utf-8", "surrogatepass")
+def _letters(count: int, *texts: str) -> str:
+    data = "\0".join(texts).encode("utf-8", "surrogatepass")
     number = int.from_bytes(hashlib.blake2b(data, digest_size=16).digest(), "big")
     return "".join(_LETTERS[number // len(_LETTERS) ** i % len(_LETTERS)] for i in range(count))
 
@@ -119,7 +119,7 @@ class QueuedAnswer:
 
     @property
     def open(self) -> bool:
-        """Does it wait for a person?"""
+        """Return whether it awaits review."""
         return self.item.score is None
 
     def add(self, student: str, link: str) -> None:
@@ -145,7 +145,7 @@ class Queue:
                 queued.add(result.student, link)
 
     def open_answers(self) -> list[QueuedAnswer]:
-        """What waits for a person: by question, what most students gave first."""
+        """Return the answers that await review: by question, those of most students first."""
         return sorted(
             (queued for queued in self.answers.values() if queued.open),
             key=lambda queued: (self._order.get((queued.item.problem, queued.item.question), -1), -queued.count),
@@ -222,7 +222,7 @@ class FilledTable:
 
     @property
     def decisions(self) -> dict[str, Decision]:
-        """What a person decided, by the answer's identity."""
+        """Return what a person decided, by the answer's identity."""
         return {identity: row.decision for identity, row in self.rows.items() if row.decision is not None}
 
 
@@ -256,14 +256,14 @@ class _TableReader:
                 self._row(row.line, columns, row.cells)
             else:
                 self._fault(row.error, row.line, 1, "save the table as CSV again")
-        if not self.faults and self.rows and not any(self._known(identity) for identity in self.rows):
+        if not self.faults and self.rows and not any(self._is_asked(identity) for identity in self.rows):
             hint = "name the review.csv that was written with this assignment's results"
             self._fault("no row of it is about a question of this assignment", 1, 1, hint)
         if self.faults:
             raise ReviewError(tuple(self.faults[:MOST_FAULTS]), self.source)
         return FilledTable(self.rows, delimiter)
 
-    def _known(self, identity: str) -> bool:
+    def _is_asked(self, identity: str) -> bool:
         return mark_of(identity) in self.marks
 
     def _fault(self, message: str, line: int, column: int, hint: str | None = None) -> None:
@@ -275,7 +275,7 @@ class _TableReader:
         names = [cell.strip().lower() for cell in cells]
         for name in _NEEDED:
             if name not in names:
-                near = nearest(name, [one for one in names if one not in COLUMNS])
+                near = nearest(name, [other for other in names if other not in COLUMNS])
                 hint = f"is it '{near}'?" if near else f"the columns are {', '.join(COLUMNS)}"
                 self._fault(f"there is no column '{name}'", line, 1, hint)
         for i, name in enumerate(names):
@@ -283,12 +283,12 @@ class _TableReader:
                 self._fault(f"the column '{name}' is there twice", line, i + 1, "delete one of the two")
         return {} if self.faults else {name: i for i, name in enumerate(names) if name in COLUMNS}
 
-    def _row(self, line: int, columns: Mapping[str, int], given: Sequence[str]) -> None:
-        cells = {name: _bare(given[i]) if i < len(given) else "" for name, i in columns.items()}
+    def _row(self, line: int, columns: Mapping[str, int], values: Sequence[str]) -> None:
+        cells = {name: _bare(values[i]) if i < len(values) else "" for name, i in columns.items()}
         identity, before = cells["id"], len(self.faults)
         if mark_of(identity) is None:
-            told = f"'{identity[:40]}' is not an id of a review" if identity else "the row has no id"
-            self._fault(told, line, columns["id"] + 1, "copy it from the review.csv that dofkit wrote")
+            message = f"'{identity[:40]}' is not an id of a review" if identity else "the row has no id"
+            self._fault(message, line, columns["id"] + 1, "copy it from the review.csv that dofkit wrote")
         decision = self._decision(line, columns, cells)
         if len(self.faults) > before:
             return
@@ -297,21 +297,21 @@ class _TableReader:
             self.rows.setdefault(identity, row)
             self.places.setdefault(identity, line)
         elif first.decision is not None and decision is not None and first.decision != decision:
-            told = f"this answer is decided differently in line {self.places[identity]}"
-            self._fault(told, line, columns["points"] + 1, "keep one of the two rows")
+            message = f"this answer is decided differently in line {self.places[identity]}"
+            self._fault(message, line, columns["points"] + 1, "keep one of the two rows")
         elif first.decision is None:
             self.rows[identity], self.places[identity] = row, line
 
     def _decision(self, line: int, columns: Mapping[str, int], cells: Mapping[str, str]) -> Decision | None:
         text, remark = cells["points"], cells.get("remark", "")
         if len(remark) > MOST_REMARKED:
-            told = f"the remark has {len(remark)} characters"
-            self._fault(told, line, columns["remark"] + 1, f"at most {MOST_REMARKED}")
+            message = f"the remark has {len(remark)} characters"
+            self._fault(message, line, columns["remark"] + 1, f"at most {MOST_REMARKED}")
         if not text:
             return None
         most = self.asked.get(self.marks.get(mark_of(cells["id"]) or "", ("", "")))
         points = _number(text)
-        allowed = "write a number of points" if most is None else f"write 0 to {_shown(most)}, or nothing"
+        allowed = "write a number of points" if most is None else f"write 0 to {_points_text(most)}, or nothing"
         if points is None:
             self._fault(f"'{text[:40]}' is not a number of points", line, columns["points"] + 1, allowed)
         elif most is not None and not 0 <= points <= most:
@@ -332,9 +332,9 @@ def _number(text: str) -> Fraction | None:
     bare = text.removeprefix("+").removeprefix("-").strip()
     if _POINTS.fullmatch(bare) is None:
         return None
-    found = Fraction(bare.replace(",", "."))
-    return -found if text.startswith("-") else found
+    points = Fraction(bare.replace(",", "."))
+    return -points if text.startswith("-") else points
 
 
-def _shown(number: Fraction) -> str:
+def _points_text(number: Fraction) -> str:
     return f"{float(number):g}"

@@ -57,7 +57,7 @@ def template(prepared: Prepared, form: str) -> str:
     for problem in prepared.assignment.problems:
         lines.append(f"  {json.dumps(problem.id, ensure_ascii=False)}:")
         for question in problem.questions:
-            asked = " ".join(question.asked(", ".join(question.about)).told(prepared.assignment.language).split())
+            asked = " ".join(question.asked(", ".join(question.about)).translated(prepared.assignment.language).split())
             lines.append(f"    {json.dumps(question.id, ensure_ascii=False)}:  # {asked}")
     return "\n".join(lines) + "\n"
 
@@ -65,7 +65,9 @@ def template(prepared: Prepared, form: str) -> str:
 def best_questions(key: Key) -> Iterator[dict[str, Any]]:
     """Yield the questions most worth asking of a scene: one of each kind, first those whose answers are not plain."""
     every = list(questions(key))
-    places = [every.index(max(asked, key=lambda one: _labels_that_fail(one, key))) for asked in _by_kind(every)]
+    places = [
+        every.index(max(asked, key=lambda question: _labels_that_fail(question, key))) for asked in _by_kind(every)
+    ]
     places += [n for n in range(len(every)) if n not in places]
     first = [n for n in places if not _is_plain(every[n], key)]
     chosen = [*first, *(n for n in places if n not in first)][:MOST]
@@ -74,7 +76,7 @@ def best_questions(key: Key) -> Iterator[dict[str, Any]]:
 
 def _by_kind(every: Sequence[dict[str, Any]]) -> Iterator[list[dict[str, Any]]]:
     for kind in _KINDS:
-        if asked := [one for one in every if one["ask"] == kind]:
+        if asked := [question for question in every if question["ask"] == kind]:
             yield asked
 
 

@@ -30,7 +30,7 @@ class VaryError(DofkitError):
     """An assignment that cannot be varied."""
 
 
-def own(prepared: Prepared, names: str | Iterable[str]) -> Prepared:
+def sheet_of(prepared: Prepared, names: str | Iterable[str]) -> Prepared:
     """Return the assignment with the variants of the student who has one of ``names``.
 
     Without variants it is the assignment itself. Raises NobodysVariantError if that is nobody, or several students.
@@ -39,11 +39,11 @@ def own(prepared: Prepared, names: str | Iterable[str]) -> Prepared:
     if variants is None:
         return prepared
     called = [names] if isinstance(names, str) else list(names)
-    students = {one.student: one for name in called if (one := variants.find(name)) is not None}
+    students = {variant.student: variant for name in called if (variant := variants.find(name)) is not None}
     if len(students) != 1:
-        shown = ", ".join(called)[:200] or "nobody"
-        told = "several students of this assignment" if students else "none of the students of this assignment"
-        raise NobodysVariantError(f"every student has a variant, and '{shown}' is {told}")
+        listing = ", ".join(called)[:200] or "nobody"
+        whose = "several students of this assignment" if students else "none of the students of this assignment"
+        raise NobodysVariantError(f"every student has a variant, and '{listing}' is {whose}")
     (student,) = students.values()
     return picked(prepared, student.picks)
 
@@ -69,7 +69,7 @@ def picked(prepared: Prepared, picks: Mapping[str, Pick]) -> Prepared:
 
 def _solutions(question: QuestionBase, keys: Iterable[Key]) -> set[str]:
     """Return the different solutions of a question over several scenes."""
-    return {say(s).told() if isinstance(s := question.solution(key), str) else s.told() for key in keys}
+    return {say(s).translated() if isinstance(s := question.solution(key), str) else s.translated() for key in keys}
 
 
 def drawn(prepared: Prepared, roster: Roster, seed: str, before: Sequence[StudentVariant] = ()) -> Variants:
@@ -79,17 +79,17 @@ def drawn(prepared: Prepared, roster: Roster, seed: str, before: Sequence[Studen
     """
     if not roster.members:
         raise VaryError("there is nobody in the roster: a row for each student is needed")
-    known = Variants(students=tuple(before))
-    kept = {one.student: one for one in before}
+    existing = Variants(students=tuple(before))
+    kept = {variant.student: variant for variant in before}
     for member in roster.members:
         names = list(dict.fromkeys([member.student, *member.called()]))
-        found = {one.student for name in names if (one := known.find(name)) is not None}
-        if len(found) > 1:
+        owners = {variant.student for name in names if (variant := existing.find(name)) is not None}
+        if len(owners) > 1:
             raise VaryError(
-                f"'{member.student}' has the names of {' and '.join(sorted(found))}: give everyone in the roster an "
+                f"'{member.student}' has the names of {' and '.join(sorted(owners))}: give everyone in the roster an "
                 "address or a number"
             )
-        student = found.pop() if found else member.student
+        student = owners.pop() if owners else member.student
         picks = kept[student].picks if student in kept else {
             problem: _hashed([c.pick for c in combinations], seed, student, problem)
             for problem, combinations in prepared.combinations.items()
@@ -127,17 +127,19 @@ def with_roster(prepared: Prepared, roster: Roster | None) -> tuple[Prepared, Ro
     if variants is None:
         return prepared, roster
     if roster is None:
-        return prepared, Roster(tuple(Participant(one.student, others=one.known_as) for one in variants.students))
-    students = {one.student: one for one in variants.students}
+        return prepared, Roster(
+            tuple(Participant(variant.student, others=variant.known_as) for variant in variants.students)
+        )
+    students = {variant.student: variant for variant in variants.students}
     members = []
     for member in roster.members:
         names = tuple(dict.fromkeys((member.student, *member.called())))
-        found = {one.student for name in names if (one := variants.find(name)) is not None}
-        if len(found) == 1:
-            one = students[found.pop()]
-            more = tuple(name for name in names if name != one.student and name not in one.known_as)
-            students[one.student] = one.model_copy(update={"known_as": (*one.known_as, *more)})
-            member = replace(member, others=(one.student, *one.known_as))
+        owners = {variant.student for name in names if (variant := variants.find(name)) is not None}
+        if len(owners) == 1:
+            variant = students[owners.pop()]
+            more = tuple(name for name in names if name != variant.student and name not in variant.known_as)
+            students[variant.student] = variant.model_copy(update={"known_as": (*variant.known_as, *more)})
+            member = replace(member, others=(variant.student, *variant.known_as))
         members.append(member)
     update = {"variants": Variants(students=tuple(students.values()))}
     changed = replace(prepared, assignment=prepared.assignment.model_copy(update=update))

@@ -56,22 +56,24 @@ def without_accelerations(e: Expr, positive: frozenset[Expr], fresh: Iterator[st
     rates, _ = in_velocities(e)
     moving = frozenset(s for s in rates.symbols if s.args[0] != "parameter")
     branches, notes = zero_set(rates, positive, moving)
-    found: list[tuple[Piece, ...]] = []
-    said, constants, told = list(notes), list[str](), list[str]()
+    pieces_of: list[tuple[Piece, ...]] = []
+    said, constants, integrated = list(notes), list[str](), list[str]()
     for branch in branches:
-        parts = []
+        of_factors = []
         for g in branch:
             if accelerations_of(g):
                 once, constant = integrated_once(g, positive), next(fresh)
                 constants.append(constant)
-                told.append(_integration_note(once, constant))
+                integrated.append(_integration_note(once, constant))
                 g = once.integral - ex.coordinate(constant)
             normal = normalise(g, positive, True)
             said += normal.notes
-            parts.append(normal.branches)
-        found += [tuple(p for part in choice for p in part) for choice in cartesian(*parts)]
+            of_factors.append(normal.branches)
+        pieces_of += [tuple(p for part in choice for p in part) for choice in cartesian(*of_factors)]
     special = [f"{c} = 0 is a special case, in which time may not occur and the labels may differ" for c in constants]
-    return Normal(tuple(found), tuple(dict.fromkeys((*told, *special, *said))), tuple(constants), "; ".join(told))
+    return Normal(
+        tuple(pieces_of), tuple(dict.fromkeys((*integrated, *special, *said))), tuple(constants), "; ".join(integrated)
+    )
 
 
 def _integration_note(once: Once, constant: str) -> str:
@@ -87,13 +89,13 @@ def integrated_once(e: Expr, positive: frozenset[Expr]) -> Once:
     slopes = {ex.velocity(str(s.args[1])): diff(e, s) for s in accelerations_of(e)}
     if any(accelerations_of(slope) for slope in slopes.values()):
         raise TextError(NOT_LINEAR, hint=SOLVE_FOR_IT)
-    rest = substitute(e, dict.fromkeys(accelerations_of(e), ex.ZERO))
+    static = substitute(e, dict.fromkeys(accelerations_of(e), ex.ZERO))
     work = Algebra(positive)
     try:
         for factor in _factors(slopes):
-            found = _with_factor(work, factor, slopes, rest)
-            if found is not None and _sound(found, factor) and _proved(e, Once(found, factor), positive):
-                return Once(found, factor)
+            integral = _with_factor(work, factor, slopes, static)
+            if integral is not None and _sound(integral, factor) and _proved(e, Once(integral, factor), positive):
+                return Once(integral, factor)
     except (GivenUpError, RecursionError, ArithmeticError):
         pass
     raise TextError(NOT_INTEGRABLE, hint=WHAT_TO_DO)
@@ -109,7 +111,7 @@ def _factors(slopes: Mapping[Expr, Expr]) -> Iterator[Expr]:
 
 
 @raising_no_value
-def _with_factor(work: Algebra, factor: Expr, slopes: Mapping[Expr, Expr], rest: Expr) -> Expr | None:
+def _with_factor(work: Algebra, factor: Expr, slopes: Mapping[Expr, Expr], static_terms: Expr) -> Expr | None:
     """F, by the velocities first, then by coordinates and time; None where mu E is seen to be no rate."""
     form = {v: work.tidy(factor * a) for v, a in slopes.items()}
     mentioned = {s for a in form.values() for s in a.symbols if s.args[0] == "velocity"} - set(form)
@@ -121,10 +123,10 @@ def _with_factor(work: Algebra, factor: Expr, slopes: Mapping[Expr, Expr], rest:
     if kinetic is None or rate is None:
         return None
     carried = substitute(rate, dict.fromkeys(accelerations_of(rate), ex.ZERO))
-    left = work.tidy(factor * rest - carried)
-    if left.is_zero:
+    remainder = work.tidy(factor * static_terms - carried)
+    if remainder.is_zero:
         return kinetic
-    linear = linear_form(left)
+    linear = linear_form(remainder)
     if linear is None:
         return None
     place = {ex.coordinate(name): a for name, a in linear.coefficients.items()} | {ex.TIME: linear.dt}

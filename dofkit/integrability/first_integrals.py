@@ -93,25 +93,25 @@ class FormSample:
 
     def product(self, m: Monomial) -> tuple[nmod, list[nmod]]:
         """Return a product of functions, and its rate along each vector of the basis: (f g)' = f' g + f g'."""
-        known = self._products.get(m)
-        if known is None:
+        value_and_rates = self._products.get(m)
+        if value_and_rates is None:
             last = self.at[m[-1]]
             rates = [sum((a * v[c] for c, a in self.gradients[m[-1]].items()), last * 0) for v in self.basis]
-            known = last, rates
+            value_and_rates = last, rates
             if m[:-1]:
                 before, slopes = self.product(m[:-1])
-                known = before * last, [a * last + before * b for a, b in zip(slopes, rates, strict=True)]
-            self._products[m] = known
-        return known
+                value_and_rates = before * last, [a * last + before * b for a, b in zip(slopes, rates, strict=True)]
+            self._products[m] = value_and_rates
+        return value_and_rates
 
     def across(self, row: int) -> list[nmod] | None:
         """Return a velocity that only ``row`` forbids, or None where the row depends on the others."""
         others = [r for i, r in enumerate(self.matrix) if i != row]
-        n, one = len(self.matrix[row]), self.point.number(Fraction(1))
+        n, unit = len(self.matrix[row]), self.point.number(Fraction(1))
         if others:
-            vectors = kernel(others, field_frame(others, n, self.point.p), one * 0)
+            vectors = kernel(others, field_frame(others, n, self.point.p), unit * 0)
         else:
-            vectors = [[one if i == j else one * 0 for j in range(n)] for i in range(n)]
+            vectors = [[unit if i == j else unit * 0 for j in range(n)] for i in range(n)]
         return next((v for v in vectors if pairing(self.matrix[row], [v])[0] != 0), None)
 
 
@@ -161,11 +161,11 @@ class IntegralSearch:
         """Return df on a vector at a point."""
         return pairing(self._gradient(f, sample), [v])[0]
 
-    def is_independent(self, f: Expr, known: Sequence[Expr]) -> bool:
+    def is_independent(self, f: Expr, integrals: Sequence[Expr]) -> bool:
         """Return whether df is independent of the finite relations and of the integrals that are known."""
         sample = self.points[0]
         rows = [list(r) for r in sample.matrix[: self.forms.finite]]
-        rows += [self._gradient(e, sample) for e in (*known, f)]
+        rows += [self._gradient(e, sample) for e in (*integrals, f)]
         return rank_of(rows, sample.point.p) > rank_of(rows[:-1], sample.point.p)
 
     def sample(self, number: int) -> FormSample | None:
@@ -197,9 +197,9 @@ class IntegralSearch:
         return False
 
     def _gradient(self, f: Expr, sample: FormSample) -> list[nmod]:
-        node, one = self.ring.node(f), sample.point.number(Fraction(1))
-        g = gradient(self.ring, values(self.ring, sample.point), sample.point, [(node, one)])
-        return [g.get(c, one * 0) for c in self.forms.chart.columns]
+        node, unit = self.ring.node(f), sample.point.number(Fraction(1))
+        g = gradient(self.ring, values(self.ring, sample.point), sample.point, [(node, unit)])
+        return [g.get(c, unit * 0) for c in self.forms.chart.columns]
 
     def _point(self, seed: int) -> FieldPoint | None:
         return free_point(self.forms.chart, seed) if self.solver is None else self.solver.draw(seed)
@@ -234,15 +234,15 @@ def _sample_at(forms: Codistribution, point: FieldPoint | None) -> FormSample | 
     if point is None:
         return None
     ring, columns = forms.chart.ring, forms.chart.columns
-    one = point.number(Fraction(1))
+    unit = point.number(Fraction(1))
     try:
         at = values(ring, point)
-        matrix = forms.rows.matrix(at, one * 0)
+        matrix = forms.rows.matrix(at, unit * 0)
         frame = field_frame(matrix, len(columns), point.p)
-        basis = kernel(matrix, frame, one * 0) if frame.free else []
+        basis = kernel(matrix, frame, unit * 0) if frame.free else []
         gradients = []
         for v, node in zip(ring.vars, ring.var_node, strict=True):
-            g = gradient(ring, at, point, [(node, one)]) if _moves(ring.var_expr[v.index]) else {}
+            g = gradient(ring, at, point, [(node, unit)]) if _moves(ring.var_expr[v.index]) else {}
             gradients.append({place: g[c] for place, c in enumerate(columns) if c in g})
         return FormSample(point, [at[node] for node in ring.var_node], gradients, basis, matrix)
     except NoValueError:
@@ -256,13 +256,13 @@ def _simplest_first(equations: nmod_mat) -> Iterator[list[nmod]]:
     """
     reduced, rank = equations.rref()
     rows, kept = reduced.table()[:rank], list[int]()
-    zero, one = nmod(0, equations.modulus()), nmod(1, equations.modulus())
+    zero, unit = nmod(0, equations.modulus()), nmod(1, equations.modulus())
     for column in range(equations.ncols()):
         if len(kept) < rank and rows[len(kept)][column]:
             kept.append(column)
             continue
         weights = [zero] * equations.ncols()
-        weights[column] = one
+        weights[column] = unit
         for row, pivot in zip(rows, kept, strict=False):
             weights[pivot] = -row[column]
         yield weights

@@ -35,7 +35,7 @@ MAX_CURVES = 24
 
 
 def is_free(growth: Sequence[int]) -> bool:
-    """Does it grow as fast as brackets of so many fields can, until the end [Witt1937]?
+    """Return whether it grows as fast as brackets of so many fields can, until the end [Witt1937].
 
     Of brackets of length k in m fields (1/k) sum_(d | k) mu(d) m^(k/d) are independent at most.
 
@@ -83,9 +83,9 @@ class Dual:
     def __mul__(self, other: Any) -> Dual:
         if not isinstance(other, Dual):
             return Dual(self.re * other, None if self.du is None else self.du * other)
-        left = None if self.du is None else self.du * other.re
+        first = None if self.du is None else self.du * other.re
         right = None if other.du is None else self.re * other.du
-        return Dual(self.re * other.re, left if right is None else right if left is None else left + right)
+        return Dual(self.re * other.re, first if right is None else right if first is None else first + right)
 
     __rmul__ = __mul__
 
@@ -124,23 +124,23 @@ class DualPoint:
             return Dual(self.point.generator(var, ()), self.symbols.get(var.index))
         plain = [a.re for a in args]
         at = self.flow.at
-        known = at[self.flow.rows.ring.var_node[var.index]] if var.index >= 0 else self.point.generator(var, plain)
+        value = at[self.flow.rows.ring.var_node[var.index]] if var.index >= 0 else self.point.generator(var, plain)
         total: Series | None = None
         for (_, slope), argument in zip(self._slopes(var, plain), args, strict=False):
             if argument.du is not None:
                 term = argument.du * slope
                 total = term if total is None else total + term
-        return Dual(known, total)
+        return Dual(value, total)
 
     def _slopes(self, var: Var, plain: Sequence[Series]) -> list[tuple[int, Series]]:
         if var.index >= 0:
             return partials(self.flow.rows.ring, var, self.flow.at, self.point)
         name, orders, key = var.key
-        found = []
+        slopes = []
         for i in range(len(plain)):
             raised = tuple(o + (i == j) for j, o in enumerate(orders))
-            found.append((i, self.point.generator(Var(-1, "call", (name, raised, key), var.args), plain)))
-        return found
+            slopes.append((i, self.point.generator(Var(-1, "call", (name, raised, key), var.args), plain)))
+        return slopes
 
 
 @dataclass(frozen=True)
@@ -196,8 +196,8 @@ def _frame_variation(flow: AdmissibleCurve, at: list[Any], point: DualPoint, mov
         [[g[c].du if c >= 0 and c in g else None for c in flow.rows.columns] for g in slopes], n
     )
     rows = flow.by_coefficient([[at[row[c]].du if c in row else None for c in range(n)] for row in flow.frame_rows], n)
-    own = [some_columns(m, frame.dependent, flow.numbers) for m in rows]
-    bent = flow.lifted(lambda k: -(first[k] + product_coefficient(own, flow.slope, k)), order)
+    of_dependent = [some_columns(m, frame.dependent, flow.numbers) for m in rows]
+    bent = flow.lifted(lambda k: -(first[k] + product_coefficient(of_dependent, flow.slope, k)), order)
     turned = flow.lifted(lambda k: -product_coefficient(rows, flow.full_frame, k), order)
     full_bent, full_turned = [flow.full(m, None) for m in bent], [flow.full(m, None) for m in turned]
     back = [scaled(flow.back[0], flow.sample * 0)]
@@ -214,12 +214,12 @@ def _slope(flow: AdmissibleCurve, direction: Matrix) -> Matrix:
     """grad b at the point, for the field b = sum beta_l B_l with constant beta: A_d grad b_d = -grad(A b)."""
     rows, base = flow.rows, flow.base
     at = values(rows.ring, base)
-    found = [
+    gradients = [
         gradient(rows.ring, at, base, [(node, direction[c, 0]) for c, node in row.items()]) for row in flow.frame_rows
     ]
     zero, n = flow.sample * 0, len(flow.path)
     right = flow.numbers.matrix(
-        len(found), n, [g.get(c, zero) if c >= 0 else zero for g in found for c in rows.columns]
+        len(gradients), n, [g.get(c, zero) if c >= 0 else zero for g in gradients for c in rows.columns]
     )
     return flow.full(-(flow.inverse * right), None)
 
@@ -260,17 +260,17 @@ def spanning_curves(
 def _dimensions(flows: Sequence[AdmissibleCurve], terminal: int | None = None) -> tuple[int, ...]:
     """Return the dimensions of S_1, S_2, ... up to the Lie algebra's own, if that is known."""
     vectors: list[tuple[Scalar, ...]] = []
-    found: list[int] = []
+    dimensions: list[int] = []
     for k in range(min(f.order for f in flows)):
         vectors += [v for f in flows for v in columns_of(f.pulled[k])]
-        found.append(rank_over(vectors, flows[0].sample))
-        if found[-1] == terminal:
+        dimensions.append(rank_over(vectors, flows[0].sample))
+        if dimensions[-1] == terminal:
             break
-    return tuple(found)
+    return tuple(dimensions)
 
 
 def _complete(curves: Sequence[tuple[AdmissibleCurve, Variation]], dimensions: Sequence[int], terminal: int) -> bool:
-    """Does no bracket across the curves leave S_k+1, for every k before the Lie algebra is reached?"""
+    """Return whether no bracket across the curves leaves S_k+1, for every k before the Lie algebra is reached."""
     flows = [f for f, _ in curves]
     vectors = [v for f in flows for v in columns_of(f.pulled[0])]
     for k in range(1, len(dimensions)):
@@ -319,16 +319,16 @@ def derived_flag(rows: FormRows, frame: Pivots, base: Any, span: Span) -> tuple[
     flows, dimensions = spanning_curves(rows, frame, base, span)
     if dimensions is None:
         return None
-    found, step = [dimensions[0]], 1
-    while found[-1] < terminal:
+    flag, step = [dimensions[0]], 1
+    while flag[-1] < terminal:
         larger = _derived(flows, dimensions, step)
         if larger is None:
             return None
-        found.append(larger)
+        flag.append(larger)
         if larger == terminal:
             break
         step = dimensions.index(larger) + 1
-    return tuple(n - d for d in found)
+    return tuple(n - d for d in flag)
 
 
 def _derived(flows: Sequence[AdmissibleCurve], dimensions: Sequence[int], step: int) -> int | None:
@@ -362,7 +362,7 @@ def _random_bracket(flows: Sequence[AdmissibleCurve], step: int) -> tuple[Scalar
 def _combined(series: Sequence[MatrixSeries], weights: Sequence[Sequence[Matrix]]) -> Matrix:
     """The sum of the fields with some weights."""
     total = None
-    for layers, own in zip(series, weights, strict=True):
-        for layer, w in zip(layers, own, strict=False):
+    for layers, factors in zip(series, weights, strict=True):
+        for layer, w in zip(layers, factors, strict=False):
             total = layer * w if total is None else total + layer * w
     return total

@@ -160,12 +160,12 @@ class AdmissibleCurve:
 
     def lifted(self, right: Callable[[int], Matrix], order: int) -> MatrixSeries:
         """The series x with A_d x = right, coefficient by coefficient through the inverse of A_d at s = 0."""
-        found: MatrixSeries = []
+        series: MatrixSeries = []
         for k in range(order):
             check()
-            later = product_coefficient(self.dependent_part, found, k, first=1)
-            found.append(self.inverse * (right(k) if later is None else right(k) - later))
-        return found
+            later = product_coefficient(self.dependent_part, series, k, first=1)
+            series.append(self.inverse * (right(k) if later is None else right(k) - later))
+        return series
 
     def velocities(self) -> list[Series]:
         """q' along the curve, one series a column."""
@@ -208,8 +208,8 @@ class AdmissibleCurve:
         return self.numbers.matrix(len(self.path), width, entries)
 
     def identity(self, size: int) -> Matrix:
-        one, zero = self.base.number(1), self.sample * 0
-        return self.numbers.matrix(size, size, [one if i == j else zero for i in range(size) for j in range(size)])
+        unit, zero = self.base.number(1), self.sample * 0
+        return self.numbers.matrix(size, size, [unit if i == j else zero for i in range(size) for j in range(size)])
 
     def _pull_back(self) -> None:
         """Psi' = -Psi S, and V = Psi B: k! V_k is ad_X^k B at the point."""
@@ -256,7 +256,7 @@ class Span:
 
     @property
     def grows_at_once(self) -> bool:
-        """Does the dimension stop once only? Else the point is no generic one."""
+        """Return whether the dimension stops once only, as it does at a generic point."""
         last = self.dimensions.index(self.dimension)
         return all(a < b for a, b in pairwise(self.dimensions[: last + 1]))
 
@@ -331,13 +331,13 @@ def ball_span(
         return None
 
 
-def on_the_same_part(forms: Codistribution, found: Variety, largest: SampledSpan) -> RealPoint | None:
+def on_the_same_part(forms: Codistribution, variety: Variety, largest: SampledSpan) -> RealPoint | None:
     """A real point at which the Lie algebra is as large as at the points over GF(p): of a part of the set like theirs.
 
     Where sin(z) = 0, z ydot = 0 says nothing at z = 0, and ydot = 0 at all other configurations.
     """
     seeds = (real_point(forms.chart, seed, forms.chart.nodes) for seed in range(1, SEEDS))
-    for real in chain((found.real,), seeds):
+    for real in chain((variety.real,), seeds):
         if real is None or not real.certified or not real.consistent:
             continue
         span = ball_span(forms, len(largest.frame.rows), real.point)

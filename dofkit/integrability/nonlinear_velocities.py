@@ -113,15 +113,15 @@ def _rows_at_reference(block: Block, setting: Setting, result: Answer) -> tuple[
 
     Raises NoValueError.
     """
-    known = {**(setting.reference or {}), ex.TIME: ex.ZERO}
+    configuration = {**(setting.reference or {}), ex.TIME: ex.ZERO}
     relations = [e for kind in state_relations(block.rows, result.hidden) for e in kind]
-    if any(not is_zero(substitute(g, known), setting.positive) for g in relations if not velocities_of(g)):
+    if any(not is_zero(substitute(g, configuration), setting.positive) for g in relations if not velocities_of(g)):
         return None
-    return rows_at(relations, known)
+    return rows_at(relations, configuration)
 
 
 def _moves_at_reference(block: Block, setting: Setting, result: Answer, moving: int) -> bool:
-    """Are there real velocities at the reference, regular as those are elsewhere? True where none is given or is met.
+    """Return whether real velocities at the reference are as regular as elsewhere; True without a reference on the set.
 
     xdot^2 + ydot^2 = z zdot^2 has them where z > 0, and leaves all at rest where z < 0.
     """
@@ -146,13 +146,13 @@ def _real(states: States, point: FieldPoint | None, result: Answer) -> RealPoint
     ranks = None if point is None else states.ranks(point)
     best: RealPoint | None = None
     for seed in range(SEEDS):
-        found = states.real(3 + seed)
-        if found is None and not calls:
+        state = states.real(3 + seed)
+        if state is None and not calls:
             break
-        if found is not None and (best is None or not best.certified):
-            best = found
-        if found is not None and found.certified and ranks in (None, states.ranks(found.point)):
-            best = found
+        if state is not None and (best is None or not best.certified):
+            best = state
+        if state is not None and state.certified and ranks in (None, states.ranks(state.point)):
+            best = state
             break
     if calls and best is not None:
         result.verdict = weakest(result.verdict, "probable")
@@ -176,7 +176,7 @@ def _open_labels(result: Answer, why: str) -> None:
 
 
 def _bends(states: States, point: BallPoint) -> bool:
-    """Does no affine space hold the allowed velocities but the one that the linear relations cut out?
+    """Return whether the allowed velocities span the affine space that the linear relations cut out.
 
     The derivatives of curves through a velocity lie in the smallest affine space around them; balls prove how many are
     independent.
@@ -198,17 +198,17 @@ def _derivatives(states: States, rows: list[list[arb]], point: BallPoint, wanted
         tuple(part.rows), tuple(part.columns), tuple(c for c in range(len(columns)) if c not in set(part.columns))
     )
     free, zero = len(frame.free), arb(0)
-    found: list[list[arb]] = kernel(rows, frame, zero)
+    vectors: list[list[arb]] = kernel(rows, frame, zero)
     missing = wanted - free
     if not free or missing <= 0:
-        return found
+        return vectors
     manifold = Manifold(states.ring, states.moving, columns, frame, point)
     order = min(missing + 2, MAX_ORDER)
     for _ in range(min(free, missing) + 1):
         direction = [arb(point.rng.randrange(64, 512)) / 256 for _ in range(free)]
         path = manifold.line(direction, order).path
-        found += [[s.coefficient(k) for s in path] for k in range(2, order)]
-    return found
+        vectors += [[s.coefficient(k) for s in path] for k in range(2, order)]
+    return vectors
 
 
 #: Velocities of the Lie algebra that are tried at a point, and states at which a reduction is checked.
@@ -239,14 +239,14 @@ def with_reductions_checked(
     slots: Sequence[RewrittenRow], blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
 ) -> list[Answer]:
     """The answers, but undecided where a relation as written does not hold at the states that its reduction leaves."""
-    found = list(answers)
+    checked = list(answers)
     for slot in slots:
         numbers = blocks_of(slot, blocks)
-        if any(not found[k].consistent for k in numbers) or _holds(slot, blocks, numbers, found, setting):
+        if any(not checked[k].consistent for k in numbers) or _holds(slot, blocks, numbers, checked, setting):
             continue
         for k in numbers:
-            found[k] = Answer(None, verdict="undecided", reasons=[*found[k].reasons, NOT_EQUIVALENT])
-    return found
+            checked[k] = Answer(None, verdict="undecided", reasons=[*checked[k].reasons, NOT_EQUIVALENT])
+    return checked
 
 
 def _holds(
@@ -272,25 +272,25 @@ def label_modulo_others(
 ) -> tuple[HolonomyLabel, Answer]:
     """Whether a reduced relation is a consequence of finite relations, and the answer of the blocks it touches."""
     numbers = blocks_of(slot, blocks)
-    own = [answers[k] for k in numbers]
-    weak = max(own, key=lambda a: VERDICTS.index(a.verdict), default=Answer(argument="nothing constrains"))
+    touched = [answers[k] for k in numbers]
+    weak = max(touched, key=lambda a: VERDICTS.index(a.verdict), default=Answer(argument="nothing constrains"))
     together = Answer(verdict=weak.verdict, about=weak.about, argument=weak.argument, bits=weak.bits, gap=weak.gap)
-    together.hidden = [g for a in own for g in a.hidden]
+    together.hidden = [g for a in touched for g in a.hidden]
     f = slot.written.piece
     curved = all(answers[k].curved for k in numbers if blocks[k].nonlinear)
     impossible = any(a.consistent is False for a in answers)
-    if not isinstance(f, Nonlinear) or not curved or impossible or any(a.dof is None for a in own):
+    if not isinstance(f, Nonlinear) or not curved or impossible or any(a.dof is None for a in touched):
         return HolonomyLabel(None, "undecided"), together
     try:
-        told = _on_the_kernel(f.expr, _joint_block(slot, blocks, numbers), together.hidden, setting)
+        label = _on_the_kernel(f.expr, _joint_block(slot, blocks, numbers), together.hidden, setting)
     except (OutOfTimeError, ArithmeticError):
         return HolonomyLabel(None, "undecided"), together
-    labels = [x for a in own for x in a.labels.values()]
-    if told.holonomic and all(x.holonomic for x in labels):
-        told = replace(told, verdict=weakest(*(x.verdict for x in labels)))
-    elif told.holonomic is False:
-        told = replace(told, reason=_why(slot, blocks, answers))
-    return told, together
+    labels = [x for a in touched for x in a.labels.values()]
+    if label.holonomic and all(x.holonomic for x in labels):
+        label = replace(label, verdict=weakest(*(x.verdict for x in labels)))
+    elif label.holonomic is False:
+        label = replace(label, reason=_why(slot, blocks, answers))
+    return label, together
 
 
 def _why(slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer]) -> str:
@@ -321,17 +321,17 @@ def _why(slot: RewrittenRow, blocks: Sequence[Block], answers: Sequence[Answer])
 
 
 def _on_the_kernel(f: Expr, joint: Block, hidden: Sequence[Expr], setting: Setting) -> HolonomyLabel:
-    """Does f vanish on the kernel of the largest integrable part?"""
+    """Return whether f vanishes on the kernel of the largest integrable part."""
     forms = codistribution(joint, setting, hidden, [f])
-    found = find(forms.chart, setting.pose)
+    variety = find(forms.chart, setting.pose)
     ring = forms.chart.ring
     node = ring.node(f)
-    good = [(p, s) for p in found.samples if (s := span_at(forms, p)) is not None]
+    good = [(p, s) for p in variety.samples if (s := span_at(forms, p)) is not None]
     seen = [v for p, s in good for v in _values_on_span(forms, s.span, p, node)]
     if seen and all(v == 0 for v in seen):
         return HolonomyLabel(True, "probable")
     rank = len(good[0][1].frame.rows) if good else None
-    if any(not v.contains(0) for v in _real_values(forms, found, rank, node)):
+    if any(not v.contains(0) for v in _real_values(forms, variety, rank, node)):
         return HolonomyLabel(False, "proved")
     certain = _rational(ring, node) and independent_on_set(ring, forms.chart.nodes)
     if not seen or not certain:
@@ -339,9 +339,9 @@ def _on_the_kernel(f: Expr, joint: Block, hidden: Sequence[Expr], setting: Setti
     return HolonomyLabel(False, "probable" if forms.finite else "proved")
 
 
-def _real_values(forms: Codistribution, found: Variety, rank: int | None, node: int) -> Iterator[arb]:
+def _real_values(forms: Codistribution, variety: Variety, rank: int | None, node: int) -> Iterator[arb]:
     """Values of f at a certified real point."""
-    real = found.real
+    real = variety.real
     if real is None or not real.certified or not real.consistent:
         return
     if rank is None:
@@ -384,7 +384,7 @@ def _moving(ring: Ring, point: FieldPoint | BallPoint, moved: dict[Expr, Scalar]
 
 
 def _rational(ring: Ring, node: int) -> bool:
-    """Do velocities stand in no root and no function?"""
+    """Return whether velocities stand in no root and no function."""
     code = ring.code
     used = {code[i][1] for i in reachable(ring, [node]) if code[i][0] == VAR}
     return all(ring.vars[i].kind == "symbol" or not moves(ring, i) for i in used)

@@ -81,9 +81,9 @@ def codistribution(
 
 def linear_rows(block: Block, forms: Codistribution) -> Iterator[tuple[int, Row, int]]:
     """(number, row, its place among the forms) of the block's rows that are no nonlinear relations of velocities."""
-    own = len(block.finite)
+    number_finite = len(block.finite)
     for i, row in enumerate(r for r in block.rows if not isinstance(r.piece, Nonlinear)):
-        yield i, row, i if i < own else i + forms.finite - own
+        yield i, row, i if i < number_finite else i + forms.finite - number_finite
 
 
 def first_order_freedom(block: Block, setting: Setting, reference: Mapping[Expr, Expr]) -> tuple[int | None, bool]:
@@ -123,33 +123,33 @@ MAX_CHOICES, MAX_MINORS, MAX_SIZE = 400, 12, 8
 MAX_TOGETHER = 12
 
 
-def confinements(forms: Codistribution, found: Variety) -> tuple[tuple[Expr, ...], ...] | None:
+def confinements(forms: Codistribution, variety: Variety) -> tuple[tuple[Expr, ...], ...] | None:
     """Ways in which motion is confined where dt lies in the span of the rows; None where it does not."""
     if len(forms.chart.symbols) == forms.n:
         return None
     n = forms.n
-    if found.samples:
-        point = found.samples[0]
+    if variety.samples:
+        point = variety.samples[0]
         matrix = forms.rows.matrix(values(forms.chart.ring, point), point.number(ex.ZERO.args[0]))
         free = rank_of([row[:n] for row in matrix], point.p) == rank_of(matrix, point.p)
         return None if free else hidden_relation(forms.rows, n, point)
-    if found.real is None:
+    if variety.real is None:
         return None
     try:
-        balls = forms.rows.matrix(values(forms.chart.ring, found.real.point), arb(0))
+        balls = forms.rows.matrix(values(forms.chart.ring, variety.real.point), arb(0))
     except NoValueError:
         return None
     free = ball_part([row[:n] for row in balls]).rank == ball_part(balls).rank
-    return None if free else hidden_relation(forms.rows, n, found.real.point)
+    return None if free else hidden_relation(forms.rows, n, variety.real.point)
 
 
 def prolong(ways: Sequence[Sequence[Expr]], setting: Setting) -> tuple[tuple[Expr, ...], ...] | None:
     """The branches of hidden relations; none where they cannot hold, None where they have too many together."""
     if not ways:
         return ((),)
-    found = [_joint_branches(way, setting) for way in ways]
-    every = [branches for branches in found if branches is not None]
-    return tuple(dict.fromkeys(b for branches in every for b in branches)) if len(every) == len(found) else None
+    options = [_joint_branches(way, setting) for way in ways]
+    every = [branches for branches in options if branches is not None]
+    return tuple(dict.fromkeys(b for branches in every for b in branches)) if len(every) == len(options) else None
 
 
 def _joint_branches(relations: Sequence[Expr], setting: Setting) -> list[tuple[Expr, ...]] | None:
@@ -200,8 +200,8 @@ def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, .
                 break
         if common is None:
             return ()
-        left = tuple(dict.fromkeys(canon.to_expr(divided(m, common)) for m in minors))
-        return ((canon.to_expr(common),), left)
+        quotients = tuple(dict.fromkeys(canon.to_expr(divided(m, common)) for m in minors))
+        return ((canon.to_expr(common),), quotients)
     except NoValueError:
         return ()
 
@@ -209,17 +209,17 @@ def hidden_relation(rows: FormRows, n: int, point: Point) -> tuple[tuple[Expr, .
 def _independent(matrix: Sequence[Sequence[Scalar]], columns: Sequence[int] | range) -> list[int]:
     """The first rows, in order, that are independent on some columns; balls that hold 0 count as 0."""
     kept: list[tuple[list[Scalar], int]] = []
-    found = []
+    numbers = []
     for r, row in enumerate(matrix):
-        rest = [row[c] for c in columns]
+        entries = [row[c] for c in columns]
         for pivot_row, pivot in kept:
-            factor = rest[pivot] / pivot_row[pivot]
-            rest = [a - factor * b for a, b in zip(rest, pivot_row, strict=True)]
-        place = next((c for c, v in enumerate(rest) if is_nonzero(v)), None)
+            factor = entries[pivot] / pivot_row[pivot]
+            entries = [a - factor * b for a, b in zip(entries, pivot_row, strict=True)]
+        place = next((c for c, v in enumerate(entries) if is_nonzero(v)), None)
         if place is not None:
-            kept.append((rest, place))
-            found.append(r)
-    return found
+            kept.append((entries, place))
+            numbers.append(r)
+    return numbers
 
 
 def is_nonzero(value: Scalar) -> bool:

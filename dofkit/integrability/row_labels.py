@@ -99,124 +99,131 @@ Certificate = tuple[Span, Sequence[Sequence[Scalar]]]
 def field_labels(
     block: Block,
     forms: Codistribution,
-    found: Variety,
+    variety: Variety,
     good: list[tuple[FieldPoint, SampledSpan]],
     result: Answer,
     setting: Setting,
 ) -> None:
     """Freedom and labels from points over GF(p), held against a ball where there is one."""
-    known = SampledForms(block, forms, good, independent_on_set(forms.chart.ring, forms.chart.nodes))
-    if not known.trusted and "balls" not in setting.engines:
+    forms_at_points = SampledForms(block, forms, good, independent_on_set(forms.chart.ring, forms.chart.nodes))
+    if not forms_at_points.trusted and "balls" not in setting.engines:
         result.verdict = "undecided"
         result.reasons.append("the functions that occur may satisfy an identity that points over GF(p) do not detect")
         return
-    result.trusted = known.trusted and (not forms.finite or found.about == "everywhere")
-    _set_freedom(known, result, setting)
-    if found.dimension is None or found.dimension != forms.n - known.rank_finite:
+    result.trusted = forms_at_points.trusted and (not forms.finite or variety.about == "everywhere")
+    _set_freedom(forms_at_points, result, setting)
+    if variety.dimension is None or variety.dimension != forms.n - forms_at_points.rank_finite:
         result.dof, result.velocity_dof, result.verdict, result.degenerate = None, None, "undecided", True
         result.reasons.append(
             "the geometric equations are singular on their solution set; nothing further was decided there"
         )
         return
-    proof_of = certificate(known, found)
-    if not known.trusted and (proof_of is None or proof_of[0].dimension != known.sampled.span.dimension):
+    proof_of = certificate(forms_at_points, variety)
+    if not forms_at_points.trusted and (
+        proof_of is None or proof_of[0].dimension != forms_at_points.sampled.span.dimension
+    ):
         result.dof, result.velocity_dof, result.growth, result.verdict = None, None, None, "undecided"
         result.reasons.append(
             "the functions that occur may satisfy an identity on the set, and no certified interval excludes zero there"
         )
         return
-    result.verdict = weakest(found.verdict, _rank_verdict(known, proof_of, setting))
+    result.verdict = weakest(variety.verdict, _rank_verdict(forms_at_points, proof_of, setting))
     result.argument = "Lie algebra, certified" if result.verdict == "proved" else "Lie algebra at points"
     nodes = [node for row in forms.rows.entries for node in row.values()]
     result.bits = error_bits(forms.chart.ring, nodes, len(forms.rows.entries))
-    if any(s.span.dimension != known.sampled.span.dimension for _, s in good):
+    if any(s.span.dimension != forms_at_points.sampled.span.dimension for _, s in good):
         result.verdict = weakest(result.verdict, "probable")
         result.reasons.append("the freedom differs between points; the generic value is given")
-    _set_labels(known, proof_of, result)
-    result.dependent = _integrable_names(known)
+    _set_labels(forms_at_points, proof_of, result)
+    result.dependent = _integrable_names(forms_at_points)
 
 
-def _set_freedom(known: SampledForms, result: Answer, setting: Setting) -> None:
+def _set_freedom(forms_at_points: SampledForms, result: Answer, setting: Setting) -> None:
     """n - rank velocities, n - rank I^(inf) freedoms, and where they are asked for the growth and the derived flag."""
-    forms, point, sampled = known.forms, known.point, known.sampled
+    forms, point, sampled = forms_at_points.forms, forms_at_points.point, forms_at_points.sampled
     result.matrix, result.modulus = sparse(sampled.matrix), point.p
     result.method = "Lie algebra along a curve over GF(p)"
-    result.velocity_dof = forms.n - known.rank
-    result.dof = forms.n - known.integrable
+    result.velocity_dof = forms.n - forms_at_points.rank
+    result.dof = forms.n - forms_at_points.integrable
     asked = setting.grows and sampled.span.grows_at_once
     result.growth = growth(forms.rows, sampled.frame, point, sampled.span) if asked else None
     result.derived = derived_flag(forms.rows, sampled.frame, point, sampled.span) if setting.flag else None
 
 
-def _set_labels(known: SampledForms, proof_of: Certificate | None, result: Answer) -> None:
+def _set_labels(forms_at_points: SampledForms, proof_of: Certificate | None, result: Answer) -> None:
     """The label of every row, finite ones and forms; one that is left open leaves the freedom open too."""
-    for i, row, place in linear_rows(known.block, known.forms):
+    for i, row, place in linear_rows(forms_at_points.block, forms_at_points.forms):
         if isinstance(row.piece, Finite):
             result.labels[i] = HolonomyLabel(True, "proved")
             continue
-        label = _label(place, known, proof_of)
+        label = _label(place, forms_at_points, proof_of)
         if label.holonomic is None:
             result.verdict, result.dof, result.growth = "undecided", None, None
-        elif not label.holonomic and known.integrable > known.rank_finite:
-            label = replace(label, modulo=_modulo_the_others(place, known.sampled, known.point.p))
+        elif not label.holonomic and forms_at_points.integrable > forms_at_points.rank_finite:
+            label = replace(label, modulo=_modulo_the_others(place, forms_at_points.sampled, forms_at_points.point.p))
         result.labels[i] = label
 
 
-def certificate(known: SampledForms, found: Variety) -> Certificate | None:
+def certificate(forms_at_points: SampledForms, variety: Variety) -> Certificate | None:
     """A span and a matrix whose non-zero values are proved not to be 0.
 
     Where the generators are known to be independent and no finite relation holds among them, what is not 0 at a
     point over GF(p) is not 0 as a function; else balls at a real point, up to `CERTIFIED_COLUMNS`.
     """
-    real = found.real
+    real = variety.real
     if real is None or not real.certified or not real.consistent:
         return None
-    if known.trusted and not known.forms.finite:
-        return known.sampled.span, known.sampled.matrix
-    if known.columns > CERTIFIED_COLUMNS:
+    if forms_at_points.trusted and not forms_at_points.forms.finite:
+        return forms_at_points.sampled.span, forms_at_points.sampled.matrix
+    if forms_at_points.columns > CERTIFIED_COLUMNS:
         return None
-    return ball_span(known.forms, known.rank, real.point, found.about == "reference")
+    return ball_span(forms_at_points.forms, forms_at_points.rank, real.point, variety.about == "reference")
 
 
-def _rank_verdict(known: SampledForms, proof_of: Certificate | None, setting: Setting) -> Verdict:
+def _rank_verdict(forms_at_points: SampledForms, proof_of: Certificate | None, setting: Setting) -> Verdict:
     """How sure the rank and the Lie algebra's dimension are.
 
     Independent rows have their rank certified by the ball. The dimension is not too large by a certificate of the
     ball; not too small where it is everything, where D is a line, and where as many rows are proved to integrate by
     themselves as the Lie algebra leaves directions out.
     """
-    sampled, rank, n = known.sampled, known.rank, known.columns
+    sampled, rank, n = forms_at_points.sampled, forms_at_points.rank, forms_at_points.columns
     if proof_of is None or len(sampled.matrix) > rank or proof_of[0].dimension != sampled.span.dimension:
         return "probable"
     if sampled.span.dimension == n or n - rank <= 1:
         return "proved"
     constants = {
-        c: ex.parameter(c) for r in known.block.forms if isinstance(r.piece, Still) for c in r.piece.coefficients
+        c: ex.parameter(c)
+        for r in forms_at_points.block.forms
+        if isinstance(r.piece, Still)
+        for c in r.piece.coefficients
     }
-    forms = [p for r in known.block.forms if isinstance(p := with_constants(r.piece, constants), Pfaffian)]
+    forms = [p for r in forms_at_points.block.forms if isinstance(p := with_constants(r.piece, constants), Pfaffian)]
     wanted = n - sampled.span.dimension - (len(sampled.matrix) - len(forms))
-    flat = forms if constants or wanted > len(forms) else _flat(known, forms)
+    flat = forms if constants or wanted > len(forms) else _flat(forms_at_points, forms)
     if wanted > len(flat):
         return "probable"
     return "proved" if sum(proof(f, setting.positive) is not None for f in flat) == wanted else "probable"
 
 
-def _flat(known: SampledForms, forms: Sequence[Pfaffian]) -> list[Pfaffian]:
+def _flat(forms_at_points: SampledForms, forms: Sequence[Pfaffian]) -> list[Pfaffian]:
     """The forms that may integrate by themselves: those with curvature at the point do not."""
-    rows, point = known.forms.rows, known.point
-    at, first = values(rows.ring, point), known.forms.finite
+    rows, point = forms_at_points.forms.rows, forms_at_points.point
+    at, first = values(rows.ring, point), forms_at_points.forms.finite
     return [form for i, form in enumerate(forms) if not CurlAtPoint(rows, first + i, at, point).is_curved]
 
 
-def _label(place: int, known: SampledForms, proof_of: Certificate | None) -> HolonomyLabel:
-    """Is the row in the largest integrable part: does it annihilate the Lie algebra of D [HermannNagano]?"""
-    zero = [all(v == 0 for v in pairing(s.matrix[place], s.span.vectors)) for _, s in known.samples]
+def _label(place: int, forms_at_points: SampledForms, proof_of: Certificate | None) -> HolonomyLabel:
+    """Return whether the row annihilates the Lie algebra of D, so is in the largest integrable part [HermannNagano]."""
+    zero = [all(v == 0 for v in pairing(s.matrix[place], s.span.vectors)) for _, s in forms_at_points.samples]
     if all(zero):
-        line = known.columns - known.rank <= 1
+        line = forms_at_points.columns - forms_at_points.rank <= 1
         return HolonomyLabel(True, "proved" if line and proof_of is not None else "probable", "line" if line else "")
     disagree = "exact arithmetic and certified intervals disagree: an identity between functions was not detected"
     if proof_of is None:
-        return HolonomyLabel(False, "probable") if known.trusted else HolonomyLabel(None, "undecided", disagree)
+        return (
+            HolonomyLabel(False, "probable") if forms_at_points.trusted else HolonomyLabel(None, "undecided", disagree)
+        )
     span, matrix = proof_of
     if any(is_nonzero(v) for v in pairing(matrix[place], span.vectors)):
         return HolonomyLabel(False, "proved")
@@ -224,7 +231,7 @@ def _label(place: int, known: SampledForms, proof_of: Certificate | None) -> Hol
 
 
 def _modulo_the_others(place: int, sampled: SampledSpan, p: int) -> bool:
-    """Is the row a sum of one in the largest integrable part and of the other rows, and independent of these?
+    """Return whether the row is one of the largest integrable part plus other rows, and independent of these.
 
     So it is where it annihilates what both allow: the Lie algebra's vectors that the other rows annihilate.
     """
@@ -234,13 +241,13 @@ def _modulo_the_others(place: int, sampled: SampledSpan, p: int) -> bool:
     vectors = sampled.span.vectors
     paired = nmod_mat([[int(v) for v in pairing(row, vectors)] for row in others], p)
     null, nullity = paired.nullspace()
-    own = [int(v) for v in pairing(sampled.matrix[place], vectors)]
-    return all(sum(int(null[r, c]) * own[r] for r in range(len(own))) % p == 0 for c in range(nullity))
+    pairings = [int(v) for v in pairing(sampled.matrix[place], vectors)]
+    return all(sum(int(null[r, c]) * pairings[r] for r in range(len(pairings))) % p == 0 for c in range(nullity))
 
 
-def _integrable_names(known: SampledForms) -> tuple[str, ...]:
+def _integrable_names(forms_at_points: SampledForms) -> tuple[str, ...]:
     """Dependent coordinates: pivots of the annihilator of the Lie algebra."""
-    chart, p, spanning = known.forms.chart, known.point.p, known.sampled.span.vectors
+    chart, p, spanning = forms_at_points.forms.chart, forms_at_points.point.p, forms_at_points.sampled.span.vectors
     if not spanning:
         return tuple(str(s.args[1]) for s in chart.symbols if s != ex.TIME)
     vectors = nmod_mat([[int(v) for v in vector] for vector in spanning], p)
@@ -262,12 +269,12 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
     part = ball_part(matrix)
     rank = part.rank
     total, n = len(forms.chart.symbols), forms.n
-    found = ball_span(forms, rank, real.point)
-    if found is None or part.gap < CLEAR:
+    lie_algebra = ball_span(forms, rank, real.point)
+    if lie_algebra is None or part.gap < CLEAR:
         result.verdict, result.consistent = "undecided", None
         result.reasons.append("only singular points were found")
         return
-    span, _ = found
+    span, _ = lie_algebra
     reached = span.dimension == total
     gap = part.gap if reached else min(part.gap, _gap(span))
     result.verdict, result.method = "numeric", "Lie algebra along a curve with balls"

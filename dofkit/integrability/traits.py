@@ -74,11 +74,11 @@ def timeless(piece: Clause, positive: frozenset[Expr], engines: Engines = BOTH) 
     if not sided and _is_of_time_alone(e):
         constant, sure = zero_and_verdict(diff(e, ex.TIME), positive, engines)
         return (constant, sure) if not constant or is_analytic(e, [ex.TIME], positive) else (None, "undecided")
-    parts = [f for f in _factors_left(e, sided, positive) if ex.TIME in f.symbols]
-    answers = [_is_still(f, sided, positive, engines) for f in parts]
+    factors = [f for f in _factors_left(e, sided, positive) if ex.TIME in f.symbols]
+    answers = [_is_still(f, sided, positive, engines) for f in factors]
     if (False, "proved") in answers:
         return False, "proved"
-    kept = [answer for f, answer in zip(parts, answers, strict=True) if not no_solution([f], positive)]
+    kept = [answer for f, answer in zip(factors, answers, strict=True) if not no_solution([f], positive)]
     return all_of(kept) if not sided or not kept else (None, "undecided")
 
 
@@ -190,15 +190,15 @@ def vanishes_on(
         except NoValueError:
             return None, "undecided"
     if "balls" not in engines:
-        known = point is not None and independent_on_set(ring, [node])
-        return (False, "probable") if known else (None, "undecided")
+        certain = point is not None and independent_on_set(ring, [node])
+        return (False, "probable") if certain else (None, "undecided")
     real = _real_point(ring, node, g, positive)
     apart = real is not None and _is_apart(ring, real, rate, others)
     if real is not None and apart and real.certified:
         return False, "proved"
     if "field" not in engines:
-        known = real is not None and real.certified and _is_irreducible(g, positive)
-        return (True, "numeric") if known else (None, "undecided")
+        certain = real is not None and real.certified and _is_irreducible(g, positive)
+        return (True, "numeric") if certain else (None, "undecided")
     return (False, "numeric") if point is not None and apart else (None, "undecided")
 
 
@@ -222,8 +222,8 @@ def _real_point(ring: Ring, node: int, g: Expr, positive: frozenset[Expr]) -> Re
 
 def _is_apart(ring: Ring, real: RealPoint, rate: int, others: list[int]) -> bool:
     """Return whether a number is not 0 at a point, and one of the others, where there are any, is not either."""
-    found = values(ring, real.point)
-    return not found[rate].contains(0) and (not others or any(not found[k].contains(0) for k in others))
+    at = values(ring, real.point)
+    return not at[rate].contains(0) and (not others or any(not at[k].contains(0) for k in others))
 
 
 def _homogeneous(e: Expr, radial: Expr) -> bool:
@@ -278,9 +278,9 @@ def integrability(form: Pfaffian, positive: frozenset[Expr], alone: bool | None)
         return Integrability(False)
     reason = proof(form, positive)
     plain = bool(form.coefficients) and not odd_constants(_ring(form, positive))
-    found = search.integrate(form, positive) if plain and (reason or alone) else None
-    if found is not None:
-        return Integrability(True, "an integral was found and checked", found.factor, found.integral)
+    antiderivative = search.integrate(form, positive) if plain and (reason or alone) else None
+    if antiderivative is not None:
+        return Integrability(True, "an integral was found and checked", antiderivative.factor, antiderivative.integral)
     return Integrability(reason is not None, reason or "")
 
 
@@ -321,10 +321,10 @@ class CurlAtPoint:
     """One form and its differential at a point: d(omega) has the components d_i a_j - d_j a_i."""
 
     def __init__(self, rows: FormRows, row: int, at: Sequence[Scalar], point: Any) -> None:
-        one, entries = point.number(ex.ONE.args[0]), rows.entries[row]
-        self.columns, self.zero = rows.columns, one * 0
+        unit, entries = point.number(ex.ONE.args[0]), rows.entries[row]
+        self.columns, self.zero = rows.columns, unit * 0
         self.value = {c: at[node] for c, node in entries.items()}
-        self.slopes = {c: gradient(rows.ring, at, point, [(node, one)]) for c, node in entries.items()}
+        self.slopes = {c: gradient(rows.ring, at, point, [(node, unit)]) for c, node in entries.items()}
 
     def curl(self, i: int, j: int) -> Scalar:
         """A component of d(omega)."""
@@ -333,7 +333,7 @@ class CurlAtPoint:
 
     @cached_property
     def is_curved(self) -> bool:
-        """Is d(omega) ^ omega something else than 0? Then the form does not integrate by itself [Frobenius1877].
+        """Return whether d(omega) ^ omega is not 0, so that the form does not integrate by itself [Frobenius1877].
 
         With a coefficient a_k that is not 0 that holds where a component (i, j, k) is not 0 for some i and j.
         """

@@ -15,9 +15,7 @@ from dofkit.interface.output import failures_of
 assignment_app = typer.Typer(
     help="Write assignments, handouts and a variant per student.", no_args_is_help=True, rich_markup_mode="rich"
 )
-export_app = typer.Typer(
-    help="Export assignments and grades for course platforms.", no_args_is_help=True, rich_markup_mode="rich"
-)
+export_app = typer.Typer(help="Export assignments for course platforms.", no_args_is_help=True, rich_markup_mode="rich")
 
 
 @assignment_app.command("new")
@@ -50,7 +48,7 @@ def handout(
     """
     from dofkit.homework.assignment import load_assignment
     from dofkit.homework.handout.sheets import HANDOUTS, remarks, write_sheet, written_sheet
-    from dofkit.homework.variants import own
+    from dofkit.homework.variants import sheet_of
 
     with failures_of(assignment):
         form = form or "html" if out is None else format_of_path(out, HANDOUTS, form)
@@ -59,7 +57,7 @@ def handout(
         if target.resolve() == Path(assignment).resolve():
             raise typer.BadParameter("it would overwrite the assignment", param_hint="--out")
         if student is not None:
-            prepared = own(prepared, student)
+            prepared = sheet_of(prepared, student)
         write_sheet(written_sheet(prepared, drawing(), student), form, target)
     for remark in remarks(prepared):
         typer.echo(f"{assignment}: {remark}", err=True)
@@ -139,21 +137,3 @@ def export_gradescope(
 
     with failures_of(assignment):
         export.export_gradescope(assignment, out, reviewed)
-
-
-@export_app.command("grades")
-def export_grades(
-    assignment: options.Assignment,
-    results: Annotated[
-        Path, typer.Argument(metavar="RESULTS", help="The results.jsonl of `dofkit grade`, or its folder.")
-    ],
-    form: Annotated[str, typer.Option("--format", metavar="NAME", help="The format of a gradebook or platform.")],
-    out: Annotated[Path, typer.Option("--out", metavar="PATH", help="The file or folder to write.")],
-    roster: options.RosterPath = None,
-) -> None:
-    """Write existing results in another format, without regrading."""
-    from dofkit.homework.runs.run import GradingOptions, convert
-
-    with failures_of(assignment):
-        count = convert(assignment, results, GradingOptions(form, out, roster=roster))
-    typer.echo(f"{out}: {count} results")

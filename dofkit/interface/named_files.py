@@ -42,7 +42,7 @@ def _named(argument: str) -> list[str]:
 
 
 def _is_catalogued(name: str) -> bool:
-    """Is it a scene of the catalog, which has the same name as a folder here?"""
+    """Return whether a name is that of a scene of the catalog; a folder here may have the same one."""
     return name in catalog_names()
 
 
@@ -57,7 +57,7 @@ def _below(folder: str) -> Iterator[str]:
 
 
 def _is_model(path: str) -> bool:
-    """Is it XML of a kind that is read?"""
+    """Return whether a file is XML of a kind that is read."""
     if not path.lower().endswith(OF_MANY_KINDS):
         return False
     try:
@@ -115,7 +115,7 @@ def write_new(out: Path | None) -> str:
 
 
 def _written(text: str, out: Path | None) -> str:
-    """Write a scene, and beside it the schema by which editors complete and check it."""
+    """Write a scene, and in its folder the schema by which editors complete and check it."""
     if out is None:
         return text
     try:

@@ -41,18 +41,18 @@ class CountedJoint:
 
 
 def joints_of(system: System, equations: Sequence[int]) -> list[CountedJoint]:
-    """The constraints that count as joints; ``equations`` of every constraint."""
+    """Return the constraints that count as joints; ``equations`` of every constraint."""
     moving = set(system.bodies)
     whole = full(system)
-    found = []
+    joints = []
     for c in system.connections:
         members = [m for m in c.members if m != GROUND]
         if not c.facts.joint or not members or len(members) > 2 or not moving.issuperset(members):
             continue
         first, second = (GROUND, *members)[-2:]
         freedom = whole - equations[c.constraint] + c.driven
-        found.append(CountedJoint(c.constraint, first, second, freedom, c.driven))
-    return found
+        joints.append(CountedJoint(c.constraint, first, second, freedom, c.driven))
+    return joints
 
 
 def without_drives(system: System) -> System | None:
@@ -102,18 +102,18 @@ def kutzbach_count(
     )
 
 
-def _terms(system: System, joints: Sequence[CountedJoint], rest: int) -> list[tuple[str, int, str]]:
+def _terms(system: System, joints: Sequence[CountedJoint], equations: int) -> list[tuple[str, int, str]]:
     """(sign, number, what it counts) of what is counted besides."""
     driven = sum(j.driven for j in joints)
     owned = full(system) * len(system.bodies) + system.dimension * len(system.particles)
     further = len(system.coordinates) - owned
-    found = [
+    terms = [
         ("-", -driven, "driven joints"),
         ("+", system.dimension * len(system.particles), f"{system.dimension} per particle"),
         ("+", further, "further coordinates"),
-        ("-", -rest, "other equations"),
+        ("-", -equations, "other equations"),
     ]
-    return [term for term in found if term[1]]
+    return [term for term in terms if term[1]]
 
 
 def _why(system: System, joints: Sequence[CountedJoint], kutzbach: int, freedom: int, drawn: Drawing) -> str:
@@ -145,15 +145,15 @@ def _of_screws(system: System, joints: Sequence[CountedJoint], freedom: int, dra
             f"the joint screws form a {span}-system, not a {whole}-system; "
             f"with {span} in place of {whole} the count is {numbers}"
         )
-    told = []
+    closures = []
     loops = _loops(joints)
     for loop in loops[:MOST_LOOPS]:
         span = rank_of_rows([s for j in loop for s in screws[j]], drawn.p)
         if span < whole:
-            told.append(_closure([names[j.constraint] for j in loop], loop, span, whole))
-    more = f"; and {many(len(told) - MOST_TOLD, 'more loop')}" if len(told) > MOST_TOLD else ""
-    if told:
-        return "; ".join(told[:MOST_TOLD]) + more
+            closures.append(_closure([names[j.constraint] for j in loop], loop, span, whole))
+    more = f"; and {many(len(closures) - MOST_TOLD, 'more loop')}" if len(closures) > MOST_TOLD else ""
+    if closures:
+        return "; ".join(closures[:MOST_TOLD]) + more
     return "together the loops impose fewer conditions than separately" if len(loops) > 1 else ""
 
 
@@ -165,15 +165,15 @@ def _closure(names: Sequence[str], loop: Sequence[CountedJoint], span: int, whol
     return f"the loop {', '.join(names)} closes by {conditions}, not {whole}: its screws form a {span}-system"
 
 
-def allowed(found: Located, dimension: int, p: int) -> list[SparseRow]:
+def allowed(joint: Located, dimension: int, p: int) -> list[SparseRow]:
     """A basis of the twists that a joint allows the second body against the first, at the world's origin modulo p."""
     size = dimension + TURNS[dimension]
     ground, free = Member(None), Member(0, (0,) * dimension)
-    bodies = [m for m in found.members if m.column is not None]
+    bodies = [m for m in joint.members if m.column is not None]
     ends = {id(bodies[-1]): free}
-    members = tuple(ends.get(id(m), ground) for m in found.members)
-    points = tuple((ends.get(id(m), ground), at) for m, at in found.points)
-    rows = rows_of(replace(found, members=members, points=points, driven=False))
+    members = tuple(ends.get(id(m), ground) for m in joint.members)
+    points = tuple((ends.get(id(m), ground), at) for m, at in joint.points)
+    rows = rows_of(replace(joint, members=members, points=points, driven=False))
     if rows is None:
         return [{c: 1} for c in range(size)]
     return _kernel([{c: v % p for c, v in row.items() if v % p} for row in rows], size, p)
@@ -187,22 +187,22 @@ def _kernel(rows: Sequence[SparseRow], size: int, p: int) -> list[SparseRow]:
 
 
 def _loops(joints: Sequence[CountedJoint]) -> list[list[CountedJoint]]:
-    """A basis of the loops: for every joint that closes one, the path between its ends in a spanning tree."""
+    """Return a basis of the loops: for every joint that closes one, the path between its ends in a spanning tree."""
     tree: nx.Graph = nx.Graph()
-    parts: nx.utils.UnionFind[str] = nx.utils.UnionFind()
+    trees: nx.utils.UnionFind[str] = nx.utils.UnionFind()
     closing = []
     for j in joints:
-        if parts[j.first] == parts[j.second]:
+        if trees[j.first] == trees[j.second]:
             closing.append(j)
         else:
-            parts.union(j.first, j.second)
+            trees.union(j.first, j.second)
             tree.add_edge(j.first, j.second, joint=j)
-    found = []
+    loops = []
     for j in closing[:MOST_LOOPS]:
         path = nx.shortest_path(tree, j.first, j.second) if j.first != j.second else [j.first]
         around = [tree.edges[a, b]["joint"] for a, b in pairwise(path)]
-        found.append(sorted([*around, j], key=lambda joint: joint.constraint))
-    return found
+        loops.append(sorted([*around, j], key=lambda joint: joint.constraint))
+    return loops
 
 
 # f = N d - k
@@ -279,35 +279,35 @@ def _why_fewer(facts: CountedFacts) -> list[str]:
     """Return what removes degrees of freedom besides the geometric equations as written."""
     forms = [e for e in facts.entries if e.form in ("pfaffian", "nonlinear")]
     integrable = [e.name for e in forms if e.holonomic]
-    found = []
+    reasons = []
     if integrable:
         verb = "integrates to a geometric equation" if len(integrable) == 1 else "integrate to geometric equations"
-        found.append(f"{', '.join(integrable)} {verb}, which the count does not include")
+        reasons.append(f"{', '.join(integrable)} {verb}, which the count does not include")
     if facts.hidden:
-        found.append(
+        reasons.append(
             f"the differential constraints imply {many(facts.hidden, 'geometric equation')} besides those written"
         )
-    if forms and not found:
-        found.append("a combination of the differential constraints integrates to a geometric equation")
-    if not found:
-        found.append(
+    if forms and not reasons:
+        reasons.append("a combination of the differential constraints integrates to a geometric equation")
+    if not reasons:
+        reasons.append(
             "over the reals one equation imposes several conditions, so it removes more than one degree of freedom"
         )
-    return found
+    return reasons
 
 
 def complete_sets(system: System) -> list[str]:
     """Return the complete sets of N > d+1 linked particles, of whose links only N d - d(d+1)/2 are independent."""
     d = system.dimension
-    found = []
+    sentences = []
     for constraint in system.constraints:
         if not constraint.facts.complete:
             continue
         links = len(constraint.relations)
         n = round((1 + (1 + 8 * links) ** 0.5) / 2)
         if n > d + 1:
-            found.append(
+            sentences.append(
                 f"of the N(N-1)/2 = {links} links among N = {n} particles in {many(d, 'dimension')} only "
                 f"N d - d(d+1)/2 = {n * d - d * (d + 1) // 2} are independent, because N > d+1 = {d + 1}"
             )
-    return found
+    return sentences

@@ -52,12 +52,12 @@ class General:
 
 
 def has_geometry(system: System) -> bool:
-    """Is a drawing given, and anything connected in it?"""
+    """Return whether there is a drawing, and anything is connected in it."""
     return system.reference is not None and any(c.members for c in system.connections)
 
 
 def in_general_position(system: System, rows: Sequence[Row], setting: Setting) -> General:
-    """The rank of the finite relations ``rows`` with all given geometry random."""
+    """Return the rank of the finite relations ``rows`` with all given geometry random."""
     if any(not isinstance(row.piece, Finite) for row in rows):
         return General(None, why=DIFFERENTIAL)
     particles = set(system.particles)
@@ -77,8 +77,8 @@ def _of_links(system: System) -> General:
     return General(len(pairs) - len(redundant_links(pairs, system.dimension)), verdict)
 
 
-def _of_rows(system: System, given: Sequence[Row], setting: Setting) -> General:
-    written = _as_texts(system, given)
+def _of_rows(system: System, finite: Sequence[Row], setting: Setting) -> General:
+    written = _as_texts(system, finite)
     if written and any(r.chart == "euler" for r in system.rotations):
         return General(None, why=ANGLES)
     for seed in range(DRAWS):
@@ -86,17 +86,17 @@ def _of_rows(system: System, given: Sequence[Row], setting: Setting) -> General:
         if drawn is None:
             continue
         placement, rows = drawn
-        for found in placement.located:
+        for connection in placement.located:
             check()
-            own = rows_of(found) or [] if found.facts.placed else []
-            rows += [{c: int(v % placement.p) for c, v in row.items() if v % placement.p} for row in own]
+            conditions = rows_of(connection) or [] if connection.facts.placed else []
+            rows += [{c: int(v % placement.p) for c, v in row.items() if v % placement.p} for row in conditions]
         rank = rank_of_rows(rows, placement.p)
         return General(rank, "proved" if rank == len(rows) and not written else "probable")
     return General(None, why=NOWHERE)
 
 
 def _as_texts(system: System, rows: Sequence[Row]) -> list[Row]:
-    """The rows that no connection's geometry says: equations, surfaces, profiles, strings."""
+    """Return the rows that no connection's geometry says: equations, surfaces, profiles, strings."""
     placed = {c.constraint for c in system.connections if c.facts.placed}
     return [row for row in rows if row.constraint not in placed]
 
@@ -125,30 +125,30 @@ def _values(system: System, placement: Placement) -> Mapping[Expr, int]:
     """Where everything stands; spatial bodies are turned by nothing (g = 0)."""
     stands = dict(placement.places)
     stands |= {name: placement.members[name].start or () for name in system.bodies}
-    found = {ex.coordinate(n): 0 for r in system.rotations for n in r.names}
+    positions = {ex.coordinate(n): 0 for r in system.rotations for n in r.names}
     taken: dict[str, int] = {}
     for c in system.coordinates:
         if c.owner is not None and c.role in ("x", "y", "z"):
             k = taken[c.owner] = taken.get(c.owner, -1) + 1
-            found[ex.coordinate(c.name)] = stands[c.owner][k]
-    return found
+            positions[ex.coordinate(c.name)] = stands[c.owner][k]
+    return positions
 
 
 @raising_no_value
 def _slopes(system: System, ring: Ring, nodes: Sequence[int], point: FieldPoint) -> list[SparseRow]:
-    """The rows by the coordinates; the rate of a body's Gibbs vector at 0 is half of its angular velocity."""
+    """Return the rows by the coordinates; the rate of a body's Gibbs vector at 0 is half of its angular velocity."""
     at = values(ring, point)
-    one = point.number(ex.ONE.args[0])
+    unit = point.number(ex.ONE.args[0])
     gibbs = {n for r in system.rotations for n in r.names}
     columns = {
-        index: (k, one / 2 if c.name in gibbs else one)
+        index: (k, unit / 2 if c.name in gibbs else unit)
         for k, c in enumerate(system.coordinates)
         if (index := ring.var_index(ex.coordinate(c.name))) is not None
     }
     rows = []
     for node in nodes:
         check()
-        slope = gradient(ring, at, point, [(node, one)])
+        slope = gradient(ring, at, point, [(node, unit)])
         row = {columns[i][0]: int(v * columns[i][1]) for i, v in slope.items() if i in columns}
         rows.append({c: v for c, v in row.items() if v})
     return rows
@@ -161,25 +161,25 @@ METHOD = "graph of rigid links"
 
 
 def framework_answer(block: Block, setting: Setting) -> Answer | None:
-    """The answer to a block of links in general position; None for any other."""
+    """Return the answer to a block of links in general position; None for any other."""
     pairs = _pairs(block, setting)
     if pairs is None:
         return None
-    told = linkage(pairs, setting.dimension)
-    proof = told.proof("redundant")
+    framework = linkage(pairs, setting.dimension)
+    proof = framework.proof("redundant")
     p = prime_for(1, (), 0)
     matrix = _rows(pairs, block.coordinates, setting, p)
-    dependent = set(told.redundant_places)
+    dependent = set(framework.redundant_places)
     columns = last_columns([r for i, r in enumerate(matrix) if i not in dependent], len(block.coordinates), p)
     return Answer(
-        dof=told.freedom,
-        velocity_dof=told.freedom,
+        dof=framework.freedom,
+        velocity_dof=framework.freedom,
         verdict=proof.verdict,
         reasons=[proof.reason] if proof.verdict != "proved" else [],
-        derived=(told.rank,),
+        derived=(framework.rank,),
         matrix=matrix,
         modulus=p,
-        supports=lambda: told.circuit_places,
+        supports=lambda: framework.circuit_places,
         dependent=tuple(block.coordinates[c] for c in columns),
         method=METHOD,
         argument="links in general position",
@@ -208,15 +208,15 @@ def unprescribed_links(system: System) -> list[tuple[int, Pair]] | None:
 
 
 def _pairs(block: Block, setting: Setting) -> list[Pair] | None:
-    """The ends of the link that each row is; None where one is no link with a length of its own."""
+    """Return the ends of the link that each row is; None where one is no link with a length of its own."""
     if setting.reference is not None or setting.tolerance is not None or block.conditions or not block.rows:
         return None
     of, places = _places(block.coordinates, setting)
-    given = {i: iter(setting.links.get(i, ())) for i in {row.constraint for row in block.rows}}
+    links_of = {i: iter(setting.links.get(i, ())) for i in {row.constraint for row in block.rows}}
     pairs, lengths, free = list[Pair](), set[Expr](), _unprescribed(setting)
     prescribed = []
     for row in block.rows:
-        pair = next(given[row.constraint], None)
+        pair = next(links_of[row.constraint], None)
         if pair is None or not isinstance(row.piece, Finite) or not {*pair} <= places.keys():
             return None
         length = _only(row.piece.expr, {*places[pair[0]], *places[pair[1]]})
@@ -225,7 +225,7 @@ def _pairs(block: Block, setting: Setting) -> list[Pair] | None:
         lengths.add(length)
         pairs.append(pair)
         prescribed += [] if length in free else [pair]
-    whole = all(next(rest, None) is None for rest in given.values())
+    whole = all(next(unused, None) is None for unused in links_of.values())
     if not whole or {of[c] for c in block.coordinates} != {end for pair in pairs for end in pair}:
         return None
     return None if prescribed and linkage(prescribed, setting.dimension).redundant else pairs
@@ -237,7 +237,7 @@ def _unprescribed(setting: Setting) -> frozenset[Expr]:
 
 
 def _only(e: Expr, ends: set[str]) -> Expr | None:
-    """The one symbol beside some coordinates, which are all that occur."""
+    """Return the one symbol beside some coordinates, which are all that occur."""
     if len(e.symbols) != len(ends) + 1 or coordinates_in(e) != ends:
         return None
     others = [s for s in e.symbols if s.args[0] != "coordinate"]
@@ -245,7 +245,7 @@ def _only(e: Expr, ends: set[str]) -> Expr | None:
 
 
 def _is_length(symbol: Expr, row: Row, setting: Setting) -> bool:
-    """Is a parameter the length of a link, as it stands?"""
+    """Return whether a parameter is the length of a link, as it stands."""
     return [d.squared for d in setting.distances.get(row.constraint, ())] == [ex.power(symbol, ex.TWO)]
 
 
@@ -253,20 +253,20 @@ def _places(coordinates: Iterable[str], setting: Setting) -> tuple[dict[str, str
     """(the particle of every coordinate, the coordinates of every particle that has all of them)."""
     owner = {c.name: c.owner for c in setting.roles if c.role in ("x", "y", "z")}
     of = {name: owner.get(name) for name in coordinates}
-    found: dict[str, list[str]] = {}
+    columns: dict[str, list[str]] = {}
     for name, particle in of.items():
         if particle is not None:
-            found.setdefault(particle, []).append(name)
-    return of, {particle: own for particle, own in found.items() if len(own) == setting.dimension}
+            columns.setdefault(particle, []).append(name)
+    return of, {particle: names for particle, names in columns.items() if len(names) == setting.dimension}
 
 
 def _rows(pairs: Sequence[Pair], coordinates: Sequence[str], setting: Setting, p: int) -> list[SparseRow]:
-    """The rigidity matrix at random positions modulo p."""
+    """Return the rigidity matrix at random positions modulo p."""
     number = {name: k for k, name in enumerate(coordinates)}
     _, places = _places(coordinates, setting)
-    columns = {particle: [number[name] for name in own] for particle, own in places.items()}
+    columns = {particle: [number[name] for name in names] for particle, names in places.items()}
     rng = random.Random("dofkit framework")
-    at = {particle: [rng.randrange(p) for _ in own] for particle, own in columns.items()}
+    at = {particle: [rng.randrange(p) for _ in names] for particle, names in columns.items()}
     rows = []
     for a, b in pairs:
         arm = [(x - y) % p for x, y in zip(at[a], at[b], strict=True)]

@@ -39,10 +39,10 @@ def tree_coordinates(system: System) -> list[str] | None:
 
 
 def _is_tree(system: System, joints: list[Connection]) -> bool:
-    """Does every joint join what was apart, and is there nothing else but couplings and bounds?"""
-    own = {c.constraint for c in joints}
+    """Return whether every joint joins what was apart, and there is nothing else but couplings and bounds."""
+    of_joints = {c.constraint for c in joints}
     for index, c in enumerate(system.connections):
-        if index in own or c.rates:
+        if index in of_joints or c.rates:
             continue
         if any(relation.sense == "=" for relation in system.constraints[index].relations):
             return False
@@ -60,19 +60,19 @@ def _floating(system: System, joints: list[Connection]) -> Iterator[str]:
     for c in joints:
         held.union(*c.members)
     roots = {held[GROUND]}
-    own: dict[str | None, list[str]] = {}
+    names_of: dict[str | None, list[str]] = {}
     for q in system.coordinates:
-        own.setdefault(q.owner, []).append(q.name)
+        names_of.setdefault(q.owner, []).append(q.name)
     for name in system.bodies:
         if held[name] not in roots:
             roots.add(held[name])
-            yield from own.get(name, ())
+            yield from names_of.get(name, ())
     bodies = frozenset(system.bodies)
     yield from (q.name for q in system.coordinates if q.owner not in bodies)
 
 
 def _coupled(system: System) -> Iterator[dict[str, Fraction]]:
-    """The factors of each coupling by what they belong to; nothing of one whose factors are no numbers."""
+    """Yield the factors of each coupling by what they belong to; nothing of one whose factors are no numbers."""
     for c in system.connections:
         if c.rates and all(rate.slope.op == "num" for rate in c.rates):
             yield {rate.name: rate.slope.args[0] for rate in c.rates}
@@ -107,15 +107,15 @@ class Bridges(NamedTuple):
 
 
 def bridges(system: System) -> Bridges:
-    """The joints that close no loop, of those of a drawing in fractions, by numbers; none without a drawing."""
+    """Return the joints that close no loop, of those of a drawing in fractions, by numbers; none without a drawing."""
     if system.dimension == 1:
         return Bridges()
     joints = {c.constraint: c.members for c in system.connections if _is_drawn(c, system)}
     if not joints:
         return Bridges()
     graph = _graph(system, joints)
-    found = _ends_of_bridges(graph)
-    apart = frozenset(i for i in joints if found[i] == len(graph.adj[i]))
+    ends = _ends_of_bridges(graph)
+    apart = frozenset(i for i in joints if ends[i] == len(graph.adj[i]))
     graph.remove_nodes_from(apart)
     grounded = nx.node_connected_component(graph, GROUND) if GROUND in graph else set()
     return Bridges(apart, frozenset(i for i in graph if isinstance(i, int)) - grounded)
@@ -138,27 +138,27 @@ def _graph(system: System, joints: Mapping[int, Sequence[Node]]) -> nx.Graph[Nod
 
 def _ends_of_bridges(graph: nx.Graph[Node]) -> Counter[Node]:
     """Of how many bridges each node is an end: of those of leaves, peeled off one after another, and of the others."""
-    left = dict(graph.degree)
-    leaves = [node for node, degree in left.items() if degree == 1]
-    found: Counter[Node] = Counter()
+    degrees = dict(graph.degree)
+    leaves = [node for node, degree in degrees.items() if degree == 1]
+    ends: Counter[Node] = Counter()
     for leaf in leaves:
-        del left[leaf]
+        del degrees[leaf]
         for other in graph.adj[leaf]:
-            if other in left:
-                found.update((leaf, other))
-                left[other] -= 1
-                if left[other] == 1:
+            if other in degrees:
+                ends.update((leaf, other))
+                degrees[other] -= 1
+                if degrees[other] == 1:
                     leaves.append(other)
-    found.update(node for edge in nx.bridges(graph.subgraph(left).copy()) for node in edge)
-    return found
+    ends.update(node for edge in nx.bridges(graph.subgraph(degrees).copy()) for node in edge)
+    return ends
 
 
 def _is_drawn(c: Connection, system: System) -> bool:
-    """Is a joint of two bodies, whose motion nothing prescribes, drawn in fractions, as its bodies are?"""
+    """Return whether an undriven joint of two bodies is drawn in fractions, as its bodies are."""
     if not (c.facts.freedoms or c.facts.welded) or len(c.members) != 2 or c.driven or c.number is not None:
         return False
-    given = (*c.places, *c.directions, *(system.starts.get(member, ()) for member in c.members))
-    return all(vector is not None and all(part.op == "num" for part in vector) for vector in given)
+    vectors = (*c.places, *c.directions, *(system.starts.get(member, ()) for member in c.members))
+    return all(vector is not None and all(part.op == "num" for part in vector) for vector in vectors)
 
 
 def _held(constraint: Constraint, c: Connection | None, owners: Mapping[str, Node]) -> set[Node]:

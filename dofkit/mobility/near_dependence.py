@@ -28,11 +28,11 @@ def nearly_dependent(placement: Placement, dimension: int, columns: int, rank: i
     if not 1 < rank <= columns <= MOST:
         return None
     rows = []
-    for found in placement.located:
-        own = rows_of(found)
-        if own is None:
+    for connection in placement.located:
+        conditions = rows_of(connection)
+        if conditions is None:
             return None
-        rows += own
+        rows += conditions
     j = np.zeros((len(rows), columns))
     for i, row in enumerate(rows):
         for c, v in row.items():
@@ -49,7 +49,7 @@ def nearly_dependent(placement: Placement, dimension: int, columns: int, rank: i
 
 
 def _about_middles(j: Any, placement: Placement, dimension: int) -> Any:
-    """The rows by velocities v' of the middles and w' = reach w: v = v' - w x (middle - start)."""
+    """Return the rows by velocities v' of the middles and w' = reach w: v = v' - w x (middle - start)."""
     j = j.copy()
     for member, points in _points(placement).values():
         first, start = member.column, member.start
@@ -67,14 +67,14 @@ def _about_middles(j: Any, placement: Placement, dimension: int) -> Any:
 
 
 def _points(placement: Placement) -> dict[int, tuple[Member, Any]]:
-    """The places at which each member is held, by its first column."""
-    found: dict[int, tuple[Member, list[Any]]] = {}
+    """Return the places at which each member is held, by its first column."""
+    held: dict[int, tuple[Member, list[Any]]] = {}
     for connection in placement.located:
         joined = ((member, at) for at in connection.places for member in connection.members)
         for member, at in (*connection.points, *joined):
             if member.column is not None:
-                found.setdefault(member.column, (member, []))[1].append(at)
-    return {column: (member, np.array(points, dtype=float)) for column, (member, points) in found.items()}
+                held.setdefault(member.column, (member, []))[1].append(at)
+    return {column: (member, np.array(points, dtype=float)) for column, (member, points) in held.items()}
 
 
 def _rows_of_length_1(j: Any) -> Any:

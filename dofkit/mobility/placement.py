@@ -56,21 +56,21 @@ def drawn_placement(system: System, positive: frozenset[Expr]) -> Placement | No
         point = field_point([ring], seed)
         try:
             at = values(ring, point)
-            known = {e: int(at[node]) for e, node in nodes.items()}
+            numbers = {e: int(at[node]) for e, node in nodes.items()}
         except NoValueError:
             continue
-        return _placement(system, _Drawn(point.p, known))
+        return _placement(system, _Drawn(point.p, numbers))
     return None
 
 
 def measured_placement(system: System) -> Placement | None:
-    """The drawing in floating point, lengths in units of the scene's size; None where it holds parameters."""
+    """Return the drawing in floating point, lengths in units of the scene's size; None where it holds parameters."""
     wanted = {part for vector in _vectors(system) for part in vector}
     wanted |= set(_factors(system))
-    known = {e: approximate(e) for e in wanted}
-    if None in known.values():
+    numbers = {e: approximate(e) for e in wanted}
+    if None in numbers.values():
         return None
-    return _placement(system, _Drawn(0, {e: float(v or 0) / system.size for e, v in known.items()}, system.size))
+    return _placement(system, _Drawn(0, {e: float(v or 0) / system.size for e, v in numbers.items()}, system.size))
 
 
 def general_placement(system: System, p: int, seed: int = 0) -> Placement:
@@ -81,8 +81,8 @@ def general_placement(system: System, p: int, seed: int = 0) -> Placement:
 class _Drawn:
     """The numbers of the drawing, in units of ``size``; a particle that is not drawn stands at one random place."""
 
-    def __init__(self, p: int, known: Mapping[Expr, Any], size: float = 1.0) -> None:
-        self.p, self._known, self._size = p, known, size
+    def __init__(self, p: int, numbers: Mapping[Expr, Any], size: float = 1.0) -> None:
+        self.p, self._numbers, self._size = p, numbers, size
         self._rng = random.Random("dofkit drawn")
         self._turn = self._rng.randrange(1, p or FREE)
         self._elsewhere: dict[str, NumberTuple] = {}
@@ -90,11 +90,11 @@ class _Drawn:
     def random(self, dimension: int) -> NumberTuple:
         return tuple(self._rng.randrange(1, self.p or FREE) for _ in range(dimension))
 
-    def vector(self, given: Vector | None, dimension: int) -> NumberTuple:
-        return self.random(dimension) if given is None else tuple(self._known[e] for e in given)
+    def vector(self, drawn: Vector | None, dimension: int) -> NumberTuple:
+        return self.random(dimension) if drawn is None else tuple(self._numbers[e] for e in drawn)
 
-    def place(self, member: str, given: Vector | None, dimension: int) -> NumberTuple:
-        return self.vector(given, dimension)
+    def place(self, member: str, drawn: Vector | None, dimension: int) -> NumberTuple:
+        return self.vector(drawn, dimension)
 
     def point(self, point: DrawnPoint, dimension: int) -> NumberTuple:
         if point.at is not None:
@@ -103,17 +103,17 @@ class _Drawn:
             self._elsewhere[point.carrier] = self.random(dimension)
         return self._elsewhere[point.carrier]
 
-    def number(self, given: Expr | None, by_turn: bool) -> Any:
+    def number(self, drawn: Expr | None, by_turn: bool) -> Any:
         """A screw's advance by radian holds pi, which is no number of GF(p): any factor will do."""
-        if given is None:
+        if drawn is None:
             return 0
-        found: Any = self._known[given] * (self._turn if by_turn else 1)
-        return found % self.p if self.p else found
+        scaled: Any = self._numbers[drawn] * (self._turn if by_turn else 1)
+        return scaled % self.p if self.p else scaled
 
     def factor(self, rate: JointRate) -> Any:
         """Of a rate about or along a direction in units of the size: of angles with displacements as they are."""
-        found: Any = self._known[rate.factor]
-        return found % self.p if self.p else found * self._size ** (1 + bool(rate.direction) + rate.slides)
+        ratio: Any = self._numbers[rate.factor]
+        return ratio % self.p if self.p else ratio * self._size ** (1 + bool(rate.direction) + rate.slides)
 
 
 class _General:
@@ -134,11 +134,11 @@ class _General:
     def random(self, dimension: int) -> NumberTuple:
         return tuple(self._rng.randrange(1, self.p) for _ in range(dimension))
 
-    def vector(self, given: Vector | None, dimension: int) -> NumberTuple:
+    def vector(self, drawn: Vector | None, dimension: int) -> NumberTuple:
         return self.random(dimension)
 
-    def place(self, member: str, given: Vector | None, dimension: int) -> NumberTuple:
-        return self.random(dimension) if given is None else self._at((member, given), dimension)
+    def place(self, member: str, drawn: Vector | None, dimension: int) -> NumberTuple:
+        return self.random(dimension) if drawn is None else self._at((member, drawn), dimension)
 
     def point(self, point: DrawnPoint, dimension: int) -> NumberTuple:
         return self._at(_key(point), dimension)
@@ -149,7 +149,7 @@ class _General:
             self._places[root] = self.random(dimension)
         return self._places[root]
 
-    def number(self, given: Expr | None, by_turn: bool) -> int:
+    def number(self, drawn: Expr | None, by_turn: bool) -> int:
         return self._rng.randrange(1, self.p)
 
     def factor(self, rate: JointRate) -> int:
@@ -169,8 +169,8 @@ def _factors(system: System) -> Iterator[Expr]:
 def _vectors(system: System) -> Iterator[Vector]:
     yield from system.starts.values()
     for c in system.connections:
-        given = (*c.places, *c.directions, *(point.at for point in c.points))
-        yield from (vector for vector in given if vector is not None)
+        drawn = (*c.places, *c.directions, *(point.at for point in c.points))
+        yield from (vector for vector in drawn if vector is not None)
         yield from (vector for rate in c.rates for vector in (rate.place, rate.direction))
 
 
@@ -231,7 +231,7 @@ class Member:
 class Located:
     """A connection with numbers: points that belong to members, places, directions, the screw's pitch or the ratio.
 
-    ``parts``: of a coupling the rate of each joint, its factor, and the joint alone.
+    ``couplings``: of a coupling the rate of each joint, its factor, and the joint alone.
     """
 
     facts: TypeFacts
@@ -242,7 +242,7 @@ class Located:
     directions: tuple[tuple[Any, ...], ...]
     number: Any = 0
     driven: bool = False
-    parts: tuple[tuple[Callable[[Kinematics], LinearRow], Any, Located], ...] = ()
+    couplings: tuple[tuple[Callable[[Kinematics], LinearRow], Any, Located], ...] = ()
 
     def shift(self) -> list[LinearRow]:
         """How the second body's point at the joint moves against the first's; anywhere, where they do not turn."""
@@ -252,7 +252,7 @@ class Located:
         return less(velocity(second, place, d), velocity(first, place, d))
 
     def turn(self) -> list[LinearRow]:
-        """The angular velocity of the second body against the first."""
+        """Return the angular velocity of the second body against the first."""
         return less(self.spin(1), self.spin(0))
 
     def slip(self) -> list[LinearRow]:
@@ -266,28 +266,28 @@ class Located:
         return velocity(*self.points[k], self.dimension)
 
     def origin(self, k: int) -> list[LinearRow]:
-        """The velocity of the origin of the member number ``k``."""
+        """Return the velocity of the origin of the member number ``k``."""
         member = self.members[k]
         return velocity(member, member.start or (0,) * self.dimension, self.dimension)
 
     def spin(self, k: int) -> list[LinearRow]:
-        """The angular velocity of the member number ``k``."""
+        """Return the angular velocity of the member number ``k``."""
         return spin(self.members[k], self.dimension)
 
 
-def rows_of(found: Located) -> list[LinearRow] | None:
+def rows_of(located: Located) -> list[LinearRow] | None:
     """The linear relations of a connection, in the order of its scalar equations; None for a type without any here."""
-    facts = found.facts
+    facts = located.facts
     if facts.velocities is None:
         return None
-    rows = list(facts.velocities(found))
-    if found.driven and facts.drive is not None:
-        rows.append(facts.drive(found))
+    rows = list(facts.velocities(located))
+    if located.driven and facts.drive is not None:
+        rows.append(facts.drive(located))
     return rows
 
 
 def velocity(member: Member, at: Numbers, dimension: int) -> list[LinearRow]:
-    """The velocity of the member's point at a place, a row a component: v + w x (at - start)."""
+    """Return the velocity of the member's point at a place, a row a component: v + w x (at - start)."""
     first = member.column
     if first is None:
         return [{} for _ in range(dimension)]
@@ -305,7 +305,7 @@ def velocity(member: Member, at: Numbers, dimension: int) -> list[LinearRow]:
 
 
 def spin(member: Member, dimension: int) -> list[LinearRow]:
-    """The angular velocity, a row a component."""
+    """Return the angular velocity, a row a component."""
     if member.column is None or member.start is None:
         return [{} for _ in range(TURNS[dimension])]
     return [{member.column + dimension + i: 1} for i in range(TURNS[dimension])]
@@ -360,8 +360,8 @@ class RowsAtReference:
     def _is_plain(self, c: Connection) -> bool:
         facts = c.facts
         plain = facts.placed and facts.joint and c.number is None and not c.driven and not facts.bars and not c.points
-        given = all(vector is not None for vector in (*c.places, *c.directions))
-        return plain and given and self._turned_by_euler.isdisjoint(c.members)
+        complete = all(vector is not None for vector in (*c.places, *c.directions))
+        return plain and complete and self._turned_by_euler.isdisjoint(c.members)
 
     def _rows(self, number: int, p: int) -> list[SparseRow] | None:
         at = self._located.get(number)

@@ -60,7 +60,7 @@ class Geometry:
         return self.parallel(line.direction, _less(point, line.through))
 
     def meet(self, a: DrawnLine, b: DrawnLine) -> bool:
-        """Have the two lines a point in common (at infinity too)?"""
+        """Return whether the two lines have a point in common, perhaps at infinity."""
         if len(a.through) == 2:
             return True
         return self.zero(_dot(_less(b.through, a.through), cross(a.direction, b.direction)))
@@ -75,11 +75,11 @@ def special_facts(
 ) -> list[str]:
     """What is special in each dependent set of constraints, as text; told once."""
     geometry = Geometry(system, placement, tolerance)
-    found: list[str] = []
+    facts: list[str] = []
     for members in sets:
-        found += _of_texts(geometry, members)
-        found += _facts_of_set(geometry, [system.connections[i] for i in members])
-    return list(dict.fromkeys(found)) or [_OTHERWISE]
+        facts += _of_texts(geometry, members)
+        facts += _facts_of_set(geometry, [system.connections[i] for i in members])
+    return list(dict.fromkeys(facts)) or [_OTHERWISE]
 
 
 def _of_texts(g: Geometry, members: Sequence[int]) -> Iterator[str]:
@@ -92,19 +92,19 @@ def _of_texts(g: Geometry, members: Sequence[int]) -> Iterator[str]:
         )
 
 
-def _facts_of_set(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
-    axes = list(_axes(g, own))
-    bars = [*_links(g, own), *_bars(g, own)]
+def _facts_of_set(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
+    axes = list(_axes(g, members))
+    bars = [*_links(g, members), *_bars(g, members)]
     if len(axes) > MOST or len(bars) > MOST:
         return
     yield from _of_axes(g, axes)
-    yield from _of_slides(g, own)
-    yield from _of_bars(g, bars, own)
-    yield from _of_points(g, own)
+    yield from _of_slides(g, members)
+    yield from _of_bars(g, bars, members)
+    yield from _of_points(g, members)
 
 
-def _axes(g: Geometry, own: Sequence[Connection]) -> Iterator[DrawnLine]:
-    for c in own:
+def _axes(g: Geometry, members: Sequence[Connection]) -> Iterator[DrawnLine]:
+    for c in members:
         at = g.placement.located[c.constraint]
         if g.system.dimension == 3 and c.facts.axial and at.places:
             yield from (DrawnLine(g.names[c.constraint], at.places[0], g.unit(n)) for n in at.directions)
@@ -142,17 +142,17 @@ def _through_one_point(g: Geometry, axes: Sequence[DrawnLine]) -> list[DrawnLine
         if not g.meet(a, b):
             continue
         normal = cross(a.direction, b.direction)
-        rest = [c for c in axes if c is not a and c is not b and g.meet(a, c) and g.meet(b, c)]
-        out = [c for c in rest if not g.zero(_dot(normal, c.direction))]
+        meeting = [c for c in axes if c is not a and c is not b and g.meet(a, c) and g.meet(b, c)]
+        out = [c for c in meeting if not g.zero(_dot(normal, c.direction))]
         if len(out) + 2 > max(2, len(best)):
             best = [a, b, *out]
     return best
 
 
-def _of_slides(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
+def _of_slides(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
     slides = [
         DrawnLine(g.names[c.constraint], (), g.unit(at.directions[0]))
-        for c in own
+        for c in members
         if c.facts.slides and (at := g.placement.located[c.constraint]).directions
     ]
     for same in _classes(slides, lambda a, b: g.parallel(a.direction, b.direction)):
@@ -168,9 +168,9 @@ def _of_slides(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
         yield f"{_names_of(slides)} slide parallel to one plane"
 
 
-def _links(g: Geometry, own: Sequence[Connection]) -> Iterator[DrawnLine]:
-    """The links between points, those of rigid sets, and in the plane the normals of contacts."""
-    for c in own:
+def _links(g: Geometry, members: Sequence[Connection]) -> Iterator[DrawnLine]:
+    """Yield the links between points, those of rigid sets, and in the plane the normals of contacts."""
+    for c in members:
         at = g.placement.located[c.constraint]
         if c.facts.contact and g.system.dimension == 2:
             yield DrawnLine(
@@ -186,23 +186,23 @@ def _links(g: Geometry, own: Sequence[Connection]) -> Iterator[DrawnLine]:
                 yield DrawnLine(name, p[1], g.unit(direction), frozenset(ends))
 
 
-def _bars(g: Geometry, own: Sequence[Connection]) -> Iterator[DrawnLine]:
+def _bars(g: Geometry, connections: Sequence[Connection]) -> Iterator[DrawnLine]:
     """Bodies of the plane with hinges at two places."""
     hinges: dict[str, dict[str, tuple[Any, ...]]] = {}
-    for c in own:
+    for c in connections:
         if g.system.dimension == 2 and c.facts.axial:
             at = g.placement.located[c.constraint].places[0]
             for m in c.members:
                 hinges.setdefault(m, {})[_text(c.places[0])] = at
     for name, places in hinges.items():
         if name != GROUND and len(places) == 2:
-            (one, p), (other, q) = places.items()
-            yield DrawnLine(name, p, g.unit(_less(q, p)), frozenset((one, other)))
+            (end, p), (other, q) = places.items()
+            yield DrawnLine(name, p, g.unit(_less(q, p)), frozenset((end, other)))
 
 
-def _of_places(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
+def _of_places(g: Geometry, connections: Sequence[Connection]) -> Iterator[str]:
     """Hinges of the plane that coincide in the reference configuration and join different pairs of bodies."""
-    hinges = [c for c in own if c.facts.axial and g.system.dimension == 2]
+    hinges = [c for c in connections if c.facts.axial and g.system.dimension == 2]
     for a, b in combinations(hinges[:MOST], 2):
         place, other = (g.placement.located[c.constraint].places[0] for c in (a, b))
         if not set(a.members) & set(b.members) and g.zero(*_less(place, other)):
@@ -210,7 +210,7 @@ def _of_places(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
             return
 
 
-def _of_bars(g: Geometry, bars: Sequence[DrawnLine], own: Sequence[Connection]) -> Iterator[str]:
+def _of_bars(g: Geometry, bars: Sequence[DrawnLine], members: Sequence[Connection]) -> Iterator[str]:
     for same in _classes(bars, lambda a, b: g.parallel(a.direction, b.direction)):
         apart = [c[0] for c in _classes(same, lambda a, b: g.on(a, b.through))]
         if len(apart) > 2:
@@ -223,7 +223,7 @@ def _of_bars(g: Geometry, bars: Sequence[DrawnLine], own: Sequence[Connection]) 
             if g.concurrent(a, b, c):
                 yield f"the lines of {_names_of(triple)} meet in one point"
                 break
-    yield from _of_places(g, own)
+    yield from _of_places(g, members)
     for a, b in combinations(bars, 2):
         if len(a.ends & b.ends) == 1 and g.parallel(a.direction, b.direction):
             points = sorted(a.ends | b.ends)
@@ -231,17 +231,17 @@ def _of_bars(g: Geometry, bars: Sequence[DrawnLine], own: Sequence[Connection]) 
             break
 
 
-def _of_points(g: Geometry, own: Sequence[Connection]) -> Iterator[str]:
+def _of_points(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
     """All points of links in one plane of space, or on one conic of the plane [BolkerRoth1980]."""
     points: dict[str, tuple[Any, ...]] = {}
-    for c in own:
+    for c in members:
         at = g.placement.located[c.constraint]
         if c.facts.bars:
             points |= {_name_of_point(c, k): place for k, (_, place) in enumerate(at.points)}
     if len(points) > MOST:
         return
-    first, *rest = points.values() or [()]
-    arms = [g.unit(_less(q, first)) for q in rest]
+    first, *further = points.values() or [()]
+    arms = [g.unit(_less(q, first)) for q in further]
     if g.system.dimension == 3 and len(points) > 3:
         line = next((n for a, b in combinations(arms, 2) if not g.zero(*(n := cross(a, b)))), None)
         if line is None:
@@ -266,14 +266,14 @@ def _text(place: Sequence[Any] | None) -> str:
 
 def _classes(lines: Sequence[DrawnLine], same: Callable[[DrawnLine, DrawnLine], bool]) -> list[list[DrawnLine]]:
     """Lines that are the same in some respect, together."""
-    found: list[list[DrawnLine]] = []
+    classes: list[list[DrawnLine]] = []
     for line in lines:
-        known = next((c for c in found if same(c[0], line)), None)
-        if known is None:
-            found.append([line])
+        alike = next((c for c in classes if same(c[0], line)), None)
+        if alike is None:
+            classes.append([line])
         else:
-            known.append(line)
-    return found
+            alike.append(line)
+    return classes
 
 
 def _names_of(lines: Sequence[DrawnLine]) -> str:
@@ -297,6 +297,6 @@ def _wedge(a: Numbers, b: Numbers) -> list[Any]:
 
 
 def _line(line: DrawnLine) -> tuple[Any, ...]:
-    """The coordinates (a, b, c) of the line a x + b y + c = 0 of the plane."""
+    """Return the coordinates (a, b, c) of the line a x + b y + c = 0 of the plane."""
     (x, y), (u, v) = line.through, line.direction
     return (v, -u, u * y - v * x)

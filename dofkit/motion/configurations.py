@@ -90,8 +90,8 @@ def configurations(
     """
     if steps < 0 or not step > 0:
         raise NoMotionError("steps is at least 0, and the length of a step is more than 0")
-    given = scene_or_system(scene)
-    system = given if isinstance(given, System) else lower(given)
+    source = scene_or_system(scene)
+    system = source if isinstance(source, System) else lower(source)
     try:
         with limited(DEFAULT_SECONDS), precise_for(system.longest):
             return _Sampled(system, dict(values or {}), along).configurations(steps, step, both)
@@ -102,7 +102,7 @@ def configurations(
 class _Sampled:
     """A system with its relations, a follower, and the first pose."""
 
-    def __init__(self, system: System, given: Mapping[str, float], along: str | None) -> None:
+    def __init__(self, system: System, numbers: Mapping[str, float], along: str | None) -> None:
         reduced, setting = prepared(system)
         outcome = solve(system, reduced, setting)
         names = {c.name: c for c in system.coordinates}
@@ -111,9 +111,9 @@ class _Sampled:
         if along is not None and along not in names:
             raise NoMotionError(no_such(along, names, "coordinate"))
         self.system, self.setting, self.along, self.names = system, setting, along, list(names)
-        self.given = _known_symbols(system, given)
+        self.numbers = _known_symbols(system, numbers)
         self.relations = _relations(system, outcome, setting, coordinates, _limits(reduced, outcome))
-        self.relations.constants |= {s: v for s, v in self.given.items() if s.args[0] == "parameter"}
+        self.relations.constants |= {s: v for s, v in self.numbers.items() if s.args[0] == "parameter"}
         self.follower = Follower(self.relations, _freedom(outcome, self.relations.timed))
         self.start = self._first()
 
@@ -124,25 +124,25 @@ class _Sampled:
             self.relations.ring, self.relations.finite, [*places, *self.setting.generic], self.setting.positive
         )
         if self.system.reference is not None:
-            parameters = {p: v for p, v in search.start(0, self.given).items() if p.args[0] == "parameter"}
-            parameters |= {p: self.given.get(p, 1.0) for e in self.system.reference.values() for p in e.symbols}
+            parameters = {p: v for p, v in search.start(0, self.numbers).items() if p.args[0] == "parameter"}
+            parameters |= {p: self.numbers.get(p, 1.0) for e in self.system.reference.values() for p in e.symbols}
             self.relations.constants |= parameters
             placed = {s: number(e, parameters) for s, e in self.system.reference.items()}
-            found = self.follower.onto(self.relations.pose({**placed, **self.given}))
-            if found is None:
+            first_pose = self.follower.onto(self.relations.pose({**placed, **self.numbers}))
+            if first_pose is None:
                 raise NoMotionError(
                     "near the reference configuration the relations hold only roughly, to no last digit"
                 )
-            return found
-        near = {s: number(e) for s, e in self.setting.pose.items() if not e.symbols} | self.given
+            return first_pose
+        near = {s: number(e) for s, e in self.setting.pose.items() if not e.symbols} | self.numbers
         for seed in range(STARTS):
             symbols = search.start(seed, {**near, ex.TIME: 0.0})
             if search.descend(symbols, seed) is None or any(symbols.get(p, 1.0) <= 0 for p in self.setting.positive):
                 continue
             self.relations.constants |= {s: v for s, v in symbols.items() if s.args[0] == "parameter"}
-            found = self.follower.onto(self.relations.pose(symbols))
-            if found is not None and len(self.follower.null_space(found)) == self.follower.freedom:
-                return found
+            first_pose = self.follower.onto(self.relations.pose(symbols))
+            if first_pose is not None and len(self.follower.null_space(first_pose)) == self.follower.freedom:
+                return first_pose
         raise NoMotionError("no regular configuration was found that satisfies the constraints")
 
     def configurations(self, steps: int, step: float, both: bool) -> list[dict[str, float]]:
@@ -177,41 +177,41 @@ class _Sampled:
         return poses, False
 
     def _stopped(self, pose: Pose) -> bool:
-        """Is an inequality broken that held at the beginning?"""
+        """Return whether an inequality is violated that was satisfied at the beginning."""
         pairs = zip(self.relations.margins(self.start), self.relations.margins(pose), strict=False)
         return any(now < -STILL <= before for before, now in pairs)
 
     def _values_along(self, poses: Sequence[Pose], last: dict[str, float]) -> list[dict[str, float]]:
-        found = []
+        configurations = []
         for pose in poses:
             last = self._values(pose, last)
-            found.append(last)
-        return found
+            configurations.append(last)
+        return configurations
 
     def _values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
-        told = self.relations.coordinate_values(pose, last)
+        coordinates = self.relations.coordinate_values(pose, last)
         chosen = {str(s.args[1]): v for s, v in self.relations.constants.items() if not str(s.args[1]).startswith("_")}
-        timed = {"t": told["t"]} if self.relations.timed else {}
-        return {**{n: told[n] for n in self.names}, **timed, **chosen}
+        timed = {"t": coordinates["t"]} if self.relations.timed else {}
+        return {**{n: coordinates[n] for n in self.names}, **timed, **chosen}
 
 
-def _known_symbols(system: System, given: Mapping[str, float]) -> dict[Expr, float]:
+def _known_symbols(system: System, numbers: Mapping[str, float]) -> dict[Expr, float]:
     """Numbers for parameters and coordinates, by their symbols."""
     places = {c.name for c in system.coordinates}
-    known = places | set(system.parameters)
-    wrong = sorted(set(given) - known)
+    names = places | set(system.parameters)
+    wrong = sorted(set(numbers) - names)
     if wrong:
         message = f"'{wrong[0]}' is neither a coordinate nor a parameter without a value"
-        raise NoMotionError(message + guess(wrong[0], known))
-    return {(ex.coordinate if n in places else ex.parameter)(n): float(v) for n, v in given.items()}
+        raise NoMotionError(message + guess(wrong[0], names))
+    return {(ex.coordinate if n in places else ex.parameter)(n): float(v) for n, v in numbers.items()}
 
 
 def _limits(reduced: Sequence[Reduced], outcome: Outcome) -> list[Expr]:
     """What is to stay at 0 or above: inequalities between places, and where the relations say what they say."""
-    told = [q.expr for r in reduced for q in r.inequalities]
+    limits = [q.expr for r in reduced for q in r.inequalities]
     pieces = [p for row in outcome.rows if isinstance(p := row.piece, DomainCondition)]
-    told += [p.expr for p in pieces if p.sense != "!="]
-    return [e for e in told if all(s.args[0] in ("coordinate", "time", "parameter") for s in e.symbols)]
+    limits += [p.expr for p in pieces if p.sense != "!="]
+    return [e for e in limits if all(s.args[0] in ("coordinate", "time", "parameter") for s in e.symbols)]
 
 
 def _relations(
@@ -235,7 +235,7 @@ def _relations(
 
 def _freedom(outcome: Outcome, timed: bool) -> int:
     """The dimension of the admissible directions, time among them where it occurs."""
-    found = (outcome.velocity_dof or 0) + timed
-    if not found:
+    dimension = (outcome.velocity_dof or 0) + timed
+    if not dimension:
         raise NoMotionError("nothing moves: the scene has no freedom of velocity")
-    return found
+    return dimension

@@ -48,7 +48,7 @@ class Follower:
         self.clock = relations.time if relations.timed else None
 
     def holds(self, pose: Pose) -> bool:
-        """Do the finite relations hold?"""
+        """Return whether the finite relations are satisfied."""
         f, _ = self.relations.at(pose)
         reach = 1 + float(np.max(np.abs(pose.plain / self.relations.scales), initial=0.0))
         return f.size == 0 or float(np.max(np.abs(f))) < HELD * reach
@@ -80,33 +80,33 @@ class Follower:
     def ahead(self, pose: Pose, direction: Array) -> Array | None:
         """The admissible direction nearest to the given one: of length 1, or of unit speed in time."""
         basis = self.null_space(pose)
-        found = np.asarray(basis.T @ (basis @ direction))
+        tangent = np.asarray(basis.T @ (basis @ direction))
         if self.clock is None:
-            size = float(np.linalg.norm(found))
-            return found / size if size > 0.1 * float(np.linalg.norm(direction)) > 0 else None
+            size = float(np.linalg.norm(tangent))
+            return tangent / size if size > 0.1 * float(np.linalg.norm(direction)) > 0 else None
         speeds = basis[:, self.clock]
         if float(speeds @ speeds) < SMALL:
             return None
         pace = 1.0 if direction[self.clock] >= 0 else -1.0
-        found = found + basis.T @ (speeds * ((pace - found[self.clock]) / float(speeds @ speeds)))
-        return np.asarray(found)
+        tangent = tangent + basis.T @ (speeds * ((pace - tangent[self.clock]) / float(speeds @ speeds)))
+        return np.asarray(tangent)
 
     def path(self, start: Reached, step: float) -> Iterator[Reached]:
         """What is reached step by step, as long as the motion goes on."""
         current = start
         while True:
-            left, part = step, step / PARTS if self.relations.forms else step
+            remaining, part = step, step / PARTS if self.relations.forms else step
             if self.clock is not None:
-                left -= abs(float(current.pose.plain[-1])) % step if current is start else 0.0
-            while left > step * LEAST / 2:
-                part = min(part, left)
-                found = self._step(current, part)
-                if found is None:
+                remaining -= abs(float(current.pose.plain[-1])) % step if current is start else 0.0
+            while remaining > step * LEAST / 2:
+                part = min(part, remaining)
+                reached = self._step(current, part)
+                if reached is None:
                     part /= 2
                     if part < step * LEAST:
                         return
                     continue
-                current, left, part = found, left - part, part * (1.0 if self.relations.forms else 2.0)
+                current, remaining, part = reached, remaining - part, part * (1.0 if self.relations.forms else 2.0)
             yield current
 
     def _step(self, current: Reached, length: float) -> Reached | None:
@@ -165,26 +165,26 @@ class Follower:
 
     def _first_direction(self, basis: Array) -> Array:
         """The first column that moves (with one freedom: forward), or time."""
-        found = np.zeros(basis.shape[1])
+        weights = np.zeros(basis.shape[1])
         sizes = np.linalg.norm(basis, axis=0)
         column = int(np.argmax(sizes > 0.1 * np.max(sizes))) if self.clock is None else self.clock
-        found[column] = 1.0
-        return found
+        weights[column] = 1.0
+        return weights
 
     def _leave(self, pose: Pose, target: Array | None, step: float, basis: Array) -> Ways:
         """At a singular pose: regular ones close to it, reached from random directions; else singular ones."""
         rng = np.random.default_rng(3)
         singular: list[Reached] = []
         for part in AWAY:
-            found: list[Reached] = []
+            regular: list[Reached] = []
             for _ in range(TRIES):
                 v = basis.T @ rng.standard_normal(len(basis))
                 reached = self._reached(pose, part * step * v / np.linalg.norm(v))
                 if reached is None:
                     continue
-                (found if len(self.null_space(reached.pose)) == self.freedom else singular).append(reached)
-            if found:
-                return self._both_ways(pose, found, target)
+                (regular if len(self.null_space(reached.pose)) == self.freedom else singular).append(reached)
+            if regular:
+                return self._both_ways(pose, regular, target)
         return self._both_ways(pose, singular, target)
 
     def _reached(self, pose: Pose, step: Array) -> Reached | None:
@@ -202,13 +202,13 @@ class Follower:
             return None
         return None if direction is None else Reached(moved, direction)
 
-    def _both_ways(self, pose: Pose, found: list[Reached], target: Array | None) -> Ways:
-        if not found:
+    def _both_ways(self, pose: Pose, poses: list[Reached], target: Array | None) -> Ways:
+        if not poses:
             return None, None
         if self.clock is not None:
             target = np.eye(self.relations.columns)[self.clock]
-        goal = found[0].direction if target is None else target
-        first = max(found, key=lambda r: float(r.direction @ goal))
+        goal = poses[0].direction if target is None else target
+        first = max(poses, key=lambda r: float(r.direction @ goal))
         opposite = self._reached(pose, -self.relations.between(pose, first.pose))
-        last = min([*found, *([opposite] if opposite else [])], key=lambda r: float(r.direction @ goal))
+        last = min([*poses, *([opposite] if opposite else [])], key=lambda r: float(r.direction @ goal))
         return first if first.direction @ goal >= 0 else None, last if last.direction @ goal < 0 else None

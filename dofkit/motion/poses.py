@@ -55,13 +55,15 @@ class PoseRelations:
         limits: Sequence[Expr] = (),
     ) -> None:
         """``coordinates``: those that are followed; ``limits``: expressions that are to stay at 0 or above."""
-        told = [e for f in forms for _, e in f.items()]
-        self.ring = Ring([*finite, *told], positive)
+        coefficients = [e for f in forms for _, e in f.items()]
+        self.ring = Ring([*finite, *coefficients], positive)
         self.limiting = Ring(limits, positive)
         self.limits = [self.limiting.node(e) for e in limits]
         self.finite = [self.ring.node(g) for g in finite]
         self.forms = [{s: self.ring.node(e) for s, e in f.items()} for f in forms]
-        self.timed = any(ex.TIME in e.symbols for e in [*finite, *told]) or any(ex.TIME in f for f in self.forms)
+        self.timed = any(ex.TIME in e.symbols for e in [*finite, *coefficients]) or any(
+            ex.TIME in f for f in self.forms
+        )
         self.rotations = [r for r in system.rotations if r.chart == "gibbs"]
         turning = {name for r in self.rotations for name in r.names}
         self.names = [c.name for c in coordinates if c.name not in turning]
@@ -120,7 +122,7 @@ class PoseRelations:
     def _usual(self) -> Array:
         """The length of each finite relation's gradient at random poses."""
         rng = np.random.default_rng(1)
-        found = np.zeros(len(self.finite))
+        lengths = np.zeros(len(self.finite))
         for _ in range(USUAL):
             turns = np.hstack([np.ones((len(self.rotations), 1)), rng.uniform(-1, 1, (len(self.rotations), 3))])
             turns = turns / np.linalg.norm(turns, axis=1, keepdims=True)
@@ -128,8 +130,8 @@ class PoseRelations:
                 _, j = self._evaluated(Pose(self.scales * rng.standard_normal(len(self.plain)), turns), self._values)
             except FAULTS:
                 continue
-            found = np.maximum(found, np.linalg.norm(j, axis=1))
-        return np.where(found > 0, found, 1.0)
+            lengths = np.maximum(lengths, np.linalg.norm(j, axis=1))
+        return np.where(lengths > 0, lengths, 1.0)
 
     @property
     def _values(self) -> list[Mapping[Any, int]]:
@@ -151,17 +153,17 @@ class PoseRelations:
 
     def axis(self, name: str, pose: Pose) -> Array:
         """The step that moves one coordinate alone; an Euler angle turns its body about that angle's own axis."""
-        found = np.zeros(self.columns)
+        step = np.zeros(self.columns)
         if name in self.names:
-            found[self.names.index(name)] = 1.0
-            return found
+            step[self.names.index(name)] = 1.0
+            return step
         for k, r in enumerate(self.rotations):
             if name in r.names:
                 here = _matrix(pose.turns[k]) @ _from_euler(*map(number, r.initial))
                 phi, _, _ = _euler(here, [0.0, 0.0, 0.0])
                 axes = np.array([[0.0, 0.0, 1.0], [math.cos(phi), math.sin(phi), 0.0], here[:, 2]])
-                found[len(self.plain) + 3 * k :][:3] = axes[r.names.index(name)]
-        return found
+                step[len(self.plain) + 3 * k :][:3] = axes[r.names.index(name)]
+        return step
 
     def same(self, pose: Pose, near: Pose) -> Pose:
         """``pose`` with full turns added to the angles, so as to be near another."""
@@ -192,41 +194,41 @@ class PoseRelations:
             if None in row:
                 f[k] = _middle(at[row[None]])
                 line = jacobian(self.ring, at, point, [row[None]], list(present.values()), zero)[0]
-                found = dict(zip(present, line, strict=True))
+                derivatives = dict(zip(present, line, strict=True))
             else:
-                found = {s: at[n] for s, n in row.items()}
-            line = [found.get(s, zero) for s in symbols]
+                derivatives = {s: at[n] for s, n in row.items()}
+            line = [derivatives.get(s, zero) for s in symbols]
             j[k] = self._by_columns(line, vectors)
         return f, j
 
     def _by_columns(self, line: Sequence[Any], vectors: Sequence[Sequence[Any]]) -> Array:
         n = len(self.plain)
-        found = [float(_middle(v)) * s for v, s in zip(line[:n], self.scales, strict=True)]
+        entries = [float(_middle(v)) * s for v, s in zip(line[:n], self.scales, strict=True)]
         for k, g in enumerate(vectors):
-            found += [_middle(v) for v in _by_turn(line[n + 3 * k : n + 3 * k + 3], g)]
-        return np.array(found)
+            entries += [_middle(v) for v in _by_turn(line[n + 3 * k : n + 3 * k + 3], g)]
+        return np.array(entries)
 
     def coordinate_values(self, pose: Pose, last: Mapping[str, float]) -> dict[str, float]:
         """The values of all coordinates (Euler angles near those told ``last``), and of time where it occurs."""
-        found = {str(s.args[1]): float(v) for s, v in zip(self.plain, pose.plain, strict=True) if s != ex.TIME}
+        coordinates = {str(s.args[1]): float(v) for s, v in zip(self.plain, pose.plain, strict=True) if s != ex.TIME}
         for r, q in zip(self.rotations, pose.turns, strict=True):
             initial = [number(e) for e in r.initial]
             near = [last.get(n, v) for n, v in zip(r.names, initial, strict=True)]
-            found.update(zip(r.names, _euler(_matrix(q) @ _from_euler(*initial), near), strict=True))
+            coordinates.update(zip(r.names, _euler(_matrix(q) @ _from_euler(*initial), near), strict=True))
         if self.timed:
-            found["t"] = float(pose.plain[-1])
-        return {n: v + 0.0 for n, v in found.items()}
+            coordinates["t"] = float(pose.plain[-1])
+        return {n: v + 0.0 for n, v in coordinates.items()}
 
 
 def _middle(value: Any) -> float:
     return float(value.mid()) if isinstance(value, arb) else float(value)
 
 
-def number(e: Expr, known: Mapping[Expr, float] | None = None) -> float:
+def number(e: Expr, symbols: Mapping[Expr, float] | None = None) -> float:
     """The value of an expression in known symbols."""
     ring = Ring([e])
     node = ring.node(e)
-    return float(values(ring, FloatPoint(known or {}, 0))[node])
+    return float(values(ring, FloatPoint(symbols or {}, 0))[node])
 
 
 def _by_turn(line: Sequence[Any], g: Sequence[Any]) -> list[Any]:
@@ -250,8 +252,8 @@ def _vector(q: Array) -> Array:
 
 def _times(p: Array, q: Array) -> Array:
     w = p[0] * q[0] - p[1:] @ q[1:]
-    found = np.concatenate([[w], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])])
-    return np.asarray(found / np.linalg.norm(found))
+    product = np.concatenate([[w], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])])
+    return np.asarray(product / np.linalg.norm(product))
 
 
 def _matrix(q: Array) -> Array:

@@ -22,7 +22,7 @@ _X, _UP, _DOWN = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), np.array(
 
 
 def name_of(stage: StagedScene, text: str, vertices: tuple[Vertex, ...], state: State = "plain") -> Shape:
-    """Return a name beside the middle of some vertices."""
+    """Return a name next to the middle of some vertices."""
     return Shape("words", vertices, "name", state, text, size=stage.unit, text=text)
 
 

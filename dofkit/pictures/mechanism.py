@@ -175,7 +175,7 @@ def _names(stage: StagedScene) -> Iterator[Shape]:
 
 
 def _anchor(stage: StagedScene, number: int) -> tuple[Vertex, ...]:
-    """Return what the name of a constraint stands beside."""
+    """Return the vertices next to which the name of a constraint stands."""
     connection, at = stage.system.connections[number], stage.places[number]
     run = stage.symbol(number).run
     if run in ("bar", "bars", "rope"):

@@ -85,10 +85,10 @@ class Answer:
     ``witness``: a certified configuration, as text, and ``real`` the rows there; ``first_order_sure``: is the number of
     velocities at the reference proved? ``exists``: and that the relations hold there at all times? ``trusted``: is
     what is not 0 over GF(p) known not to be 0? ``kind``: the same for blocks that are each other's up to names, whose
-    coordinates then correspond place by place; None for one that was not compared. ``parts``: what was answered apart,
-    all other rows being independent of each other and of these; None where the whole was looked at together, and only
-    then is there a ``matrix``; ``most``: where the freedom is not known, what it is proved not to exceed;
-    ``separating``: expressions each of which may vanish on every component that is as large, and not on all others.
+    coordinates then correspond place by place; None for one that was not compared. ``answered_parts``: what was
+    answered apart, all other rows being independent of each other and of these; None where the whole was looked at
+    together, and only then is there a ``matrix``; ``most``: where the freedom is not known, what it is proved not to
+    exceed; ``separating``: expressions each of which may vanish on every component that is as large, and not on others.
     """
 
     consistent: bool | None = True
@@ -124,7 +124,7 @@ class Answer:
     looked: FollowedClasses = field(default_factory=FollowedClasses)
     kind: int | None = None
     size: Size = field(default_factory=Size)
-    parts: tuple[AnsweredPart, ...] | None = None
+    answered_parts: tuple[AnsweredPart, ...] | None = None
     most: int | None = None
     separating: tuple[Expr, ...] = ()
 

@@ -167,18 +167,18 @@ def split(coordinates: Sequence[str], rows: Sequence[Row]) -> tuple[list[Block],
 
 def _linked(rows: Sequence[Row], touched: Sequence[frozenset[str]]) -> Iterator[Iterable[Hashable]]:
     """What joins rows: the coordinates that they mention, and the joint, of which one equation names them for all."""
-    known: set[int] = set()
+    grouped: set[int] = set()
     for row, mentioned in zip(rows, touched, strict=True):
         if not isinstance(row.piece, JointEquation):
             yield mentioned
             continue
         joint = id(row.piece.joint)
-        yield (joint,) if joint in known else (joint, *mentioned)
-        known.add(joint)
+        yield (joint,) if joint in grouped else (joint, *mentioned)
+        grouped.add(joint)
 
 
-def _all(parts: Iterable[frozenset[str]]) -> frozenset[str]:
-    return frozenset[str]().union(*parts)
+def _all(sets: Iterable[frozenset[str]]) -> frozenset[str]:
+    return frozenset[str]().union(*sets)
 
 
 def blocks_of(coordinates: Sequence[str], rows: Sequence[Row], reductions: Reductions) -> tuple[list[Block], list[str]]:
@@ -210,7 +210,7 @@ def expressions(block: Block) -> list[Expr]:
 
 
 def uses_time(block: Block) -> bool:
-    """Does t or dt occur? It does not in the equations of joints that are not written out."""
+    """Return whether t or dt occurs, which it does not in equations of joints that are not written out."""
     rows = tuple(row for row in block.rows if not isinstance(row.piece, JointEquation))
     dt = any(isinstance(r.piece, Pfaffian) and not r.piece.dt.is_zero for r in rows)
     return dt or any(ex.TIME in e.symbols for e in expressions(Block(block.coordinates, rows)))
@@ -229,7 +229,7 @@ def names_in(rows: Sequence[Row], constants: Mapping[str, Row]) -> list[str]:
 
 
 def about_constants(g: Expr, constants: Sequence[str]) -> bool:
-    """Does a relation hold between constants of integration only?"""
+    """Return whether a relation is one between constants of integration only."""
     return all(s.args[0] == "parameter" or s.args[1] in constants for s in g.symbols)
 
 

@@ -30,8 +30,8 @@ MAX_WAYS, MAX_ROUNDS = 16, 6
 def rate(g: Expr) -> Expr:
     """dg/dt along a motion, for a finite relation."""
     moving = sorted((s for s in g.symbols if s.args[0] == "coordinate"), key=repr)
-    parts = [diff(g, s) * ex.velocity(str(s.args[1])) for s in moving]
-    return ex.add(*parts, diff(g, ex.TIME))
+    terms = [diff(g, s) * ex.velocity(str(s.args[1])) for s in moving]
+    return ex.add(*terms, diff(g, ex.TIME))
 
 
 def form_rate(form: Pfaffian) -> Expr:
@@ -118,7 +118,10 @@ def _step(way: Way, positive: frozenset[Expr]) -> list[Way] | None:
     if not any(isinstance(r.piece, Nonlinear) for r in rows):
         return None
     answer = {id(r): _ways(r, rows, positive) for r in rows if isinstance(r.piece, Nonlinear)}
-    by_linear, divided = {i: one.ways for i, one in answer.items()}, any(one.divided for one in answer.values())
+    by_linear, divided = (
+        {i: rewriting.ways for i, rewriting in answer.items()},
+        any(rewriting.divided for rewriting in answer.values()),
+    )
     if all(len(result) == 1 and len(result[0]) == 1 and id(result[0][0]) in by_linear for result in by_linear.values()):
         return None
     options: list[list[RewrittenRow]] = []
@@ -144,9 +147,9 @@ def _ways(row: Row, rows: Sequence[Row], positive: frozenset[Expr]) -> _Rewritin
         return _Rewriting([(row,)])
     near = _rows_near(row, rows)
     try:
-        given = given_by([r.piece.expr for r in near if isinstance(r.piece, Finite)])
-        there = substitute(row.piece.expr, given)
-        changed, divisors = eliminated(there, [substitute(e, given) for e in _rates_of(near)])
+        explicit = given_by([r.piece.expr for r in near if isinstance(r.piece, Finite)])
+        there = substitute(row.piece.expr, explicit)
+        changed, divisors = eliminated(there, [substitute(e, explicit) for e in _rates_of(near)])
     except NoValueError:
         return _Rewriting([(row,)])
     if changed != there:
@@ -194,15 +197,15 @@ def _branches(
 
 
 def _divides(g: Expr, divisors: Sequence[Expr]) -> bool:
-    """Is a factor that an elimination multiplied with, and no relation of the row's, what is left of it?"""
+    """Return whether what remains is a factor that an elimination multiplied with, and no relation of the row's."""
     if not divisors or g == ex.ONE:
         return False
     ring = Ring([g, *divisors])
     try:
         nodes = [ring.node(e) for e in (g, *divisors)]
         canon = Canon(ring)
-        own = canon.quotient(nodes[0])[0]
-        return any(not own.gcd(canon.quotient(n)[0]).is_constant() for n in nodes[1:])
+        numerator = canon.quotient(nodes[0])[0]
+        return any(not numerator.gcd(canon.quotient(n)[0]).is_constant() for n in nodes[1:])
     except NoValueError:
         return False
 

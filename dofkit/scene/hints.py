@@ -179,7 +179,7 @@ def likely_types(word: object, entry: Mapping[str, Any]) -> list[str]:
 
 
 def meant_type(word: object, entry: Mapping[str, Any]) -> str | None:
-    """Return the constraint type that a word most likely means, by the keys that stand beside it; None for no idea."""
+    """Return the constraint type that a word most likely means, by the keys with it; None if there is none."""
     words = {kind: (kind, *cls.synonyms, *cls.understood) for kind, cls in TYPES.items()}
     every_word = {name for names in words.values() for name in names}
     text = word.lower() if isinstance(word, str) else ""

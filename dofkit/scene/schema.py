@@ -1,4 +1,4 @@
-"""The JSON Schema of a scene, for editors: what stands in a place is told by its type, so that a fault is one line.
+"""The JSON Schema of a scene, for editors: values are recognized by their type, so that a fault is one line.
 
 Pydantic's ``anyOf`` answers "is not valid under any of the given schemas". Here the kinds of JSON values that are taken
 are a list under ``type``, and the branch of each follows by ``if`` and ``then``; a constraint's by its own ``type``.
@@ -37,20 +37,20 @@ def scene_schema() -> dict[str, Any]:
     constraints = {**schema["properties"]["constraints"], "items": {"$ref": f"#/$defs/{_CONSTRAINT}"}}
     schema["properties"]["constraints"] = constraints
     schema["properties"]["joints"] = {**constraints, "description": "another section of constraints"}
-    schema_by_type: dict[str, Any] = told_by_type(schema)
+    schema_by_type: dict[str, Any] = by_kind_of_value(schema)
     schema_by_type["$defs"][_CONSTRAINT] = _any_constraint()
     return identified(schema_by_type, "scene")
 
 
-def told_by_type(schema: Any) -> Any:
-    """Return a schema in which every union is told apart by the kind of JSON value."""
+def by_kind_of_value(schema: Any) -> Any:
+    """Return a schema in which the kind of JSON value decides between the members of every union."""
     if isinstance(schema, list):
-        return [told_by_type(part) for part in schema]
+        return [by_kind_of_value(part) for part in schema]
     if not isinstance(schema, dict):
         return schema
     union = next((key for key in ("anyOf", "oneOf") if key in schema), None)
-    plain = {key: told_by_type(part) for key, part in schema.items() if key != union}
-    return plain if union is None else {**plain, **_union([told_by_type(branch) for branch in schema[union]])}
+    plain = {key: by_kind_of_value(part) for key, part in schema.items() if key != union}
+    return plain if union is None else {**plain, **_union([by_kind_of_value(branch) for branch in schema[union]])}
 
 
 def _union(branches: list[dict[str, Any]]) -> dict[str, Any]:

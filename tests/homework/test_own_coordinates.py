@@ -125,6 +125,12 @@ def test_the_definition_of_an_answer_goes_before_the_offered_one() -> None:
     assert item(asked, upwards).status == "right"
 
 
+def test_offered_coordinates_are_listed_in_their_order() -> None:
+    also = {f"q{n}": f"x + {n}" for n in range(8)}
+    feedback = item(sheet(also, ask="coordinates"), "zz").feedback
+    assert ", ".join(also) in feedback
+
+
 def test_offered_names_are_listed_with_the_declared_ones() -> None:
     for answer, ask in (
         ("m wwq^2 + 3", {"ask": "lagrangian"}),

@@ -16,7 +16,7 @@ from dofkit.homework.answers.submission import of_value
 from dofkit.homework.assignment import AssignmentError, Prepared, load_assignment
 from dofkit.homework.grading import Grader
 from dofkit.homework.handout.class_sheets import ASSIGNMENT, TABLE
-from dofkit.homework.variants import NobodysVariantError, VaryError, differing_share, drawn, own, picked
+from dofkit.homework.variants import NobodysVariantError, VaryError, differing_share, drawn, picked, sheet_of
 from dofkit.interface.cli import app
 
 #: f = 2 n - (n - 1) = n + 1 for a chain of n particles in a line; the support at rest is scleronomic, moved rheonomic.
@@ -71,7 +71,7 @@ def test_everyone_is_graded_by_their_own_key() -> None:
     prepared = with_students(*(f"s{i}" for i in range(12)))
     grader = Grader(prepared)
     for n in range(12):
-        sheet = own(prepared, f"S{n}@X")
+        sheet = sheet_of(prepared, f"S{n}@X")
         pick = prepared.assignment.variants.find(f"s{n}").picks["chain"]  # type: ignore[union-attr]
         length = (2, 3, 5)[pick["l"]]
         answers = {"f": "1", "label": ("holonomic, scleronomic", "holonomic, rheonomic")[pick["support"]]}
@@ -83,7 +83,7 @@ def test_everyone_is_graded_by_their_own_key() -> None:
         assert sheet.assignment.variants is None
     assert "none of the students" in str(grader.grade(of_value({"student": "zoe", "answers": {}}, "")).error)
     with pytest.raises(NobodysVariantError, match="several students"):
-        own(prepared, ["s1", "s2"])
+        sheet_of(prepared, ["s1", "s2"])
 
 
 def test_copying_is_worth_less_than_the_share_that_differs() -> None:

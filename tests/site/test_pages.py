@@ -17,7 +17,7 @@ from dofkit.report import ConstraintEntry, Report
 from dofkit.scene.constraints import TYPES
 from dofkit.site import gallery as room
 from dofkit.site.building import SETTINGS, folders, settings
-from dofkit.site.gallery import ShownScene, catalog_scenes, gallery_pages, in_a_line, shown
+from dofkit.site.gallery import ShownScene, catalog_scenes, gallery_pages, in_a_line, shown_scene
 from dofkit.site.markdown import prose
 from dofkit.site.reference_pages import (
     FOLDER,
@@ -43,7 +43,7 @@ WRITTEN_GLOSSARY = (SITE / GLOSSARY).read_text(encoding="utf-8")
 
 @pytest.fixture(scope="module")
 def disc() -> ShownScene:
-    return shown("disc", "l6", DISC)
+    return shown_scene("disc", "l6", DISC)
 
 
 @pytest.fixture(scope="module")
@@ -124,7 +124,7 @@ def test_what_was_shown_once_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(room, "catalog_folder", lambda: tmp_path / "catalog")
     monkeypatch.setattr(room, "catalog_text", lambda name: DISC)
     first = list(catalog_scenes(tmp_path / "kept"))
-    monkeypatch.setattr(room, "shown", None)
+    monkeypatch.setattr(room, "shown_scene", None)
     assert list(catalog_scenes(tmp_path / "kept")) == first
     assert first[0].types == ("equation",)
 

@@ -99,7 +99,7 @@ def _row(axes: Axes, y: int, row: str, methods: Sequence[str], cells: Cells) -> 
 
 
 def _cell(axes: Axes, x: int, y: int, score: Score) -> None:
-    """Draw a bar of shares; beside it the share that is wrong, or else that is undecided."""
+    """Draw a bar of shares; next to it the share that is wrong, or else that is undecided."""
     corner, top = float(x), y + (1 - BAR) / 2
     for outcome, name in zip(OUTCOMES, _COUNTS[1:], strict=True):
         width = WIDE * getattr(score, name) / score.trials

@@ -132,7 +132,7 @@ LARGEST = 32
 
 
 def high_powers(quick: bool) -> Iterator[KnownScene]:
-    """Powers of an equation have its zeros, and no gradient there; x^k beside y^k are curves, points or nothing."""
+    """Powers of an equation have its zeros, and no gradient there; x^k with y^k are curves, points or nothing."""
     because = "a power is 0 where its base is; real even powers are not negative"
     for k in (2, 3) if quick else POWERS:
         even = k % 2 == 0

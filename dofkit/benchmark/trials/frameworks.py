@@ -75,10 +75,7 @@ class Framework:
 
     def by_rank(self) -> int:
         """Velocities allowed at the positions, exactly."""
-        rows = self.rows()
-        if not rows:
-            return self.coordinates
-        return self.coordinates - int(fmpq_mat([[fmpq(v.numerator, v.denominator) for v in r] for r in rows]).rank())
+        return self.coordinates - exact_rank(self.rows())
 
     # scenes
 

@@ -103,7 +103,7 @@ def _moved(pose: FrameworkPose, step: Fraction, how: str, named: str = "", **mor
 
 
 def steps() -> Iterator[KnownScene]:
-    """Yield each at its singular pose, and 10^-1 ... 10^-12 beside it."""
+    """Yield each at its singular pose, and 10^-1 ... 10^-12 from it."""
     for step in (ZERO, *STEPS):
         for pose in NEAR:
             name = f"{pose.name}, {float(step):g} beside"
@@ -112,7 +112,7 @@ def steps() -> Iterator[KnownScene]:
 
 
 def sizes() -> Iterator[KnownScene]:
-    """Yield each a million times larger, smaller, and far away: at the singular pose and beside it."""
+    """Yield each a million times larger, smaller, and far away: at the singular pose and near it."""
     for how in MOVES:
         for step in (ZERO, STEPS[0]):
             yield from (_moved(pose, step, how) for pose in (*NEAR, *JOINTED))
@@ -225,7 +225,7 @@ def _moved_trait(case: KnownScene) -> str:
 
 
 def near_singular(quick: bool) -> Iterator[KnownScene]:
-    """At singular poses, and 10^-1 ... 10^-12 beside them."""
+    """At singular poses, and 10^-1 ... 10^-12 from them."""
     cases = islice(steps(), 0, None, 17) if quick else (c for c in steps() if c.swept["step"] in TAKEN)
     return (_freedom(case, (_trait(case),)) for case in cases)
 

@@ -13,7 +13,7 @@ from itertools import combinations
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import components
-from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets
+from dofkit.classification.dependence.implication import Everywhere, NearDrawing, SufficientSets
 from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing
 from dofkit.relations.answer import Redundancies
 
@@ -49,10 +49,10 @@ class OwnedRows:
         ]
 
 
-def analyse(parts: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redundancies:
+def analyse(matrices: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redundancies:
     """Redundant constraints, groups and circuits of blocks that share constraints; those ``needed`` cannot go."""
-    order = _order(parts)
-    bases = [_Basis(part) for part in parts]
+    order = _order(matrices)
+    bases = [_Basis(part) for part in matrices]
     kept = Counter(b.owners[i] for b in bases for i in b.pivots)
     independent = {owner: kept[owner] for owner in order}
     if not any(b.supports for b in bases):
@@ -60,26 +60,26 @@ def analyse(parts: Sequence[OwnedRows], needed: Collection[int] = ()) -> Redunda
     groups = _groups(bases)
     redundant: list[int] = []
     for _, members in groups:
-        redundant += _droppable(parts, [o for o in order if o in members and o not in needed], bases)
-    rows_of = Counter(o for part in parts for o in part.owners)
+        redundant += _droppable(matrices, [o for o in order if o in members and o not in needed], bases)
+    rows_of = Counter(o for part in matrices for o in part.owners)
     open_ = set[int]().union(*(b.open for b in bases))
-    known = [owner for owner in redundant if owner not in open_]
-    circuits = {owner: _circuit(parts, order, owner, bases, rows_of[owner] == 1) for owner in known}
+    decided = [owner for owner in redundant if owner not in open_]
+    circuits = {owner: _circuit(matrices, order, owner, bases, rows_of[owner] == 1) for owner in decided}
     uncounted = tuple(sorted(set[int]().union(*(b.uncounted for b in bases))))
-    equations = {o: e for o, e in _equations(parts, bases).items() if o not in uncounted}
+    equations = {o: e for o, e in _equations(matrices, bases).items() if o not in uncounted}
     return Redundancies(independent, sorted(redundant), groups, circuits, equations=equations, uncounted=uncounted)
 
 
-def _equations(parts: Sequence[OwnedRows], bases: Sequence[_Basis]) -> dict[int, tuple[int, ...]]:
+def _equations(matrices: Sequence[OwnedRows], bases: Sequence[_Basis]) -> dict[int, tuple[int, ...]]:
     """The scalar equations all of whose rows follow from those before them, a constraint each."""
-    known: dict[int, dict[int, bool]] = {}
-    for part, basis in zip(parts, bases, strict=True):
+    follows_of: dict[int, dict[int, bool]] = {}
+    for part, basis in zip(matrices, bases, strict=True):
         for i, (owner, equation) in enumerate(zip(part.owners, part.equations, strict=False)):
-            of_owner = known.setdefault(owner, {})
+            of_owner = follows_of.setdefault(owner, {})
             of_owner[equation] = of_owner.get(equation, True) and i in basis.supports
     return {
         owner: tuple(sorted(e for e, follows in result.items() if follows))
-        for owner, result in known.items()
+        for owner, result in follows_of.items()
         if -1 not in result
     }
 
@@ -90,8 +90,8 @@ class _Basis:
     def __init__(self, rows: OwnedRows) -> None:
         self._rows = rows
         self.owners = rows.owners
-        known = self._by_elimination(rows) if rows.supports is None else self._known(rows, rows.supports)
-        self.pivots, self.supports = known
+        basis = self._by_elimination(rows) if rows.supports is None else self._from_supports(rows, rows.supports)
+        self.pivots, self.supports = basis
         #: Constraints of which it is not known what they follow from, or how many equations from those before.
         self.open: set[int] = set()
         self.uncounted: set[int] = set()
@@ -118,7 +118,7 @@ class _Basis:
                 self.uncounted |= {self.owners[i], *later} if later else set()
 
     def implies(self, kept: set[int], owner: int) -> bool:
-        """Do the rows of some constraints imply those of another one that depend on others?"""
+        """Return whether the rows of some constraints imply those of another one that depend on others."""
         answer = self.implication
         if answer is None:
             return True
@@ -133,11 +133,11 @@ class _Basis:
         return [numbers[k] for k in echelon([self._rows.matrix[i] for i in numbers], self._rows.p).independent]
 
     def whole(self, owners: set[int]) -> bool:
-        """Are all rows of these constraints pivots?"""
+        """Return whether all rows of these constraints are pivots."""
         return not any(self.owners[i] in owners for i in self.supports)
 
     @staticmethod
-    def _known(rows: OwnedRows, tell: Supports) -> tuple[list[int], dict[int, list[int]]]:
+    def _from_supports(rows: OwnedRows, tell: Supports) -> tuple[list[int], dict[int, list[int]]]:
         supports = {i: list(support) for i, support in tell().items()}
         return [i for i in range(len(rows.owners)) if i not in supports], supports
 
@@ -154,10 +154,10 @@ def _by_kind(rows: OwnedRows) -> list[int]:
     return sorted(range(len(rows.matrix)), key=lambda i: (not rows.finite[i], rows.owners[i], i))
 
 
-def _order(parts: Sequence[OwnedRows]) -> list[int]:
+def _order(matrices: Sequence[OwnedRows]) -> list[int]:
     """Constraints whose rows are all finite first, each part as written."""
-    owners = sorted({o for part in parts for o in part.owners})
-    differential = {o for part in parts for o, f in zip(part.owners, part.finite, strict=True) if not f}
+    owners = sorted({o for part in matrices for o in part.owners})
+    differential = {o for part in matrices for o, f in zip(part.owners, part.finite, strict=True) if not f}
     return [o for o in owners if o not in differential] + [o for o in owners if o in differential]
 
 
@@ -172,26 +172,26 @@ def _groups(bases: Sequence[_Basis]) -> list[tuple[int, list[int]]]:
     return sorted(groups, key=lambda group: group[1])
 
 
-def _spans(parts: Sequence[OwnedRows], kept: set[int], everything: set[int]) -> bool:
-    """Do the kept constraints imply the others? Finite ones only by finite ones: a rate does not fix a constant."""
+def _spans(matrices: Sequence[OwnedRows], kept: set[int], everything: set[int]) -> bool:
+    """Return whether the kept constraints imply the others, finite ones by finite ones: a rate fixes no constant."""
     return all(
         rank_of_rows(part.of(kept, only), part.p) == rank_of_rows(part.of(everything, only), part.p)
-        for part in parts
+        for part in matrices
         for only in (False, True)
     )
 
 
-def _droppable(parts: Sequence[OwnedRows], members: list[int], bases: Sequence[_Basis]) -> list[int]:
+def _droppable(matrices: Sequence[OwnedRows], members: list[int], bases: Sequence[_Basis]) -> list[int]:
     """As many constraints of a group as can go together; of several choices the last in the order.
 
     Modulo 2 stands only which rows depend on which (balls tell no more): then those that add nothing to those before.
     """
-    rows_of = Counter(o for p in parts for o in p.owners)
-    unweighted = any(p.p == 2 for p in parts) and len(members) > SEARCHED
+    rows_of = Counter(o for p in matrices for o in p.owners)
+    unweighted = any(p.p == 2 for p in matrices) and len(members) > SEARCHED
     if unweighted or len(members) > REMOVED or all(rows_of[o] == 1 for o in members):
         kept_of = set().union(*(b.pivot_owners for b in bases))
         return [o for o in members if o not in kept_of]
-    within = _Dispensable(parts, members)
+    within = _Dispensable(matrices, members)
     if len(members) > SEARCHED:
         return _exchanged(within, members, rows_of)
     dropped = within.greedy(reversed(members), [])
@@ -228,13 +228,13 @@ class _Dispensable:
     of rows that are 0 [Whitney1935]: as many rows at most as there are such sums, however many rows there are.
     """
 
-    def __init__(self, parts: Sequence[OwnedRows], members: Sequence[int]) -> None:
+    def __init__(self, matrices: Sequence[OwnedRows], members: Sequence[int]) -> None:
         self._tables: list[tuple[dict[int, list[SparseRow]], int, int]] = []
         everything = set(members)
-        for part in parts:
-            own = [i for i, owner in enumerate(part.owners) if owner in everything]
-            finite = [i for i in own if part.finite[i]]
-            for numbers in (own,) if len(finite) == len(own) else (own, finite):
+        for part in matrices:
+            rows = [i for i, owner in enumerate(part.owners) if owner in everything]
+            finite = [i for i in rows if part.finite[i]]
+            for numbers in (rows,) if len(finite) == len(rows) else (rows, finite):
                 sums = vanishing([part.matrix[i] for i in numbers], part.p)
                 of: dict[int, list[SparseRow]] = {}
                 for i, column in zip(numbers, transposed(sums, len(numbers)), strict=True):
@@ -242,7 +242,7 @@ class _Dispensable:
                 self._tables.append((of, len(sums), part.p))
 
     def can_go(self, owners: Sequence[int]) -> bool:
-        """Do the others imply these? Finite ones only by finite ones: a rate does not fix a constant."""
+        """Return whether the others imply these, finite ones by finite ones only: a rate does not fix a constant."""
         for of, most, p in self._tables:
             rows = [row for owner in owners for row in of.get(owner, ())]
             if len(rows) > most or rank_of_rows(rows, p) < len(rows):
@@ -259,7 +259,7 @@ class _Dispensable:
 
 
 def _circuit(
-    parts: Sequence[OwnedRows], order: list[int], owner: int, bases: Sequence[_Basis], single: bool
+    matrices: Sequence[OwnedRows], order: list[int], owner: int, bases: Sequence[_Basis], single: bool
 ) -> list[int]:
     """A minimal set of other constraints on which a redundant one depends, of those before it where that can be."""
     if not any(owner in b.pivot_owners for b in bases):
@@ -271,6 +271,6 @@ def _circuit(
         kept = [o for o in order if o != owner]
     for other in reversed(list(kept)):
         fewer = set(kept) - {other}
-        if _spans(parts, fewer, fewer | {owner}) and all(b.implies(fewer, owner) for b in bases):
+        if _spans(matrices, fewer, fewer | {owner}) and all(b.implies(fewer, owner) for b in bases):
             kept.remove(other)
     return sorted(kept)

@@ -42,21 +42,21 @@ from dofkit.relations.velocity_reductions import eliminated, form_rate
 _ENTIRE = frozenset({"symbol", "cos", "sin", "exp", "pi"})
 
 
-def same_up_to_numbers(given: Sequence[Reduced], wanted: Sequence[Reduced], positive: frozenset[Expr]) -> bool:
-    """Is every equation given a number times one that is wanted, as it was written, and each of those met?
+def same_up_to_numbers(submitted: Sequence[Reduced], wanted: Sequence[Reduced], positive: frozenset[Expr]) -> bool:
+    """Return whether every submitted equation is a number times a wanted one, as written, and each of those is met.
 
     True is a proof that they say the same and are as regular; False says nothing.
     """
     asked = [_terms(n) for r in wanted for n in r.normals]
-    answer = [terms for r in given for terms in _written(r)]
+    answer = [terms for r in submitted for terms in _written(r)]
     if not answer or [] in asked or [] in answer:
         return False
-    table = [[_proportional(one, other, positive) for other in asked] for one in answer]
+    table = [[_proportional(terms_of_one, other, positive) for other in asked] for terms_of_one in answer]
     return all(map(any, table)) and all(any(row[k] for row in table) for k in range(len(asked)))
 
 
 def _entire(ring: Ring) -> bool:
-    """Have all of its nodes a value everywhere?"""
+    """Return whether all of its nodes have a value everywhere."""
     kinds = {var.kind for var in ring.vars}
     return kinds <= _ENTIRE and not any(op == POW and p[1] < 0 for op, p in ring.code)
 
@@ -85,7 +85,7 @@ def _terms(normal: Normal) -> list[tuple[str, Expr]]:
 
 
 def _proportional(a: Sequence[tuple[str, Expr]], b: Sequence[tuple[str, Expr]], positive: frozenset[Expr]) -> bool:
-    """Is one number c, not 0, such that every a_i = c b_i identically? Proved in the canonical ring."""
+    """Return whether a_i = c b_i identically for one number c other than 0; proved in the canonical ring."""
     first, second = dict(a), dict(b)
     names = sorted(first.keys() | second.keys())
     pairs = [(first.get(name, ZERO), second.get(name, ZERO)) for name in names]
@@ -117,16 +117,16 @@ class Regularity:
 
     others: Sequence[Normal]
     wanted: Sequence[Normal]
-    given: Sequence[Reduced]
+    submitted: Sequence[Reduced]
     setting: Setting
     coordinates: Sequence[str]
 
     def irregular(self) -> bool | None:
-        """Does the answer's gradient lose rank where that of what was asked for does not? None: not decided."""
-        answer = [n for r in self.given for n in r.normals]
+        """Return whether the answer's gradient loses rank where that of what was asked for does not, or None."""
+        answer = [n for r in self.submitted for n in r.normals]
         if any(isinstance(p, Pfaffian) for n in (*answer, *self.wanted) for p in n.pieces):
             choices = list(cartesian(*(n.branches for n in self.wanted if n.branches)))[:MAX_BRANCHES]
-            return any(_is_flat(r, choice, self.setting.positive) for r in self.given for choice in choices)
+            return any(_is_flat(r, choice, self.setting.positive) for r in self.submitted for choice in choices)
         if _lost(answer) and not _lost(self.wanted):
             return True
         branches = list(cartesian(*(n.branches for n in (*self.others, *self.wanted) if n.branches)))
@@ -136,14 +136,14 @@ class Regularity:
         return None if None in regular or len(branches) > MAX_BRANCHES else False
 
     def _as_regular(self, choice: Sequence[Sequence[Piece]]) -> bool | None:
-        """Do the gradients of the answer as written span as much as those that were asked for, on one branch?"""
+        """Return whether the answer's gradients span as much as those that were asked for, on one branch."""
         finite = [[p for p in branch if isinstance(p, Finite)] for branch in choice]
         others = len([n for n in self.others if n.branches])
         before = [p.expr for branch in finite[:others] for p in branch]
         wanted = [p.expr for branch in finite[others:] for p in branch]
         if not wanted:
             return True
-        raw = [e.expr for r in self.given for e in r.constraint.relations]
+        raw = [e.expr for r in self.submitted for e in r.constraint.relations]
         ranks = self._ranks([*chain(*finite)], [*before, *raw], [*before, *wanted])
         return None if ranks is None else ranks[0] >= ranks[1]
 
@@ -170,7 +170,7 @@ class Regularity:
 
 
 def _lost(normals: Sequence[Normal]) -> bool:
-    """Was a relation a power or a sum of squares in exponentials? Points over GF(p) do not know the zeros of those."""
+    """Return whether a relation was a power or a sum of squares in exponentials, of whose zeros GF(p) knows nothing."""
     return any(EXPONENT_NOTE in n.notes and not {POWER_NOTE, SQUARES_NOTE}.isdisjoint(n.notes) for n in normals)
 
 
@@ -192,7 +192,7 @@ POINTS, SCALES = 24, (1, 1, 10, 1000)
 
 
 def same_side(a: Inequality, b: Inequality, others: Sequence[Normal], setting: Setting) -> bool | None:
-    """Do a >= 0 and b >= 0 hold at the same configurations that the others allow? None where that was not decided.
+    """Return whether a >= 0 and b >= 0 agree at all configurations that the others allow; None if undecided.
 
     The signs differ at some point (a ball proves it), or agree at all that are drawn and the boundaries are the same.
     Where the others leave the boundary only, all of space is looked at.
@@ -203,7 +203,7 @@ def same_side(a: Inequality, b: Inequality, others: Sequence[Normal], setting: S
     seen = list(_signs(a.expr, b.expr, finite, setting))
     if not seen and others:
         return same_side(a, b, (), setting)
-    if any(one != other for one, other in seen):
+    if any(first != other for first, other in seen):
         return False
     sides = [follows(_boundary(x), [*others, _boundary(y)], setting) for x, y in ((a, b), (b, a))]
     if False in sides:
@@ -257,20 +257,20 @@ def bounds(wanted: Sequence[Normal], others: Sequence[Reduced]) -> list[Inequali
     return [q for r in others for q in r.inequalities if moving & q.expr.symbols]
 
 
-def unsound(given: Sequence[Reduced], sound: Sequence[bool | None]) -> list[Expr]:
+def unsound(submitted: Sequence[Reduced], sound: Sequence[bool | None]) -> list[Expr]:
     """The equations as written that do not follow; none where they are not one for each relation."""
-    written = [relation.expr for r in given for relation in r.constraint.relations]
+    written = [relation.expr for r in submitted for relation in r.constraint.relations]
     return [e for e, s in zip(written, sound, strict=True) if not s] if len(written) == len(sound) else []
 
 
 def loses_nothing(
     e: Expr, wanted: Sequence[Normal], others: Sequence[Normal], sides: Iterable[Inequality], setting: Setting
 ) -> bool:
-    """Is e = 0, with one root in it, all that is ``wanted`` where the inequalities hold? False says nothing."""
-    parts = _by_root(e)
-    if parts is None:
+    """Return whether e = 0, with one root, is all that is ``wanted`` within the inequalities; False says nothing."""
+    rooted = _by_root(e)
+    if rooted is None:
         return False
-    a, b, under = parts
+    a, b, under = rooted
     squared = Normal(((Finite(b * b - a * a * under),),))
     if follows(squared, [*others, *wanted], setting) is not True:
         return False

@@ -88,7 +88,7 @@ def compare(
 
 
 def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> bool | None:
-    """Are the constraints numbered ``answer`` finite relations to which those numbered ``asked`` integrate?
+    """Return whether the constraints ``answer`` are finite relations to which those numbered ``asked`` integrate.
 
     Are the differentials of the answer and the forms the same in the presence of the others? None: undecided.
     """
@@ -97,7 +97,7 @@ def is_integral(system: System, asked: Sequence[int], answer: Sequence[int]) -> 
 
 
 def leaves(system: System, asked: Sequence[int], answer: Sequence[int], constants: frozenset[str]) -> Leaves:
-    """Do the forms numbered ``asked`` vanish on what the answer describes, and is it as large as they allow?
+    """Return whether the forms ``asked`` vanish on what the answer describes, and that is as large as they allow.
 
     ``constants``: coordinates of ``system`` that other constraints keep still; the leaves are numbered by them.
     """
@@ -126,9 +126,9 @@ class Equivalence:
 
     def result(self) -> Compared:
         """What the answer is."""
-        if any(r.inequalities for r in (*self._wanted, *self._given)):
+        if any(r.inequalities for r in (*self._wanted, *self._submitted)):
             return self._unilateral()
-        if same_up_to_numbers(self._given, self._wanted, self.setting.positive):
+        if same_up_to_numbers(self._submitted, self._wanted, self.setting.positive):
             return Compared(Sameness.SAME, tuple(True for _ in self._wanted))
         sound = self._sound
         kept = [g for g, s in zip(self._answer, sound, strict=True) if s is True]
@@ -156,7 +156,7 @@ class Equivalence:
         return Compared(self._too_strong() if implied else Sameness.DIFFERENT, answer)
 
     @cached_property
-    def _given(self) -> list[Reduced]:
+    def _submitted(self) -> list[Reduced]:
         return [self.reduced[i] for i in self.answer]
 
     @cached_property
@@ -165,7 +165,7 @@ class Equivalence:
 
     @cached_property
     def _answer(self) -> list[Normal]:
-        return [n for r in self._given for n in r.normals]
+        return [n for r in self._submitted for n in r.normals]
 
     @cached_property
     def _all_wanted(self) -> list[Normal]:
@@ -177,16 +177,16 @@ class Equivalence:
         return [follows(g, [*self._others, *self._all_wanted], self.setting) for g in self._answer]
 
     @cached_property
-    def _rest(self) -> list[Reduced]:
-        return [r for r in self.reduced if r not in self._given and r not in self._wanted]
+    def _context(self) -> list[Reduced]:
+        return [r for r in self.reduced if r not in self._submitted and r not in self._wanted]
 
     @cached_property
     def _others(self) -> list[Normal]:
-        return [n for r in self._rest for n in r.normals]
+        return [n for r in self._context for n in r.normals]
 
-    def _follow(self, what: Sequence[Normal], given: Sequence[Normal]) -> bool | None:
-        """Do the relations all follow from the others and what is given?"""
-        return all_of(follows(n, [*self._others, *given], self.setting) for n in what)
+    def _follow(self, what: Sequence[Normal], premises: Sequence[Normal]) -> bool | None:
+        """Return whether the relations all follow from the others and the premises."""
+        return all_of(follows(n, [*self._others, *premises], self.setting) for n in what)
 
     def _open(self, sound: Sequence[bool | None], met: Sequence[bool | None]) -> Compared:
         """Something was not decided; what was may be enough to say that the answer is none."""
@@ -196,9 +196,9 @@ class Equivalence:
 
     @cached_property
     def _possible(self) -> bool:
-        """Can the others and the answer be satisfied together?"""
+        """Return whether the others and the answer can be satisfied together."""
         with part(POSSIBLE):
-            return unless_late(lambda: self._solved([*self._rest, *self._given]).consistent is not False, True)
+            return unless_late(lambda: self._solved([*self._context, *self._submitted]).consistent is not False, True)
 
     def _solved(self, reduced: Sequence[Reduced]) -> Outcome:
         return solve(self.system, reduced, self.setting)
@@ -210,24 +210,24 @@ class Equivalence:
         integrated = self._integrated()
         if integrated is not None:
             return integrated
-        mine, asked = self._solved([*self._rest, *self._given]), self._solved([*self._rest, *self._wanted])
+        mine, asked = self._solved([*self._context, *self._submitted]), self._solved([*self._context, *self._wanted])
         if None in (mine.dof, asked.dof, mine.velocity_dof, asked.velocity_dof):
             return Sameness.UNDECIDED
         if (mine.dof, mine.velocity_dof) != (asked.dof, asked.velocity_dof):
             return Sameness.STRONGER
         if all(r.constraint.facts.half_turns for r in self._wanted):
             return Sameness.SAME
-        if _turned(self._given, self._answer):
+        if _turned(self._submitted, self._answer):
             return Sameness.UNDECIDED
-        sides = bounds(self._all_wanted, self._rest)
-        lost = unsound(self._given, self._sound) if sides else []
+        sides = bounds(self._all_wanted, self._context)
+        lost = unsound(self._submitted, self._sound) if sides else []
         whole = [loses_nothing(e, self._all_wanted, self._others, sides, self.setting) for e in lost]
         return Sameness.BRANCH if not sides else Sameness.SAME if whole and all(whole) else Sameness.UNDECIDED
 
     # differentials
 
     def _differentiated(self) -> bool | None:
-        """Is the answer what one gets by differentiating the finite relations that were asked for?
+        """Return whether the answer is obtained by differentiating the finite relations that were asked for.
 
         None where that was not decided.
         """
@@ -237,16 +237,16 @@ class Equivalence:
         return self._follow([_differential(g) for g in finite], self._answer)
 
     def _integrated(self) -> Sameness | None:
-        """Does the answer say in finite relations what was asked for in forms? None where it does not."""
+        """Return how the answer states in finite relations what was asked for in forms; None if it does not."""
         integrates = self.integrates()
         if not integrates:
             return None if integrates is False else Sameness.UNDECIDED
         new = [g for g, sound in zip(_finite(self._answer), self._sound, strict=True) if not sound]
-        own = [{s for s in g.symbols if s.args[1] in self.constants} for g in new]
-        return Sameness.INTEGRATED if all(own) else Sameness.WITHOUT_CONSTANT
+        constants_in = [{s for s in g.symbols if s.args[1] in self.constants} for g in new]
+        return Sameness.INTEGRATED if all(constants_in) else Sameness.WITHOUT_CONSTANT
 
     def integrates(self) -> bool | None:
-        """Is the answer finite, and are its differentials the forms that were asked for?
+        """Return whether the answer is finite, and its differentials are the forms that were asked for.
 
         Finite relations among what was asked for follow from the answer itself. None where that was not decided.
         """
@@ -273,7 +273,7 @@ class Equivalence:
         answer = self._follow(self._all_wanted, self._answer)
         if not answer:
             return Leaves.NONE if answer is False else Leaves.OPEN
-        mine, asked = self._solved([*self._rest, *self._given]), self._solved([*self._rest, *self._wanted])
+        mine, asked = self._solved([*self._context, *self._submitted]), self._solved([*self._context, *self._wanted])
         if mine.velocity_dof is None or asked.velocity_dof is None:
             return Leaves.OPEN
         if mine.velocity_dof != asked.velocity_dof:
@@ -285,7 +285,7 @@ class Equivalence:
     def _regularity(self) -> Sameness:
         """The same set: is the answer's gradient as good there, on every branch?"""
         names = [c.name for c in self.system.coordinates]
-        result = Regularity(self._others, self._all_wanted, self._given, self.setting, names).irregular()
+        result = Regularity(self._others, self._all_wanted, self._submitted, self.setting, names).irregular()
         return Sameness.UNDECIDED if result is None else Sameness.IRREGULAR if result else Sameness.SAME
 
     # inequalities
@@ -294,14 +294,14 @@ class Equivalence:
         """Inequalities are the same where they leave the same side of the same boundary."""
         if self._answer or self._all_wanted:
             return Compared(Sameness.DIFFERENT, tuple(False for _ in self._wanted))
-        given = [q for r in self._given for q in r.inequalities]
+        submitted = [q for r in self._submitted for q in r.inequalities]
         asked = [q for r in self._wanted for q in r.inequalities]
-        table = [[same_side(a, g, self._others, self.setting) for g in given] for a in asked]
+        table = [[same_side(a, g, self._others, self.setting) for g in submitted] for a in asked]
         if any(True not in row and None in row for row in table):
             return Compared(Sameness.UNDECIDED)
         result = {q: True in row for q, row in zip(asked, table, strict=True)}
         met = tuple(all(result[q] for q in r.inequalities) for r in self._wanted)
-        extra = [k for k in range(len(given)) if not any(row[k] for row in table)]
+        extra = [k for k in range(len(submitted)) if not any(row[k] for row in table)]
         if all(met):
             return Compared(Sameness.STRONGER if extra else Sameness.SAME, met)
         return Compared(Sameness.DIFFERENT if extra else Sameness.WEAKER, met)
@@ -322,8 +322,8 @@ def _differential(g: Expr) -> Normal:
     return Normal(((Pfaffian({n: e for n, e in slopes.items() if not e.is_zero}, diff(g, ex.TIME)),),))
 
 
-def _turned(given: Sequence[Reduced], answer: Sequence[Normal]) -> bool:
-    """Was an angle of velocities undone? theta = atan(dy/dx) may be meant for every theta, not for half of them."""
-    written = (relation.expr for r in given for relation in r.constraint.relations)
+def _turned(submitted: Sequence[Reduced], answer: Sequence[Normal]) -> bool:
+    """Return whether an angle of velocities was undone: theta = atan(dy/dx) may be meant for every theta."""
+    written = (relation.expr for r in submitted for relation in r.constraint.relations)
     undone = any(UNDONE_NOTE in note for n in answer for note in n.notes)
     return undone and any(not e.functions.isdisjoint(ANGLES) for e in written)

@@ -56,9 +56,9 @@ def _by_implication(reduced: Sequence[Reduced], setting: Setting, numbers: Seque
     groups = [(reduced[i].equations, sorted({i, *circuits[i]})) for i in dropped]
     undecided = [i for i in unknown if i in kept]
     independent, more = _equation_by_equation(reduced, setting, numbers, kept)
-    known = {i: n for i, n in independent.items() if i not in undecided}
+    decided = {i: n for i, n in independent.items() if i not in undecided}
     about: About = "everywhere" if setting.reference is None else "reference"
-    return Redundancies(known, dropped, [*groups, *more], circuits, tuple(undecided), about=about)
+    return Redundancies(decided, dropped, [*groups, *more], circuits, tuple(undecided), about=about)
 
 
 def _equation_by_equation(
@@ -105,20 +105,20 @@ def _more(
 
 def _equations_implied(reduced: Sequence[Reduced], i: int, before: Sequence[int], setting: Setting) -> list[Normal]:
     """The equations of a constraint that follow from those before it and from its own first ones."""
-    known = [n for j in before for n in reduced[j].normals]
+    premises = [n for j in before for n in reduced[j].normals]
     said = []
     for n in reduced[i].normals:
-        if follows(n, known, setting):
+        if follows(n, premises, setting):
             said.append(n)
         else:
-            known.append(n)
+            premises.append(n)
     return said
 
 
 def constraint_follows(reduced: Sequence[Reduced], i: int, others: Sequence[int], setting: Setting) -> bool | None:
-    """Does a constraint follow from others, all of its equations? None where that was not decided."""
-    known = [n for j in others for n in reduced[j].normals]
-    return all_of(follows(n, known, setting) for n in reduced[i].normals)
+    """Return whether all equations of a constraint are implied by others; None if undecided."""
+    premises = [n for j in others for n in reduced[j].normals]
+    return all_of(follows(n, premises, setting) for n in reduced[i].normals)
 
 
 def _needed(
@@ -196,18 +196,18 @@ class ConstraintSets:
 
     def __init__(self, system: System, reduced: Sequence[Reduced], setting: Setting) -> None:
         self.system, self.reduced, self.setting = system, reduced, setting
-        self._known: dict[tuple[int, ...], tuple[bool | None, bool]] = {(): (True, True)}
+        self._answers: dict[tuple[int, ...], tuple[bool | None, bool]] = {(): (True, True)}
 
     def inconsistent(self, numbers: Sequence[int]) -> bool:
-        """Are some constraints proved, or as good as proved, to be inconsistent?"""
+        """Return whether some constraints are proved, or as good as proved, to be inconsistent."""
         key = tuple(numbers)
-        if key not in self._known:
-            self._known[key] = self._looked(numbers)
-        return self._known[key][0] is False
+        if key not in self._answers:
+            self._answers[key] = self._looked(numbers)
+        return self._answers[key][0] is False
 
     def consistent(self, numbers: Sequence[int]) -> bool:
-        """Was it proved, when they were looked at, that they hold somewhere?"""
-        return self._known.get(tuple(numbers)) == (True, True)
+        """Return whether it was proved, when they were examined, that they are satisfied somewhere."""
+        return self._answers.get(tuple(numbers)) == (True, True)
 
     def _looked(self, numbers: Sequence[int]) -> tuple[bool | None, bool]:
         """(consistent, proved); linear ones alone are simply solved."""

@@ -11,9 +11,9 @@ from typing import Literal
 from dofkit.base.deadline import unless_late
 from dofkit.base.libraries import components
 from dofkit.base.verdicts import About
-from dofkit.classification.dependence import block_implication, removal
+from dofkit.classification.dependence import removal
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
-from dofkit.classification.dependence.implication import SLACK
+from dofkit.classification.dependence.implication import SLACK, implication_of
 from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
@@ -45,12 +45,12 @@ def redundancies(reduced: Sequence[Reduced], setting: Setting, outcome: Outcome)
         return result
     result += copied(reduced, outcome)
     blocks: BlocksOf = defaultdict(list)
-    for block, a in outcome.parts:
+    for block, a in outcome.answered_parts:
         for i in dict.fromkeys(r.constraint for r in block.rows):
             blocks[i].append((block, a))
     apart = outcome.bridged
     result += [_independent(apart)] if apart else []
-    for numbers in _parts(reduced, outcome, apart):
+    for numbers in _connected(reduced, outcome, apart):
         result += _or_open(partial(_of_part, reduced, setting, blocks, numbers), numbers)
     return result
 
@@ -71,22 +71,22 @@ def _or_open(work: Callable[[], list[Redundancies]], numbers: Sequence[int]) -> 
     return [undecided_dependence(numbers)] if result is None else result
 
 
-def all_needed(found: Sequence[Redundancies], reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
+def all_needed(dependent: Sequence[Redundancies], reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
     """With no equation too many, what was left open is needed, where every equation takes one freedom at most.
 
     One that says several things (a sum of squares), hidden relations or a singular set may hide that another follows.
     """
     several = any(len(b) > 1 for r in reduced for n in r.normals for b in n.branches)
     if several or any(a.hidden or a.degenerate for a in outcome.answers):
-        return list(found)
+        return list(dependent)
     answer = []
-    for r in found:
+    for r in dependent:
         needed = {i: reduced[i].equations for i in r.undecided}
         answer.append(replace(r, independent={**r.independent, **needed}, undecided=()) if needed else r)
     return answer
 
 
-def _parts(reduced: Sequence[Reduced], outcome: Outcome, apart: Collection[int]) -> list[list[int]]:
+def _connected(reduced: Sequence[Reduced], outcome: Outcome, apart: Collection[int]) -> list[list[int]]:
     """The constraints in use but those ``apart``, those together that share coordinates."""
     used: list[int] = []
     names: list[frozenset[str]] = []
@@ -210,50 +210,50 @@ def _is_restricted(r: Reduced) -> bool:
     return any(isinstance(p, DomainCondition) for n in r.normals for b in n.branches for p in b)
 
 
-def _as_free(found: Redundancies, reduced: Sequence[Reduced], blocks: Sequence[tuple[Block, Answer]]) -> Redundancies:
+def _as_free(implied: Redundancies, reduced: Sequence[Reduced], blocks: Sequence[tuple[Block, Answer]]) -> Redundancies:
     """Return what was counted, where it agrees with the freedom that the equations take away.
 
     No more equations are independent than take freedom away, and the groups hold all others. Where the order in which
     equations imply each other says otherwise, their rows are counted, at the points where the freedom was determined:
     none of what is satisfied on a whole region; of x z = 0 and z = 0 one, though neither follows from those before it.
     """
-    if found.undecided or any(a.velocity_dof is None for _, a in blocks):
-        return found
+    if implied.undecided or any(a.velocity_dof is None for _, a in blocks):
+        return implied
     taken = sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
-    equations = sum(reduced[i].equations for i in found.independent)
-    if sum(found.independent.values()) <= taken and _hold_the_others(found, equations):
-        return found
-    parts = [OwnedRows(a.matrix, removal.owners_of(b), _finite_rows(b), a.modulus) for b, a in blocks]
-    known = all(len(part.matrix) == len(part.owners) for part in parts)
-    by_rank = analyse(parts) if known else Redundancies({})
-    with_rows = {owner for part in parts for owner in part.owners}
-    idle = [(reduced[i].equations, [i]) for i in found.independent if i not in with_rows]
-    independent = {i: by_rank.independent.get(i, 0) for i in found.independent}
-    counted = replace(found, independent=independent, groups=[*by_rank.groups, *idle], equations={})
+    equations = sum(reduced[i].equations for i in implied.independent)
+    if sum(implied.independent.values()) <= taken and _hold_the_others(implied, equations):
+        return implied
+    matrices = [OwnedRows(a.matrix, removal.owners_of(b), _finite_rows(b), a.modulus) for b, a in blocks]
+    complete = all(len(part.matrix) == len(part.owners) for part in matrices)
+    by_rank = analyse(matrices) if complete else Redundancies({})
+    with_rows = {owner for part in matrices for owner in part.owners}
+    idle = [(reduced[i].equations, [i]) for i in implied.independent if i not in with_rows]
+    independent = {i: by_rank.independent.get(i, 0) for i in implied.independent}
+    counted = replace(implied, independent=independent, groups=[*by_rank.groups, *idle], equations={})
     members = {i for _, group in counted.groups for i in group}
-    if sum(independent.values()) == taken and members >= {*found.redundant} and _hold_the_others(counted, equations):
+    if sum(independent.values()) == taken and members >= {*implied.redundant} and _hold_the_others(counted, equations):
         return counted
-    return replace(found, independent={}, uncounted=tuple(found.independent))
+    return replace(implied, independent={}, uncounted=tuple(implied.independent))
 
 
-def _hold_the_others(found: Redundancies, equations: int) -> bool:
+def _hold_the_others(dependence: Redundancies, equations: int) -> bool:
     """Return whether the groups hold as many equations as are not independent."""
-    return sum(nullity for nullity, _ in found.groups) >= equations - sum(found.independent.values())
+    return sum(nullity for nullity, _ in dependence.groups) >= equations - sum(dependence.independent.values())
 
 
 def _finite_rows(block: Block) -> list[bool]:
     return [isinstance(r.piece, Finite) for r in block.rows]
 
 
-def _agreed(found: Sequence[Redundancies]) -> list[Redundancies]:
+def _agreed(dependent: Sequence[Redundancies]) -> list[Redundancies]:
     """A constraint of several equations is redundant only where all of them are, whatever block they are in."""
-    return [r.without(set().union(*(other.needed for other in found))) for r in found]
+    return [r.without(set().union(*(other.needed for other in dependent))) for r in dependent]
 
 
 def _measured_by_rank(
     reduced: Sequence[Reduced], setting: Setting, numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]
 ) -> bool:
-    """Does the rank of rows measure dependence: one branch, and nothing nonlinear or hidden (constants apart)?"""
+    """Return whether the rank measures dependence: one branch, and nothing nonlinear or hidden (constants apart)."""
     normals = [n for i in numbers for n in reduced[i].normals]
     if any(len(branches_at_reference(n, setting).branches) > 1 for n in normals):
         return False
@@ -279,15 +279,13 @@ def _of_block(
         yield unless_late(removed, undecided) if is_finite else undecided
     else:
         finite = _finite_rows(block)
-        implied = (
-            None if a.supports is not None or nullity <= 0 else block_implication.implication_of(block, a, setting)
-        )
+        implied = None if a.supports is not None or nullity <= 0 else implication_of(block, a, setting)
         yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied)
 
 
-def _joined(parts: Sequence[OwnedRows]) -> list[list[OwnedRows]]:
+def _joined(matrices: Sequence[OwnedRows]) -> list[list[OwnedRows]]:
     """Return the rows in groups: blocks that share a constraint are examined together."""
-    owned = [part for part in parts if part.owners]
+    owned = [part for part in matrices if part.owners]
     return [[owned[k] for k in numbers] for numbers in components(part.owners for part in owned)]
 
 
@@ -308,15 +306,15 @@ def _numbered(reduced: Iterable[Reduced]) -> dict[int, int]:
 
 
 def _each_takes_one(reduced: Sequence[Reduced], numbers: Sequence[int], blocks: Sequence[tuple[Block, Answer]]) -> bool:
-    """Is the freedom less by as many as there are equations, one row each? Then none follows from the others.
+    """Return whether the freedom is less by as many as there are equations, one row each: none is implied then.
 
     On the branches in use the rows of the others leave no part of which the freedom is less by more than they are.
     """
     rows = Counter(r.constraint for block, _ in blocks for r in block.rows)
-    one = rows == {i: reduced[i].equations for i in numbers}
+    single = rows == {i: reduced[i].equations for i in numbers}
     plain = all(a.velocity_dof is not None and not a.hidden and not a.degenerate for _, a in blocks)
     return (
-        one
+        single
         and plain
         and sum(rows.values()) == sum(len(block.coordinates) - (a.velocity_dof or 0) for block, a in blocks)
     )
@@ -336,9 +334,9 @@ def copied(reduced: Sequence[Reduced], outcome: Outcome) -> list[Redundancies]:
     ]
 
 
-def merged(found: Sequence[Redundancies]) -> list[tuple[int, list[int]]]:
+def merged(dependent: Sequence[Redundancies]) -> list[tuple[int, list[int]]]:
     """Groups that share a constraint are one."""
-    groups = [g for r in found for g in r.groups]
+    groups = [g for r in dependent for g in r.groups]
     merged = []
     for numbers in components(members for _, members in groups):
         together = {i for k in numbers for i in groups[k][1]}

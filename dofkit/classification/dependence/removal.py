@@ -3,7 +3,7 @@
 Where leaving a constraint out gives freedom, it is needed. Where it gives none, what the constraint says must follow
 from what is left: the set may lose a part and keep its dimension.
 
-How many equations are independent of all before them where relations are dependent at the drawing only.
+How many equations are independent of all before them where relations are dependent at the reference only.
 
 An equation is independent of others where it is no combination of them, with coefficients that are analytic near the
 drawing. One after another they are held against those before. A row that is no sum of rows before it at the drawing is
@@ -26,7 +26,7 @@ from typing import NamedTuple
 from dofkit.base.deadline import OutOfTimeError, check, limited
 from dofkit.base.libraries import components
 from dofkit.base.verdicts import Verdict, weakest
-from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets, is_drawn
+from dofkit.classification.dependence.implication import Everywhere, NearDrawing, SufficientSets, is_drawn
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.preparation import all_of
@@ -142,7 +142,9 @@ class Removal:
 
     def _is_same_set(self, removed: frozenset[int], kept: frozenset[int]) -> bool | None:
         """Return whether what is removed is implied: always where only rigid motions of the system are left."""
-        rows, others = ([i for i, r in enumerate(self.block.rows) if r.constraint in own] for own in (removed, kept))
+        rows, others = (
+            [i for i, r in enumerate(self.block.rows) if r.constraint in constraints] for constraints in (removed, kept)
+        )
         if not is_drawn(self.block, self.whole, self.setting):
             self.verdict = weakest(self.verdict, "probable")
             return all_of(Everywhere(self.block, self.setting).follows(i, others) for i in rows)
@@ -176,7 +178,7 @@ class EquationCount(NamedTuple):
 
 
 def counted(block: Block, setting: Setting, a: Answer, numbered: Sequence[int]) -> EquationCount | None:
-    """The count for a block that was answered at the drawing; ``numbered``: the equation that each row is of.
+    """The count for a block that was answered at the reference; ``numbered``: the equation that each row is of.
 
     None where it was not decided, or is not what the freedom says.
     """
@@ -198,7 +200,7 @@ def counted(block: Block, setting: Setting, a: Answer, numbered: Sequence[int]) 
 
 @dataclass
 class _Counting:
-    """What follows from what, row by row; ``bent``: rows dependent at the drawing only; ``seen``: as in the count."""
+    """What follows from what, row by row; ``bent``: rows dependent at the reference only; ``seen``: as in the count."""
 
     block: Block
     setting: Setting
@@ -217,7 +219,7 @@ class _Counting:
 
     @cached_property
     def _dependent(self) -> Mapping[int, Sequence[int]]:
-        """Rows that are sums of rows before them at the drawing, and of which."""
+        """Rows that are sums of rows before them at the reference, and of which."""
         return echelon(self.a.matrix, self.a.modulus, supports=True).supports
 
     def supports(self) -> dict[int, list[int]] | None:
@@ -226,12 +228,12 @@ class _Counting:
         The rows of one constraint stand in no order: of those that say the same beside others any may be the first.
         """
         for owner, rows in groupby(sorted(self._dependent), key=self._owners.__getitem__):
-            remaining = self._left(rows)
+            remaining = self._independent_rows(rows)
             if remaining is None or not (self._by_one(owner, remaining) or self._by_freedom(remaining)):
                 return None
         return self.following
 
-    def _left(self, rows: Iterable[int]) -> list[int] | None:
+    def _independent_rows(self, rows: Iterable[int]) -> list[int] | None:
         """Those of some dependent rows that follow from no independent ones; None where that is not known of one."""
         result = []
         for i in rows:
@@ -247,22 +249,22 @@ class _Counting:
         return result
 
     def _by_one(self, owner: int, rows: Sequence[int]) -> bool:
-        """Do several rows of a constraint hold where one of them does beside those before, as far as numbers tell?"""
+        """Return whether, in numbers, several rows of a constraint hold where one of them and those before do."""
         if len(rows) < 2:
             return False
         pivots = [k for k, o in enumerate(self._owners) if o <= owner and k not in self._dependent]
         for first in rows:
             others = [i for i in rows if i != first]
-            given = [*pivots, *self.bent, first]
-            if self._near.seem_to_imply(given, others) and (not self.bent or self._takes_freedom(first)):
+            premises = [*pivots, *self.bent, first]
+            if self._near.seem_to_imply(premises, others) and (not self.bent or self._takes_freedom(first)):
                 self.bent.append(first)
-                self.following |= dict.fromkeys(others, given)
+                self.following |= dict.fromkeys(others, premises)
                 self.seen.append(owner)
                 return True
         return False
 
     def _by_freedom(self, rows: Sequence[int]) -> bool:
-        """Does each of some rows take freedom away, the first of all apart? They are independent then."""
+        """Return whether each of some rows removes freedom, the first of all apart: they are independent then."""
         for i in rows:
             if self.bent and not self._takes_freedom(i):
                 return False
@@ -270,7 +272,7 @@ class _Counting:
         return True
 
     def _takes_freedom(self, row: int) -> bool:
-        """Do the rows before this one, but for those that follow, leave less freedom with it than without it?"""
+        """Return whether the rows before this one that are not implied leave less freedom with it than without it."""
         rows = [self.block.rows[k] for k in range(row + 1) if k not in self.following]
         before, after = (freedom(self.block.coordinates, some, self.setting) for some in (rows[:-1], rows))
         return before is not None and after is not None and after < before

@@ -83,13 +83,13 @@ def feasibility(
     return result if result.feasible is not False else _minimal(judge, result)
 
 
-def _minimal(judge: _Judge, found: Feasibility) -> Feasibility:
+def _minimal(judge: _Judge, feasibility: Feasibility) -> Feasibility:
     """A set that cannot be met, none of which can be left out (a deletion filter, the last written first).
 
     What is left out leaves a set that is proved not to be met; what is kept is needed, where a point shows that the
     others can be met without it: then fewer of them can be as well.
     """
-    kept, needed = list(found.infeasible), set[int]()
+    kept, needed = list(feasibility.infeasible), set[int]()
     with limited(LEAVING_SECONDS):
         size = max(1, len(kept) // 2) if len(kept) > FEW else 1
         while size:
@@ -104,7 +104,7 @@ def _minimal(judge: _Judge, found: Feasibility) -> Feasibility:
     names = [f"'{judge.reduced[i].constraint.name}'" for i in open_]
     text = ", ".join(names[:MOST_NAMES]) + (f" and {len(names) - MOST_NAMES} more" if names[MOST_NAMES:] else "")
     reasons = (NOT_MINIMAL.format(names=text),) if open_ else ()
-    return replace(found, infeasible=tuple(kept), reasons=reasons)
+    return replace(feasibility, infeasible=tuple(kept), reasons=reasons)
 
 
 @dataclass(frozen=True)
@@ -129,11 +129,11 @@ class _Judge:
                     return result
                 met |= dict.fromkeys(part.numbers, result) if result.feasible else {}
         asked = {i for part in alone for i in part.numbers}
-        beside = self._answers(set(numbers) - asked)
-        if not asked <= met.keys() or None in [a.consistent for a in beside]:
+        others = self._answers(set(numbers) - asked)
+        if not asked <= met.keys() or None in [a.consistent for a in others]:
             return Feasibility(None, reasons=(OPEN,))
         at = {s: v for result in met.values() for s, v in result.at.items()}
-        sure = weakest(*(result.verdict for result in met.values()), *(a.verdict for a in beside))
+        sure = weakest(*(result.verdict for result in met.values()), *(a.verdict for a in others))
         return Feasibility(True, at=at, verdict=sure)
 
     def _answers(self, numbers: set[int]) -> list[Answer]:
@@ -147,8 +147,8 @@ class _Judge:
         claims = part.written()
         if not contradictory(claims, positive):
             for problem in self._problems(part):
-                given = {s: value_of(s) for s in problem.constants} if fixed else {}
-                result = witness(replace(problem, fixed=given), positive, self._drawn)
+                fixed_values = {s: value_of(s) for s in problem.constants} if fixed else {}
+                result = witness(replace(problem, fixed=fixed_values), positive, self._drawn)
                 if result is not None:
                     return Feasibility(True, at=result.at, verdict=result.verdict)
             if not _refuted(part, positive):
@@ -171,12 +171,12 @@ class _Judge:
 
 
 def _turns_over(facts: TypeFacts, dimension: int) -> bool:
-    """Do the relations of a type also hold in an assembly that is turned over, which nobody means?"""
+    """Return whether the relations of a type also hold in an assembly that is turned over, which nobody means."""
     return facts.half_turns and not (facts.axial and dimension < MOST_DIMENSIONS)
 
 
 def _refuted(part: Part, positive: frozenset[Expr]) -> bool:
-    """Is it proved that a part cannot be met: as written, or on every choice of branches?"""
+    """Return whether it is proved that a part cannot be satisfied: as written, or on every choice of branches."""
     if not part.readable:
         return False
     if refuted(part.written(), positive):
@@ -190,8 +190,8 @@ def _refuted(part: Part, positive: frozenset[Expr]) -> bool:
 DIGITS = 15
 
 
-def inequalities_together(study: Study, told: Mapping[str, Any]) -> Mapping[str, Any]:
-    """The report's fields, beside what is ``told`` already."""
+def inequalities_together(study: Study, fields: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The report's fields, beside what is ``fields`` already."""
     result = feasibility(study.reduced, study.setting, study.outcome, study.dependence.conflicting.members)
     at = _texts(study.system, result.at) if result.feasible else None
     claims = {} if result.feasible is None else _claims(result)
@@ -199,18 +199,18 @@ def inequalities_together(study: Study, told: Mapping[str, Any]) -> Mapping[str,
         "feasible": result.feasible,
         "infeasible": [study.names[i] for i in result.infeasible],
         "feasible_at": at,
-        "verdict": weakest(told["verdict"], *(v.verdict for v in claims.values())),
-        "verdicts": {**told["verdicts"], **claims},
-        "witness": _moved(told["witness"], at or {}),
-        "warnings": [*told["warnings"], *result.reasons],
+        "verdict": weakest(fields["verdict"], *(v.verdict for v in claims.values())),
+        "verdicts": {**fields["verdicts"], **claims},
+        "witness": _moved(fields["witness"], at or {}),
+        "warnings": [*fields["warnings"], *result.reasons],
     }
 
 
-def _claims(found: Feasibility) -> dict[str, FieldVerdict]:
+def _claims(feasibility: Feasibility) -> dict[str, FieldVerdict]:
     """How sure it is, and by which argument."""
-    argument: ArgumentKey = "met at a point" if found.feasible else "excluded together"
-    claim = FieldVerdict.of(Claim(found.verdict, argument, BITS, GAP))
-    return {"feasible": claim} | ({"infeasible": claim} if found.infeasible and not found.reasons else {})
+    argument: ArgumentKey = "met at a point" if feasibility.feasible else "excluded together"
+    claim = FieldVerdict.of(Claim(feasibility.verdict, argument, BITS, GAP))
+    return {"feasible": claim} | ({"infeasible": claim} if feasibility.infeasible and not feasibility.reasons else {})
 
 
 def _moved(witness: Mapping[str, str] | None, at: Mapping[str, str]) -> dict[str, str] | None:

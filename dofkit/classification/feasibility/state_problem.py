@@ -78,16 +78,16 @@ def _terms(e: Expr) -> Mapping[Expr, Fraction]:
 
 def contradictory(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> bool:
     """True where no values of the terms, taken for unknowns of their own, satisfy the claims and the terms' signs."""
-    known, terms = list(claims), set[Expr]()
+    facts, terms = list(claims), set[Expr]()
     for _ in range(2):
-        fresh = {u for c in known for u in _terms(c.expr) if u != ex.ONE} - terms
+        fresh = {u for c in facts for u in _terms(c.expr) if u != ex.ONE} - terms
         terms |= fresh
-        known += [fact for u in sorted(fresh, key=repr) for fact in _facts(u, terms, positive)]
-    order = sorted({u for c in known for u in _terms(c.expr)} - {ex.ONE}, key=repr)
+        facts += [fact for u in sorted(fresh, key=repr) for fact in _facts(u, terms, positive)]
+    order = sorted({u for c in facts for u in _terms(c.expr)} - {ex.ONE}, key=repr)
     if len(order) > max(MAX_TERMS, 2 * len(claims)):
         return False
     place = {u: k for k, u in enumerate(order)}
-    return solution([_condition(c, place) for c in known]) is False
+    return solution([_condition(c, place) for c in facts]) is False
 
 
 def _condition(claim: SignClaim, place: dict[Expr, int]) -> LinearCondition:
@@ -149,8 +149,8 @@ def _products(claims: Sequence[SignClaim], positive: frozenset[Expr]) -> Iterato
     functions = {u for c in claims for e in _terms(c.expr) for u in ex.nodes(e) if u.op == "fn"}
     factors += [fact for u in sorted(functions, key=repr) for fact in _facts(u, set(), positive)]
     if len(factors) <= MAX_FACTORS:
-        for one, other in combinations_with_replacement(factors, 2):
-            yield SignClaim(ex.mul(one.expr, other.expr), ">" if one.sense == other.sense == ">" else ">=")
+        for first, other in combinations_with_replacement(factors, 2):
+            yield SignClaim(ex.mul(first.expr, other.expr), ">" if first.sense == other.sense == ">" else ">=")
     equations = [c for c in claims if c.sense == "="]
     if len(equations) * len(symbols) <= MAX_MULTIPLES:
         yield from (SignClaim(ex.mul(c.expr, s), "=") for c in equations for s in symbols)
@@ -210,7 +210,7 @@ class StateProblem:
 
     @property
     def unknown_functions(self) -> bool:
-        """Does an unknown function occur?"""
+        """Return whether an unknown function occurs."""
         return any(map(has_call, self.expressions))
 
 
@@ -295,7 +295,7 @@ class Part:
 
     @property
     def readable(self) -> bool:
-        """Are the inequalities about configurations and velocities, and not about differentials or accelerations?"""
+        """Return whether the inequalities are about configurations and velocities only."""
         kinds = {s.args[0] for q in self.inequalities for s in q.expr.symbols}
         return kinds.isdisjoint({"differential", "dt"}) and not any(accelerations_of(q.expr) for q in self.inequalities)
 
@@ -305,17 +305,17 @@ class Part:
         if prod(len(n.branches) for _, n in normals) > MAX_CHOICES:
             return None
         constants = {c: Row(i, Still(c)) for i, r in zip(self.numbers, self.reduced, strict=True) for c in r.constants}
-        own = tuple(DomainCondition(q.expr, ">" if q.strict else ">=") for q in self.inequalities)
+        conditions = tuple(DomainCondition(q.expr, ">" if q.strict else ">=") for q in self.inequalities)
         return (
-            _choice([(i, branch) for (i, _), branch in zip(normals, chosen, strict=True)], own, constants)
+            _choice([(i, branch) for (i, _), branch in zip(normals, chosen, strict=True)], conditions, constants)
             for chosen in cartesian(*(n.branches for _, n in normals))
         )
 
     def written(self) -> list[SignClaim]:
         """The finite relations and the inequalities as they were written, all branches in one."""
         relations = [q for r in self.reduced for q in r.constraint.relations if q.sense == "=" and _finite(q.expr)]
-        own = [SignClaim(q.expr, ">" if q.strict else ">=") for q in self.inequalities]
-        return [*(SignClaim(q.expr, "=") for q in relations), *own]
+        sides = [SignClaim(q.expr, ">" if q.strict else ">=") for q in self.inequalities]
+        return [*(SignClaim(q.expr, "=") for q in relations), *sides]
 
 
 def _finite(e: Expr) -> bool:
@@ -323,19 +323,21 @@ def _finite(e: Expr) -> bool:
 
 
 def _choice(
-    branches: Sequence[tuple[int, Sequence[object]]], own: tuple[DomainCondition, ...], constants: dict[str, Row]
+    branches: Sequence[tuple[int, Sequence[object]]],
+    inequalities: tuple[DomainCondition, ...],
+    constants: dict[str, Row],
 ) -> Choice:
     rows = [Row(i, p) for i, branch in branches for p in branch if isinstance(p, Finite | Pfaffian | Nonlinear)]
     conditions = [p for _, branch in branches for p in branch if isinstance(p, DomainCondition)]
-    return Choice(tuple(with_rows(rows, constants)), tuple(dict.fromkeys((*conditions, *own))))
+    return Choice(tuple(with_rows(rows, constants)), tuple(dict.fromkeys((*conditions, *inequalities))))
 
 
 def parts_of(reduced: Sequence[Reduced], numbers: Sequence[int], shared: bool) -> list[Part]:
     """The parts with an inequality; ``shared``: what shares time or a parameter belongs together as well."""
     together = components(_mentioned(reduced[i], shared) for i in numbers)
     groups = [sorted(numbers[k] for k in group) for group in together]
-    parts = [Part(tuple(g), tuple(reduced[i] for i in g)) for g in groups]
-    return sorted((p for p in parts if p.inequalities), key=lambda p: p.numbers)
+    every = [Part(tuple(g), tuple(reduced[i] for i in g)) for g in groups]
+    return sorted((p for p in every if p.inequalities), key=lambda p: p.numbers)
 
 
 def _mentioned(r: Reduced, shared: bool) -> frozenset[str]:

@@ -95,8 +95,8 @@ def _at(problem: StateProblem, positive: frozenset[Expr], drawn: Mapping[Expr, E
     return None
 
 
-def _symbols(parts: Iterable[Expr]) -> frozenset[Expr]:
-    return frozenset[Expr]().union(*(e.symbols for e in parts))
+def _symbols(expressions: Iterable[Expr]) -> frozenset[Expr]:
+    return frozenset[Expr]().union(*(e.symbols for e in expressions))
 
 
 def _vanishes(e: Expr, positive: frozenset[Expr], at: Mapping[Expr, Fraction]) -> bool:
@@ -164,12 +164,12 @@ class _Search:
         self.ring = Ring([*rows, *problem.expressions], positive)
         self.rows = [self.ring.node(e) for e in rows]
         self.search = RealSearch(self.ring, self.rows, [*problem.unknowns, *self.slacks], positive)
-        self.given = {s: float(v) for s, v in problem.fixed.items()}
+        self.values = {s: float(v) for s, v in problem.fixed.items()}
 
-    def found(self, seed: int) -> RealPoint | None:
+    def certified_point(self, seed: int) -> RealPoint | None:
         """A point that is certified, with all slacks apart from 0."""
         try:
-            point = self.search.search(seed, self.given, STARTS, STEPS)
+            point = self.search.search(seed, self.values, STARTS, STEPS)
         except (NoValueError, ArithmeticError, ValueError):
             return None
         if point is None or not point.certified or not point.consistent:
@@ -186,7 +186,7 @@ def _by_slacks(problem: StateProblem, positive: frozenset[Expr]) -> Witness | No
     search = _Search(problem, positive)
     for seed in range(SEARCHES):
         check()
-        point = search.found(seed)
+        point = search.certified_point(seed)
         if point is not None and _is_certified(problem, search, point):
             at = point.point.symbols
             point_values = {s: arb(at[s]) for s in (*problem.unknowns, *problem.constants) if s in at}
@@ -204,15 +204,15 @@ def _is_certified(problem: StateProblem, search: _Search, point: RealPoint) -> b
 
 def _rank(ring: Ring, point: BallPoint, rows: Sequence[Expr], columns: Sequence[Expr]) -> int:
     """The certified rank of the derivatives of some rows by some symbols."""
-    known = [i for s in columns if (i := ring.var_index(s)) is not None]
-    if not rows or not known:
+    indices = [i for s in columns if (i := ring.var_index(s)) is not None]
+    if not rows or not indices:
         return 0
     at = values(ring, point)
-    return ball_part(jacobian(ring, at, point, [ring.node(e) for e in rows], known, arb(0))).rank
+    return ball_part(jacobian(ring, at, point, [ring.node(e) for e in rows], indices, arb(0))).rank
 
 
 def _defined(problem: StateProblem, point: BallPoint) -> bool:
-    """Has all that was written a value on the whole ball, equations one that may be 0, conditions the right sign?"""
+    """Return whether all has a value on the whole ball, equations one that may be 0, conditions the right sign."""
     try:
         program = BoxProgram([(e, WHOLE) for e in problem.expressions])
         box = [bounds(arb(point.symbols[s])) for s in program.variables]

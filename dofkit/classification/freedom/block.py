@@ -70,8 +70,8 @@ def answer(block: Block, setting: Setting) -> Answer:
         result = replace(result, dof=None, velocity_dof=None, growth=None, verdict="undecided", reasons=reasons)
     differential = bool(block.forms or block.nonlinear)
     tested = differential or "closed" not in setting.reductions
-    own = Size(len(block.coordinates), len(block.finite), len(block.rows) if tested else 0)
-    return replace(result, size=own)
+    model_size = Size(len(block.coordinates), len(block.finite), len(block.rows) if tested else 0)
+    return replace(result, size=model_size)
 
 
 def _engines(block: Block, setting: Setting) -> Answer:
@@ -160,21 +160,21 @@ def _mixed_answer(block: Block, setting: Setting) -> Answer:
     return result
 
 
-def _prolonged(block: Block, setting: Setting, result: Answer, given: Sequence[Expr] = ()) -> Answer:
+def _prolonged(block: Block, setting: Setting, result: Answer, relations: Sequence[Expr] = ()) -> Answer:
     """The answer with the hidden relations that the rows force added one after another; of branches the largest."""
-    extra = list(given)
+    extra = list(relations)
     for _ in range(MAX_ROUNDS):
         forms = codistribution(block, setting, extra)
         result.doubt = result.doubt or doubt(forms.chart.ring)
-        found = _points(forms, setting)
-        result.reasons = list(found.reasons)
-        if not found.consistent or (not found.samples and found.real is None):
-            result.consistent, result.verdict, result.hidden = found.consistent, found.verdict, extra
-            result.argument = found.argument
+        points = _points(forms, setting)
+        result.reasons = list(points.reasons)
+        if not points.consistent or (not points.samples and points.real is None):
+            result.consistent, result.verdict, result.hidden = points.consistent, points.verdict, extra
+            result.argument = points.argument
             return result
-        new = confinements(forms, found)
+        new = confinements(forms, points)
         if new is None:
-            return replace(_with_spans(block, forms, found, extra, setting), doubt=result.doubt)
+            return replace(_with_spans(block, forms, points, extra, setting), doubt=result.doubt)
         outcome = prolong(new, setting)
         if outcome is None or (len(outcome) > MAX_HIDDEN_BRANCHES and len(extra) < MAX_ROUNDS):
             return Answer(None, verdict="undecided", hidden=extra, reasons=[MANY_BRANCHES])
@@ -213,7 +213,7 @@ def _points(forms: Codistribution, setting: Setting) -> Variety:
 
 
 def _as_large(forms: Codistribution, reference: Mapping[Expr, Expr]) -> bool:
-    """Has an irreducible set its whole dimension near the reference too? Then its generic points are found there."""
+    """Return whether an irreducible set has its whole dimension near the reference, as at generic points."""
     here = at_reference(forms.chart, reference)
     return here is not None and here.local.dimension == forms.n - forms.finite and here.local.verdict != "numeric"
 
@@ -222,29 +222,29 @@ def _largest(a: Answer) -> tuple[int, int, int]:
     return (int(a.consistent is not False), -1 if a.dof is None else a.dof, a.velocity_dof or 0)
 
 
-def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list[Expr], setting: Setting) -> Answer:
-    result = Answer(True, hidden=extra, reasons=list(found.reasons), verdict=found.verdict, about=found.about)
-    result.argument, result.gap, result.witness = found.argument, found.gap, of_real_point(forms.chart, found.real)
-    result.separating = found.separating
-    if found.about == "reference" and setting.reference is not None:
+def _with_spans(block: Block, forms: Codistribution, points: Variety, extra: list[Expr], setting: Setting) -> Answer:
+    result = Answer(True, hidden=extra, reasons=list(points.reasons), verdict=points.verdict, about=points.about)
+    result.argument, result.gap, result.witness = points.argument, points.gap, of_real_point(forms.chart, points.real)
+    result.separating = points.separating
+    if points.about == "reference" and setting.reference is not None:
         result.witness = of_reference(forms.chart.symbols, setting.reference)
-    if block.nonlinear and found.about == "reference":
-        return replace(result, consistent=None, verdict="undecided", reasons=[*found.reasons, IRREGULAR])
-    if found.samples:
-        good = _spans(forms, found)
+    if block.nonlinear and points.about == "reference":
+        return replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, IRREGULAR])
+    if points.samples:
+        good = _spans(forms, points)
         if good:
-            if found.about == "component" and found.real is not None and found.real.certified:
+            if points.about == "component" and points.real is not None and points.real.certified:
                 largest = max((sampled for _, sampled in good), key=lambda sampled: sampled.span.dimension)
-                real = on_the_same_part(forms, found, largest)
+                real = on_the_same_part(forms, points, largest)
                 if real is None:
-                    return replace(result, consistent=None, verdict="undecided", reasons=[*found.reasons, APART])
-                found.real, result.witness = real, of_real_point(forms.chart, real)
-            field_labels(block, forms, found, good, result, setting)
+                    return replace(result, consistent=None, verdict="undecided", reasons=[*points.reasons, APART])
+                points.real, result.witness = real, of_real_point(forms.chart, real)
+            field_labels(block, forms, points, good, result, setting)
             if block.nonlinear:
                 set_velocity_freedom(block, setting, result)
             return result
-    if found.real is not None and found.real.certified:
-        ball_labels(block, forms, found.real, result)
+    if points.real is not None and points.real.certified:
+        ball_labels(block, forms, points.real, result)
         if block.nonlinear:
             set_velocity_freedom(block, setting, result)
         return result
@@ -253,11 +253,11 @@ def _with_spans(block: Block, forms: Codistribution, found: Variety, extra: list
     return result
 
 
-def _spans(forms: Codistribution, found: Variety) -> list[tuple[FieldPoint, SampledSpan]]:
+def _spans(forms: Codistribution, points: Variety) -> list[tuple[FieldPoint, SampledSpan]]:
     """The Lie algebra at every sample; at one, where it is all of the tangent space and nothing could raise it."""
     good = []
-    for point in found.samples:
-        sampled = span_at(forms, point, found.about == "reference")
+    for point in points.samples:
+        sampled = span_at(forms, point, points.about == "reference")
         if sampled is None:
             continue
         good.append((point, sampled))
@@ -285,5 +285,5 @@ def alone(
 
 
 def _total(untouched: Sequence[str], numbers: Sequence[int | None]) -> int | None:
-    known = [n for n in numbers if n is not None]
-    return len(untouched) + sum(known) if len(known) == len(numbers) else None
+    decided = [n for n in numbers if n is not None]
+    return len(untouched) + sum(decided) if len(decided) == len(numbers) else None

@@ -69,15 +69,15 @@ class Outcome:
         return None if self.unsettled or None in answers else True
 
     @property
-    def parts(self) -> list[AnsweredPart]:
+    def answered_parts(self) -> list[AnsweredPart]:
         """The blocks with their answers; of those whose parts were answered apart, the parts."""
         pairs = (AnsweredPart(block, a) for block, a in zip(self.blocks, self.answers, strict=True))
-        return [part for p in pairs for part in ((p,) if p.answer.parts is None else p.answer.parts)]
+        return [part for p in pairs for part in ((p,) if p.answer.answered_parts is None else p.answer.answered_parts)]
 
     @property
     def bridged(self) -> Counter[int]:
         """Of joints that close no loop the equations that are in no part, by constraint: independent of all others."""
-        within = {id(row) for part in self.parts for row in part.block.rows}
+        within = {id(row) for part in self.answered_parts for row in part.block.rows}
         return Counter(row.constraint for block in self.blocks for row in block.rows if id(row) not in within)
 
     @property
@@ -94,10 +94,10 @@ class Outcome:
     def velocity_dof(self) -> int | None:
         return self._total([a.velocity_dof for a in self.answers])
 
-    def _total(self, parts: Sequence[int | None]) -> int | None:
-        if not self.consistent or any(p is None for p in parts):
+    def _total(self, freedoms: Sequence[int | None]) -> int | None:
+        if not self.consistent or any(p is None for p in freedoms):
             return None
-        return len(self.untouched) + sum(p for p in parts if p is not None)
+        return len(self.untouched) + sum(p for p in freedoms if p is not None)
 
     @property
     def most(self) -> int:
@@ -109,11 +109,11 @@ class Outcome:
     @property
     def unseen(self) -> int:
         """No part of this branch has more freedom than this, those that were not looked at among them."""
-        known = (
+        bounds = (
             _bound(b, a) if a.about == "component" else _most(b, a)
             for b, a in zip(self.blocks, self.answers, strict=True)
         )
-        return len(self.untouched) + sum(known)
+        return len(self.untouched) + sum(bounds)
 
     @property
     def size(self) -> tuple[int, int, int]:
@@ -128,8 +128,8 @@ def _most(block: Block, a: Answer) -> int:
 
 def _bound(block: Block, a: Answer) -> int:
     """A bound of its freedom on any part: a relation takes at least one away, unless it may hold always unseen."""
-    known = len(block.coordinates) - (a.doubt is None and bool(block.finite))
-    return known if a.most is None else min(known, a.most)
+    bound = len(block.coordinates) - (a.doubt is None and bool(block.finite))
+    return bound if a.most is None else min(bound, a.most)
 
 
 def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outcome:
@@ -140,7 +140,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     never, unsettled = _one_sided(reduced, positive)
     copied = copies(reduced) if "copies" in setting.reductions else {}
     outcomes, why = list[Outcome](), None
-    known = AnsweredBlocks(system)
+    answered = AnsweredBlocks(system)
     domain = [(i, c) for i, r in enumerate(reduced) for c in r.domain if c.expr.op != "num"]
     constants = {c: Row(i, Still(c)) for i, r in enumerate(reduced) for c in r.constants}
     for number, choice in enumerate(cartesian(*options)):
@@ -157,7 +157,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
         why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
         for way in reductions_at_reference(ways, setting):
             names = [*(c.name for c in system.coordinates), *names_in(way.rows, constants)]
-            outcome = _answered(names, way.rows, impossible, domain, setting, known)
+            outcome = _answered(names, way.rows, impossible, domain, setting, answered)
             outcome.reduced, outcome.divided = way.reduced, way.divided
             outcomes.append(outcome)
     best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], [c.name for c in system.coordinates])
@@ -174,13 +174,13 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
 
 def _one_sided(reduced: Sequence[Reduced], positive: frozenset[Expr]) -> tuple[list[int], list[int]]:
     """Constraints with an inequality that holds nowhere, and those of which it is not known; each by itself."""
-    known = {
+    satisfiable = {
         i: [holds_somewhere(q.expr, q.strict, positive) for q in r.inequalities]
         for i, r in enumerate(reduced)
         if r.inequalities
     }
-    never = [i for i, holds in known.items() if False in holds]
-    return never, [i for i, holds in known.items() if None in holds and False not in holds]
+    never = [i for i, holds in satisfiable.items() if False in holds]
+    return never, [i for i, holds in satisfiable.items() if None in holds and False not in holds]
 
 
 def _largest(outcomes: Sequence[Outcome], why: str | None, setting: Setting) -> Outcome:
@@ -224,10 +224,10 @@ def _answered(
     impossible: list[int],
     domain: Sequence[tuple[int, DomainCondition]],
     setting: Setting,
-    known: AnsweredBlocks,
+    answered: AnsweredBlocks,
 ) -> Outcome:
     blocks, untouched = blocks_of(names, rows, setting.reductions)
-    result = at_one_point(blocks, known.answers(blocks, setting), domain, setting, partial(in_time, setting=setting))
+    result = at_one_point(blocks, answered.answers(blocks, setting), domain, setting, partial(in_time, setting=setting))
     never = [*impossible, *result.nowhere]
     return Outcome(
         rows, result.blocks, result.answers, untouched, never, unsettled=[*result.unsettled], witness=result.witness
@@ -263,9 +263,9 @@ class AnsweredBlocks:
 
     def _twin(self, block: Block, setting: Setting, likenesses: Likenesses) -> Answer:
         key, names = likenesses.of(block)
-        known = self._alike.get(key)
-        if known is not None:
-            return known.answer_of_twin(block, names)
+        twin = self._alike.get(key)
+        if twin is not None:
+            return twin.answer_of_twin(block, names)
         result = in_time(block, setting)
         result.kind = len(self._alike)
         self._alike[key] = AnsweredBlock(block, names, result)

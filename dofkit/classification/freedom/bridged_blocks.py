@@ -25,7 +25,7 @@ METHOD = "rank over GF(p) at the given configuration"
 def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer | None:
     """The answer of a block by its parts, each of which ``solve`` answers; None where it has to be looked at whole.
 
-    So it has where a part does not hold at the drawing, or something else is asked of it than finite relations; and
+    So it has where a part does not hold at the reference, or something else is asked of it than finite relations; and
     where it does not move, which may be seen at once.
     """
     joints = [row for row in block.rows if row.constraint in setting.bridges]
@@ -34,12 +34,12 @@ def bridged_answer(block: Block, setting: Setting, solve: Callable[[Block, Setti
     rows = [row for row in block.rows if row.constraint not in setting.bridges]
     cores, loose = split(block.coordinates, rows)
     within = replace(setting, within=True)
-    parts = [AnsweredPart(core, _core_answer(core, within, solve)) for core in cores]
-    if any(p.answer.consistent is not True or p.answer.about != "reference" for p in parts):
+    answered = [AnsweredPart(core, _core_answer(core, within, solve)) for core in cores]
+    if any(p.answer.consistent is not True or p.answer.about != "reference" for p in answered):
         return None
-    result = _together(block, setting, parts, len(loose) - len(joints))
+    result = _together(block, setting, answered, len(loose) - len(joints))
     moves = result.dof if setting.reference is None else result.instantaneous
-    return replace(result, looked=_looked(block, parts)) if moves else None
+    return replace(result, looked=_looked(block, answered)) if moves else None
 
 
 def _core_answer(core: Block, setting: Setting, solve: Callable[[Block, Setting], Answer]) -> Answer:
@@ -55,14 +55,14 @@ def _core_answer(core: Block, setting: Setting, solve: Callable[[Block, Setting]
         Row(r.constraint, Finite(substitute(r.piece.expr, drawn))) for r in core.finite if isinstance(r.piece, Finite)
     ]
     seen, loose = split([name for name in core.coordinates if name not in host], rows)
-    parts = [AnsweredPart(block, solve(block, setting)) for block in seen]
+    answered = [AnsweredPart(block, solve(block, setting)) for block in seen]
     chart = make_chart(core, setting)
     point = pose_point(chart, {**(setting.reference or {}), ex.TIME: ex.ZERO}, 3)
-    if point is None or any(p.answer.consistent is not True or p.answer.about != "reference" for p in parts):
+    if point is None or any(p.answer.consistent is not True or p.answer.about != "reference" for p in answered):
         return solve(core, setting)
-    result = _together(core, setting, parts, len(loose) + len(host))
-    looked = _looked(core, parts)
-    return replace(result, looked=looked, parts=None, matrix=field_jacobian(chart, point), modulus=point.p)
+    result = _together(core, setting, answered, len(loose) + len(host))
+    looked = _looked(core, answered)
+    return replace(result, looked=looked, answered_parts=None, matrix=field_jacobian(chart, point), modulus=point.p)
 
 
 def _host(core: Block, setting: Setting) -> tuple[str, ...] | None:
@@ -74,13 +74,13 @@ def _host(core: Block, setting: Setting) -> tuple[str, ...] | None:
     turned = {c.owner for c in owners.values() if c.role not in ("x", "y", "z")}
     said = Counter(owner for row in core.rows for owner in {owners[q].owner for q in coordinates_of(row.piece)})
     host = max((owner for owner in said if owner in turned), key=lambda owner: said[owner], default=None)
-    own = tuple(name for name, c in owners.items() if c.owner == host)
+    host_coordinates = tuple(name for name, c in owners.items() if c.owner == host)
     whole = {2: 3, 3: 6}.get(setting.dimension)
-    return own if len(own) == whole else None
+    return host_coordinates if len(host_coordinates) == whole else None
 
 
 def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
-    """Is all of a block finite and drawn, and does time not enter?"""
+    """Return whether all of a block is finite and has a reference, and time does not enter."""
     if "field" not in setting.engines or block.conditions:
         return False
     if setting.reference is None and not _is_open_tree(block, joints, setting):
@@ -95,12 +95,12 @@ def _is_eligible(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
 
 
 def _is_open_tree(block: Block, joints: Sequence[Row], setting: Setting) -> bool:
-    """Are there no other relations than those of drawn joints, and no Euler angles, whose charts may be left?"""
+    """Return whether there are only equations of drawn joints, and no Euler angles, whose charts may be left."""
     return len(joints) == len(block.rows) and setting.tilts.isdisjoint(block.coordinates)
 
 
 def _moves_as_one(joints: Sequence[Row], setting: Setting) -> bool:
-    """Do all joints but one to the ground weld?"""
+    """Return whether all joints but one to the ground weld."""
     free = {row.constraint: row for row in joints if row.constraint not in setting.welds}
     if len(free) != 1:
         return not free
@@ -108,12 +108,12 @@ def _moves_as_one(joints: Sequence[Row], setting: Setting) -> bool:
     return len({c.owner for c in setting.roles if c.name in mentioned}) == 1
 
 
-def _together(block: Block, setting: Setting, parts: Sequence[AnsweredPart], free: int) -> Answer:
+def _together(block: Block, setting: Setting, answered: Sequence[AnsweredPart], free: int) -> Answer:
     """The answer of the whole from those of its parts, beside which there are so many ``free`` coordinates."""
     drawn = setting.reference is not None
     reference = setting.reference if setting.reference is not None else setting.pose
     symbols = [ex.coordinate(name) for name in block.coordinates]
-    answers = [p.answer for p in parts]
+    answers = [p.answer for p in answered]
     dependent = [a for a in answers if a.argument != "independent relations"] or answers
     weak = max(dependent, key=lambda a: VERDICTS.index(a.verdict), default=None)
     result = Answer(
@@ -131,7 +131,7 @@ def _together(block: Block, setting: Setting, parts: Sequence[AnsweredPart], fre
         method="; ".join(dict.fromkeys(a.method for a in answers)) or METHOD,
         witness=of_reference(symbols, reference),
         size=Size(*map(sum, zip(Size(), *(a.size for a in answers), strict=True))),
-        parts=tuple(parts),
+        answered_parts=tuple(answered),
     )
     if answers:
         result.bits, result.gap = min(a.bits for a in answers), min(a.gap for a in answers)
@@ -140,17 +140,17 @@ def _together(block: Block, setting: Setting, parts: Sequence[AnsweredPart], fre
 
 
 def _total(numbers: Sequence[int | None], free: int) -> int | None:
-    known = [n for n in numbers if n is not None]
-    return free + sum(known) if len(known) == len(numbers) else None
+    decided = [n for n in numbers if n is not None]
+    return free + sum(decided) if len(decided) == len(numbers) else None
 
 
-def _looked(block: Block, parts: Sequence[AnsweredPart]) -> FollowedClasses:
+def _looked(block: Block, answered: Sequence[AnsweredPart]) -> FollowedClasses:
     """What was looked at; all equations but those of the parts were left out, where classes were looked at apart."""
-    answer = [p.answer.looked for p in parts]
+    answer = [p.answer.looked for p in answered]
     whole = FollowedClasses(*map(sum, zip(FollowedClasses(), *answer, strict=True)))
     if any(not (k.left_out or k.rigid or k.followed) for k in answer):
         return whole._replace(left_out=0, rigid=0, followed=0)
-    return whole._replace(left_out=whole.left_out + len(block.rows) - sum(len(p.block.rows) for p in parts))
+    return whole._replace(left_out=whole.left_out + len(block.rows) - sum(len(p.block.rows) for p in answered))
 
 
 def with_still_parts(block: Block, a: Answer, setting: Setting) -> Block:
@@ -158,7 +158,7 @@ def with_still_parts(block: Block, a: Answer, setting: Setting) -> Block:
 
     So it is regular where only such parts are not.
     """
-    still = [part.block for part in a.parts or () if part.answer.dof == 0 and part.answer.about == "reference"]
+    still = [part.block for part in a.answered_parts or () if part.answer.dof == 0 and part.answer.about == "reference"]
     gone = {id(row) for part in still for row in part.rows}
     drawn = setting.reference or {}
     fixed = [

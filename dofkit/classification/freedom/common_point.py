@@ -180,7 +180,7 @@ def at_one_point(
     point = _point(result, setting)
     outside = [(i, c) for i, c in domain if not _hold_strictly([c], {s: point.get(s, arb(0)) for s in c.expr.symbols})]
     names = [*(_names(block) for block in written), *(_names_of(c, i) for i, c in outside)]
-    own: dict[Expr, str] = {}
+    free_values: dict[Expr, str] = {}
     failed: dict[bool | None, list[int]] = {False: [], None: []}
     for numbers in components(names) if outside else ():
         members = [i for i in numbers if i < len(blocks)]
@@ -192,7 +192,7 @@ def at_one_point(
         values_of = answered(merged)
         free = len(merged.coordinates) - sum(len(blocks[i].coordinates) for i in members)
         if values_of.consistent and values_of.dof == free + sum(result[i].dof or 0 for i in members):
-            own |= values_of.witness or {}
+            free_values |= values_of.witness or {}
             for i in members:
                 result[i] = replace(
                     result[i], witness=values_of.witness, verdict=weakest(result[i].verdict, values_of.verdict)
@@ -204,7 +204,7 @@ def at_one_point(
         for i in members:
             kept[i], result[i] = written[i], _not_consistent(result[i], values_of, OUTSIDE)
     together = simultaneous(written, result)
-    return CommonPoint(kept, together, own, tuple(failed[False]), tuple(failed[None]))
+    return CommonPoint(kept, together, free_values, tuple(failed[False]), tuple(failed[None]))
 
 
 def _names(block: Block) -> frozenset[Hashable]:
@@ -222,8 +222,8 @@ def _with_conditions(blocks: Sequence[Block], domain: Sequence[tuple[int, Domain
     for owner, c in domain:
         names = coordinates_in(c.expr)
         for k, block in enumerate(result):
-            own = names <= {*block.coordinates} if names else any(row.constraint == owner for row in block.rows)
-            if own and c not in block.conditions:
+            belongs = names <= {*block.coordinates} if names else any(row.constraint == owner for row in block.rows)
+            if belongs and c not in block.conditions:
                 result[k] = replace(block, conditions=(*block.conditions, c))
     return result
 
@@ -275,9 +275,9 @@ def _shared_symbols(block: Block) -> frozenset[Expr]:
 
 def _is_common(witnesses: Sequence[Witness | None], shared: Sequence[frozenset[Expr]]) -> bool:
     """Return whether all witnesses are known, with one value of everything that is shared."""
-    known: dict[Expr, str] = {}
+    common: dict[Expr, str] = {}
     for witness, symbols in zip(witnesses, shared, strict=True):
-        if witness is None or any(known.setdefault(s, witness[s]) != witness[s] for s in symbols & witness.keys()):
+        if witness is None or any(common.setdefault(s, witness[s]) != witness[s] for s in symbols & witness.keys()):
             return False
     return not any(s.args[1].endswith("(...)") for symbols in shared for s in symbols)
 

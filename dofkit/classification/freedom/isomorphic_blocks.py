@@ -44,9 +44,9 @@ class Likenesses:
     def of(self, block: Block) -> Likeness:
         """What one block is compared by."""
         shapes = [piece_shape(p) for p in (*(row.piece for row in block.rows), *block.conditions)]
-        known = self._generic
-        mentioned = {n for shape in shapes for n in shape.names if n in known}
-        generic = sorted(mentioned, key=known.__getitem__)
+        numbers = self._generic
+        mentioned = {n for shape in shapes for n in shape.names if n in numbers}
+        generic = sorted(mentioned, key=numbers.__getitem__)
         names = (*block.coordinates, *generic)
         places: dict[str, int] = {name: k for k, name in enumerate(names)}
         measured = self._setting.geometric if self._setting.tolerance is not None else frozenset[int]()
@@ -96,17 +96,19 @@ class AnsweredBlock(NamedTuple):
         if a.conflict:
             owners = {r.constraint: s.constraint for r, s in zip(self.block.rows, twin.rows, strict=True)}
             a.conflict = tuple(sorted(owners[i] for i in a.conflict))
-        if a.parts is not None:
-            a.parts = tuple([self._part_of(part, twin, names, renaming) for part in a.parts])
+        if a.answered_parts is not None:
+            a.answered_parts = tuple([self._part_of(part, twin, names, renaming) for part in a.answered_parts])
         return a
 
     def _part_of(self, part: AnsweredPart, twin: Block, names: tuple[str, ...], renaming: Renaming) -> AnsweredPart:
         """A part of the block as that of its twin."""
         rows = dict(zip(map(id, self.block.rows), twin.rows, strict=True))
         conditions = dict(zip(map(id, self.block.conditions), twin.conditions, strict=True))
-        own = Block(
+        part_block = Block(
             tuple([renaming.names[c] for c in part.block.coordinates]),
             tuple([rows[id(r)] for r in part.block.rows]),
             tuple([conditions[id(c)] for c in part.block.conditions]),
         )
-        return AnsweredPart(own, AnsweredBlock(part.block, self.names, part.answer).answer_of_twin(own, names))
+        return AnsweredPart(
+            part_block, AnsweredBlock(part.block, self.names, part.answer).answer_of_twin(part_block, names)
+        )

@@ -121,7 +121,7 @@ class _Normals:
     def __init__(self, system: System, positive: frozenset[Expr]) -> None:
         self._positive = positive
         self._fresh = _fresh(system)
-        self._known: dict[Hashable, NormalTemplate] = {}
+        self._templates: dict[Hashable, NormalTemplate] = {}
 
     def normal(self, e: Expr, written: bool) -> Normal:
         """What ``e = 0`` says. Raises TextError where it can be no relation."""
@@ -134,10 +134,10 @@ class _Normals:
             return without_instants(normalise(e, self._positive, written), self._positive)
         shape = shape_of(e)
         key = (shape.skeleton, shape.order)
-        if key in self._known:
-            return self._known[key].of(shape.names)
+        if key in self._templates:
+            return self._templates[key].of(shape.names)
         result = without_instants(normalise(e, self._positive, written), self._positive)
-        self._known[key] = NormalTemplate(result, shape.names)
+        self._templates[key] = NormalTemplate(result, shape.names)
         return result
 
 
@@ -273,7 +273,7 @@ def _symbols_of(branch: Sequence[Piece]) -> Hashable:
 
 
 def _says_nothing(normal: Normal) -> bool:
-    """Is there nothing to compare: it holds always or never, or is not written out, as no other joint is the same?"""
+    """Return whether there is nothing to compare: it is satisfied always or never, or is a joint's equation."""
     branches = normal.branches
     return branches in ((), ((),)) or any(isinstance(p, JointEquation) for p in branches[0])
 

@@ -74,29 +74,29 @@ def _key(part: Block) -> _Key:
 LISTED = 2000
 
 
-def by_itself(i: int, r: Reduced, told: Sequence[LabelledRow], parts: AnsweredParts) -> Answer | None:
-    """The answer of a constraint's own rows; None where they are finite. ``told``: its rows in the system."""
+def by_itself(i: int, r: Reduced, labelled: Sequence[LabelledRow], answered: AnsweredParts) -> Answer | None:
+    """The answer of a constraint's own rows; None where they are finite. ``labelled``: its rows in the system."""
     written = [Row(i, p) for normal in r.normals for p in normal.pieces]
     if any(isinstance(row.piece, Nonlinear) for row in written):
-        still = [t.row for t in told if isinstance(t.row.piece, Still)]
-        return _curved(told) or _in_time([*written, *still], parts)
+        still = [t.row for t in labelled if isinstance(t.row.piece, Still)]
+        return _curved(labelled) or _in_time([*written, *still], answered)
     if not any(isinstance(row.piece, Pfaffian) for row in written):
         return None
-    linear = any(isinstance(t.row.piece, Pfaffian) for t in told)
-    inherited = _inherited(told) if linear else None
+    linear = any(isinstance(t.row.piece, Pfaffian) for t in labelled)
+    inherited = _inherited(labelled) if linear else None
     if inherited is not None:
         return inherited
     if any(len(normal.branches) > 1 for normal in r.normals):
-        return _largest(i, r, parts)
-    return _in_time([t.row for t in told], parts) if linear else None
+        return _largest(i, r, answered)
+    return _in_time([t.row for t in labelled], answered) if linear else None
 
 
-def _largest(i: int, r: Reduced, parts: AnsweredParts) -> Answer | None:
+def _largest(i: int, r: Reduced, answers: AnsweredParts) -> Answer | None:
     """The answer of the largest branch; None where that is finite, undecided where it is not known which is."""
     mentioned = {name for n in r.normals for b in n.branches for p in b for name in coordinates_of(p)}
     mentioned -= {*r.constants}
     constants = {c: Row(i, Still(c)) for c in r.constants}
-    normals = [branches_at_reference(normal, parts.setting) for normal in r.normals]
+    normals = [branches_at_reference(normal, answers.setting) for normal in r.normals]
     best: tuple[tuple[int, int, int], Answer, bool] | None = None
     seen_all = True
     for number, choice in enumerate(islice(cartesian(*(n.branches for n in normals)), MAX_CHOICES + 1)):
@@ -104,7 +104,7 @@ def _largest(i: int, r: Reduced, parts: AnsweredParts) -> Answer | None:
         if number == MAX_CHOICES:
             seen_all = False
             break
-        result = _in_time(with_rows(rows, constants), parts, mentioned)
+        result = _in_time(with_rows(rows, constants), answers, mentioned)
         seen_all = seen_all and (result.consistent is False or result.dof is not None)
         size = int(result.consistent is not False), result.dof or 0, result.velocity_dof or 0
         if best is None or size > best[0]:
@@ -114,32 +114,32 @@ def _largest(i: int, r: Reduced, parts: AnsweredParts) -> Answer | None:
     return best[1] if best is not None and best[2] else None
 
 
-def _in_time(own: Sequence[Row], parts: AnsweredParts, others: set[str] | None = None) -> Answer:
-    mentioned = {name for row in own for name in coordinates_of(row.piece)} | (others or set())
-    roles = parts.setting.roles
+def _in_time(rows: Sequence[Row], answers: AnsweredParts, others: set[str] | None = None) -> Answer:
+    mentioned = {name for row in rows for name in coordinates_of(row.piece)} | (others or set())
+    roles = answers.setting.roles
     coordinates = [c.name for c in roles if c.name in mentioned] if len(roles) < LISTED else []
     coordinates += sorted(mentioned - set(coordinates))
 
     def answered(part: Block) -> Answer:
-        return restricted_to_domain(part, parts.of(part), parts.plain)
+        return restricted_to_domain(part, answers.of(part), answers.plain)
 
     try:
         check()
-        return alone(own, parts.setting, coordinates, parts.of if others is None else answered)
+        return alone(rows, answers.setting, coordinates, answers.of if others is None else answered)
     except (OutOfTimeError, ArithmeticError):
         return Answer(None, verdict="undecided")
 
 
-def _curved(told: Sequence[LabelledRow]) -> Answer | None:
+def _curved(labelled: Sequence[LabelledRow]) -> Answer | None:
     """Velocities that bend under the other constraints bend without them."""
-    return next((t.answer for t in told if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
+    return next((t.answer for t in labelled if isinstance(t.row.piece, Nonlinear) and t.answer.curved), None)
 
 
-def _inherited(told: Sequence[LabelledRow]) -> Answer | None:
+def _inherited(labelled: Sequence[LabelledRow]) -> Answer | None:
     """A single form that is non-holonomic in the system is so alone: what integrates alone integrates in any system."""
-    if len(told) != 1 or told[0].label is None or told[0].label.holonomic is not False:
+    if len(labelled) != 1 or labelled[0].label is None or labelled[0].label.holonomic is not False:
         return None
-    return Answer(labels={0: told[0].label})
+    return Answer(labels={0: labelled[0].label})
 
 
 #: Blocks up to this many constraints and coordinates are searched for companions and integrals.
@@ -161,7 +161,7 @@ class Companionship:
     ``names``: those of the constraints, by number.
     """
 
-    parts: AnsweredParts
+    answered: AnsweredParts
     names: Sequence[str]
     _integrals: dict[tuple[int, ...], CompanionIntegrals] = field(default_factory=dict)
 
@@ -212,12 +212,12 @@ class Companionship:
         return kept
 
     def _holds(self, f: FirstIntegral, block: Block, a: Answer) -> bool:
-        """Is f constant along every motion of the whole block?
+        """Return whether f is constant along every motion of the whole block.
 
         What some of its rows integrate to need not be: where y = 0, dx = y dz says nothing of z, though it makes z
         constant beside x = 0 alone.
         """
-        return first_integrals.is_first_integral(codistribution(block, self.parts.plain, a.hidden, [f.expr]), f.expr)
+        return first_integrals.is_first_integral(codistribution(block, self.answered.plain, a.hidden, [f.expr]), f.expr)
 
     def _holonomic(self, constraint: int, rows: Sequence[Row], block: Block) -> bool:
         for part in split(block.coordinates, rows)[0]:
@@ -225,15 +225,15 @@ class Companionship:
                 i for i, r in enumerate(part.rows) if r.constraint == constraint and isinstance(r.piece, Pfaffian)
             ]
             if linear:
-                result = self.parts.of(part)
+                result = self.answered.of(part)
                 if not result.consistent or any(not _true(result, i) for i in linear):
                     return False
         return True
 
     def _integral(self, constraint: int, block: Block, owners: Sequence[int]) -> FirstIntegral | None:
         """The integral of the one form that a constraint wrote, among those of some constraints."""
-        own = _forms_of(constraint, block)
-        return self._integrals_of(block, owners).by_row.get(own[0]) if len(own) == 1 else None
+        forms = _forms_of(constraint, block)
+        return self._integrals_of(block, owners).by_row.get(forms[0]) if len(forms) == 1 else None
 
     def basis(self, block: Block) -> list[str]:
         """Return independent integrals of all the block's rows together, as text, less those between constants."""
@@ -258,10 +258,10 @@ class Companionship:
     def _searched(self, block: Block, owners: Sequence[int]) -> CompanionIntegrals:
         numbers = [i for i, r in enumerate(block.rows) if r.constraint in owners]
         part = Block(block.coordinates, tuple(block.rows[i] for i in numbers))
-        whole = self.parts.of(part)
+        whole = self.answered.of(part)
         if whole.dof is None:
             return CompanionIntegrals({}, [])
-        forms = self.parts.forms(part, whole.hidden)
+        forms = self.answered.forms(part, whole.hidden)
         sought = len(part.coordinates) - whole.dof - len(part.finite) - len(whole.hidden)
         integrals = first_integrals.first_integrals(forms, sought)
         shift = forms.finite - len(part.finite)
@@ -298,8 +298,8 @@ def equation(f: FirstIntegral, block: Block, number: int | None = None) -> str:
     taken = set(block.coordinates)
     for row in block.rows:
         piece = row.piece
-        parts = [e for _, e in piece.items()] if isinstance(piece, Pfaffian) else [piece.expr]
-        taken |= {str(s.args[1]) for e in parts for s in e.symbols}
+        entries = [e for _, e in piece.items()] if isinstance(piece, Pfaffian) else [piece.expr]
+        taken |= {str(s.args[1]) for e in entries for s in e.symbols}
     names = (f"C{i}" for i in count(1))
     free = (name for name in (names if number is not None else chain(("C",), names)) if name not in taken)
     return f"{to_text(f.expr)} = {next(islice(free, number or 0, None))}"
@@ -319,8 +319,8 @@ def integrable_part(
     coordinates = len(outcome.untouched) + sum(len(b.coordinates) - _constants(b) for b in outcome.blocks)
     basis: list[str] | None = []
     for block, a in blocks:
-        known = len(block.finite) + len(a.hidden)
-        finite = rank_of_rows(a.matrix[:known], a.modulus) if a.matrix else known
+        number_finite = len(block.finite) + len(a.hidden)
+        finite = rank_of_rows(a.matrix[:number_finite], a.modulus) if a.matrix else number_finite
         remaining = len(block.coordinates) - (a.dof or 0) - finite
         remaining -= _constants(block)
         result = _integrals(block, remaining, entries, company) if remaining > 0 else []

@@ -42,7 +42,7 @@ def entries_of(
     company: Companionship,
 ) -> list[ConstraintEntry]:
     """An entry for every constraint, in order; one that there is no time for says so."""
-    known = _dependence(dependent, outcome)
+    dependence = _dependence(dependent, outcome)
     answer = _labelled_rows(len(reduced), outcome, setting)
     constants = _fixed_constants(
         [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
@@ -50,21 +50,21 @@ def entries_of(
     entries, by_kind = list[ConstraintEntry](), dict[Hashable, ConstraintEntry]()
     traits_of, consistent = partial(_traits_of, setting), outcome.consistent
     for i, r in enumerate(reduced):
-        number = known.independent.get(i, None if answer[i] else 0)
-        circuit = None if i not in known.circuits else [company.names[j] for j in known.circuits[i]]
+        number = dependence.independent.get(i, None if answer[i] else 0)
+        circuit = None if i not in dependence.circuits else [company.names[j] for j in dependence.circuits[i]]
         try:
             check()
             copied = i in outcome.copies
-            likeness = None if known.says_more_of(i) else _likeness(r, answer[i], setting)
-            kind = None if likeness is None else (likeness, number, copied, i in known.following)
+            likeness = None if dependence.says_more_of(i) else _likeness(r, answer[i], setting)
+            kind = None if likeness is None else (likeness, number, copied, i in dependence.following)
             if kind in by_kind:
                 named = {"name": r.constraint.name, "text": r.constraint.text}
                 entries.append(by_kind[kind].model_copy(update=named))
                 continue
-            beside = partial(_with_others, i, answer[i], company)
-            alone = by_itself(i, r, answer[i], company.parts)
-            evidence = Evidence(answer[i], alone, number, circuit, constants, traits_of, beside, copied)
-            entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, known))
+            companions_of = partial(_with_others, i, answer[i], company)
+            alone = by_itself(i, r, answer[i], company.answered)
+            evidence = Evidence(answer[i], alone, number, circuit, constants, traits_of, companions_of, copied)
+            entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, dependence))
             if kind is not None and _is_nameless(entries[-1]):
                 by_kind[kind] = entries[-1]
         except OutOfTimeError as error:
@@ -87,8 +87,8 @@ def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hash
     """
     pieces = [*(p for n in r.normals for p in n.pieces), *(t.row.piece for t in rows)]
     branched = r.constants or any(len(n.branches) > 1 for n in r.normals)
-    beside = any(t.reduced or (t.label is not None and t.label.modulo) for t in rows)
-    if branched or beside or not all(map(_is_plain, (*pieces, *r.inequalities))):
+    modulo_others = any(t.reduced or (t.label is not None and t.label.modulo) for t in rows)
+    if branched or modulo_others or not all(map(_is_plain, (*pieces, *r.inequalities))):
         return None
     shapes: list[Hashable] = [type(p).__name__ for p in (*pieces, *r.inequalities)]
     if any(isinstance(p, Pfaffian) for p in pieces):
@@ -109,14 +109,14 @@ def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hash
 
 
 def _is_plain(piece: Clause) -> bool:
-    """Is a piece linear in the velocities, without time and without a term that holds no velocity?"""
+    """Return whether a piece is linear in the velocities, without time and without a term that holds no velocity."""
     if isinstance(piece, Pfaffian):
         return piece.dt.is_zero and not any(TIME in c.symbols for c in piece.coefficients.values())
     return isinstance(piece, JointEquation) or not (isinstance(piece, Nonlinear) or TIME in piece.expr.symbols)
 
 
 def _is_nameless(made: ConstraintEntry) -> bool:
-    """Is everything in an entry decided, and does no coordinate occur in it?"""
+    """Return whether everything in an entry is decided, and no coordinate occurs in it."""
     decided = None not in (made.holonomic, made.holonomic_alone, made.scleronomic)
     plain = made.form in ("finite", "inequality") or (made.form == "pfaffian" and made.holonomic is False)
     return decided and plain and made.integral is None and made.integrating_factor is None
@@ -144,7 +144,7 @@ class _Dependence(NamedTuple):
     on_component: frozenset[int]
 
     def says_more_of(self, i: int) -> bool:
-        """Is more stated of a constraint than how many of its equations are independent?"""
+        """Return whether more is stated of a constraint than how many of its equations are independent."""
         return i in self.circuits or i in self.gone or i in self.open or i in self.seen or bool(self.following.get(i))
 
 
@@ -154,9 +154,9 @@ def _dependence(dependent: Sequence[Redundancies], outcome: Outcome) -> _Depende
     for result in dependent:
         independent.update(result.independent)
     uncounted = {i for result in dependent for i in result.uncounted}
-    known = {i for result in dependent for i in result.independent} - _unmeasured(outcome) - uncounted
+    counted = {i for result in dependent for i in result.independent} - _unmeasured(outcome) - uncounted
     return _Dependence(
-        {i: independent[i] for i in known},
+        {i: independent[i] for i in counted},
         {i: c for result in dependent for i, c in result.circuits.items() if all(j < i for j in c)},
         {i: result.verdict for result in dependent for i in result.redundant},
         dict.fromkeys(uncounted, UNCOUNTED) | {i: OPEN for result in dependent for i in result.undecided},
@@ -166,19 +166,19 @@ def _dependence(dependent: Sequence[Redundancies], outcome: Outcome) -> _Depende
     )
 
 
-def _with_dependence(made: ConstraintEntry, i: int, r: Reduced, known: _Dependence) -> ConstraintEntry:
+def _with_dependence(made: ConstraintEntry, i: int, r: Reduced, dependence: _Dependence) -> ConstraintEntry:
     """An entry with what it says of dependence, where it can be left out or that is open."""
-    if i in known.gone:
-        reason = made.reason if i in known.circuits else f"{made.reason} {REDUNDANT}"
-        reason = f"{reason} {ON_COMPONENT}" if i in known.on_component else reason
-        made = made.model_copy(update={"verdict": weakest(made.verdict, known.gone[i]), "reason": reason})
-    if i in known.seen and made.verdict != "undecided":
+    if i in dependence.gone:
+        reason = made.reason if i in dependence.circuits else f"{made.reason} {REDUNDANT}"
+        reason = f"{reason} {ON_COMPONENT}" if i in dependence.on_component else reason
+        made = made.model_copy(update={"verdict": weakest(made.verdict, dependence.gone[i]), "reason": reason})
+    if i in dependence.seen and made.verdict != "undecided":
         claim = FieldVerdict.of(Claim("numeric", "leaving out", gap=GAP, about="reference"))
         sure = {"verdict": "numeric", "verdicts": {**made.verdicts, "independent": claim}}
         made = made.model_copy(update=sure)
-    if i not in known.open:
-        return _with_equations(made, r, known.following.get(i))
-    reason = f"{made.reason} {known.open[i]}"
+    if i not in dependence.open:
+        return _with_equations(made, r, dependence.following.get(i))
+    reason = f"{made.reason} {dependence.open[i]}"
     verdicts = {**made.verdicts, "independent": FieldVerdict.of(UNDECIDED)}
     changed = {"verdict": "undecided", "verdicts": verdicts, "independent": None, "reason": reason}
     return made.model_copy(update=changed)
@@ -219,7 +219,7 @@ def _with_equations(made: ConstraintEntry, r: Reduced, following: set[int] | Non
 
 def _unmeasured(outcome: Outcome) -> set[int]:
     """The constraints of blocks whose velocities are not known: not all of their equations were looked at."""
-    return {r.constraint for block, a in outcome.parts if a.velocity_dof is None for r in block.rows}
+    return {r.constraint for block, a in outcome.answered_parts if a.velocity_dof is None for r in block.rows}
 
 
 def _with_others(i: int, rows: Sequence[LabelledRow], company: Companionship, in_system: bool) -> Others:

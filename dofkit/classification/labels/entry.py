@@ -120,11 +120,11 @@ def entry(reduced: Reduced, evidence: Evidence, setting: Setting, consistent: bo
 
 
 def _traits_of(
-    pieces: Sequence[Clause], shown: Sequence[Clause], normals: Sequence[Normal], evidence: Evidence
+    pieces: Sequence[Clause], with_values: Sequence[Clause], normals: Sequence[Normal], evidence: Evidence
 ) -> list[Traits]:
     """Return the traits of the equations of a constraint, without those that only declare an unknown function."""
     generic = declared_functions(normals)
-    return [evidence.traits_of(q) for p, q in zip(pieces, shown, strict=True) if p not in generic]
+    return [evidence.traits_of(q) for p, q in zip(pieces, with_values, strict=True) if p not in generic]
 
 
 def _integrable_forms(normals: Sequence[Normal], rows: Sequence[LabelledRow]) -> list[Pfaffian]:
@@ -139,8 +139,8 @@ def _integrable_forms(normals: Sequence[Normal], rows: Sequence[LabelledRow]) ->
         kinds = [(len(_forms([b])), any(isinstance(p, Finite) for p in b)) for b in n.branches]
         named = list(zip(kinds, n.branches, strict=True))
         same = {kind for kind, b in named if any(f is u for f in _forms([b]) for u in used)}
-        own = same or {kind for kind, b in named if any(f in used for f in _forms([b]))}
-        wide = own or {kind for kind in kinds if not kind[1]} or set(kinds)
+        equal = same or {kind for kind, b in named if any(f in used for f in _forms([b]))}
+        wide = equal or {kind for kind in kinds if not kind[1]} or set(kinds)
         chosen += _forms([b for kind, b in zip(kinds, n.branches, strict=True) if kind in wide])
     return [f for k, f in enumerate(chosen) if f not in chosen[:k]]
 
@@ -158,15 +158,15 @@ def _labels_of(
     consistent: bool | None,
 ) -> EntryLabels:
     in_system, sure = label_in_system(evidence.rows, reduced.inequalities, proofs, forms)
-    own, sure_own = _alone(form, evidence.by_itself, proofs, forms, reduced.inequalities)
+    alone, sure_own = _alone(form, evidence.by_itself, proofs, forms, reduced.inequalities)
     if consistent is False and in_system is None:
-        in_system, sure = own, sure_own
+        in_system, sure = alone, sure_own
     rows = evidence.rows
     undecided = [t.label.reason for t in rows if t.label and t.label.holonomic is None and t.label.reason]
     late = [why for t in rows if t.answer.late for why in t.answer.reasons]
-    beside = (t.label.reason for t in rows if t.reduced and t.label and t.label.holonomic is False)
+    of_reduced = (t.label.reason for t in rows if t.reduced and t.label and t.label.holonomic is False)
     sures = (sure, sure_own)
-    return EntryLabels(in_system, own, sures, next(iter(late + undecided), ""), bool(rows), next(beside, ""))
+    return EntryLabels(in_system, alone, sures, next(iter(late + undecided), ""), bool(rows), next(of_reduced, ""))
 
 
 def _of_every_form(labels: EntryLabels, rows: Sequence[LabelledRow], normals: Sequence[Normal]) -> EntryLabels:
@@ -228,12 +228,12 @@ def _integral_of(
     form: Form, labels: EntryLabels, proofs: Sequence[Integrability], evidence: Evidence, consistent: bool
 ) -> tuple[str | None, Others]:
     """Return the finite relation that a constraint integrates to, and what the others do for it."""
-    own = joined([p.integral for p in proofs])
+    own_integral = joined([p.integral for p in proofs])
     others = Others()
-    if form == "pfaffian" and labels.in_system is not None and consistent and not (labels.alone and own):
+    if form == "pfaffian" and labels.in_system is not None and consistent and not (labels.alone and own_integral):
         others = evidence.companions_of(labels.in_system)
-    if labels.alone and own is not None:
-        return own, others
+    if labels.alone and own_integral is not None:
+        return own_integral, others
     return others.integral if labels.alone or labels.in_system else None, others
 
 

@@ -44,7 +44,7 @@ class Others:
 class EntryLabels(NamedTuple):
     """Holonomic in the system and alone, how sure each is, and why it was left undecided where it was.
 
-    ``relates``: there is a row; ``beside``: what the others make of one that is nonlinear in the velocities.
+    ``relates``: there is a row; ``with_others``: what the others make of one that is nonlinear in the velocities.
     """
 
     in_system: bool | None
@@ -52,13 +52,13 @@ class EntryLabels(NamedTuple):
     verdicts: tuple[Verdict, Verdict]
     undecided: str = ""
     relates: bool = True
-    beside: str = ""
+    with_others: str = ""
 
 
-def joined(parts: Sequence[str | None]) -> str | None:
+def joined(texts: Sequence[str | None]) -> str | None:
     """The parts in one text; None unless every one is there."""
-    result = [p for p in parts if p is not None]
-    return "; ".join(result) if result and len(result) == len(parts) else None
+    result = [p for p in texts if p is not None]
+    return "; ".join(result) if result and len(result) == len(texts) else None
 
 
 def reason_of(
@@ -94,7 +94,7 @@ def _nonlinear(labels: EntryLabels) -> str:
     if labels.in_system is None:
         flat = "the admissible velocities may form linear subspaces, so that it may be equivalent to linear equations"
         return f"Not decided: {labels.undecided or flat}."
-    why = labels.beside or "It is not linear in the velocities and is not a consequence of geometric equations"
+    why = labels.with_others or "It is not linear in the velocities and is not a consequence of geometric equations"
     return f"{why}: non-holonomic; it restricts the velocities, not the accessible configurations."
 
 
@@ -147,7 +147,7 @@ _SAYS = {
     "drive": "the prescribed motion",
     "length": "the distance {}",
 }
-#: Of those that are about a direction or a place of the drawing.
+#: Of those that are about a direction or a place of the reference configuration.
 _ABOUT = {
     "point": " {}",
     "axis": "no rotation about {}",
@@ -165,14 +165,14 @@ def in_words(relation: Relation, otherwise: str) -> str:
     """
     word, _, remainder = relation.part.partition(" ")
     answer = _SAYS[word].format(remainder) if word in _SAYS else relation.part or otherwise
-    if word not in _ABOUT or not relation.vector or not _given(relation.vector):
+    if word not in _ABOUT or not relation.vector or not _is_specific(relation.vector):
         return answer
     about = _ABOUT[word].format(f"({', '.join(to_text(part) for part in relation.vector)})")
     return answer + about if about.startswith(" ") else about
 
 
-def _given(vector: tuple[Expr, ...]) -> bool:
-    """Is nothing in general position?"""
+def _is_specific(vector: tuple[Expr, ...]) -> bool:
+    """Return whether nothing is in general position."""
     return not any(str(s.args[1]).startswith("_") for part in vector for s in part.symbols)
 
 
@@ -314,11 +314,11 @@ class Ground(NamedTuple):
 
 def claim_of_dependence(ground: Ground, all_needed: bool, copied: bool) -> Claim:
     """How sure it is how many equations are independent of those before, and of what the others follow."""
-    own = together(*(a.claim for a in ground.answers))
+    of_blocks = together(*(a.claim for a in ground.answers))
     if not ground.answers or copied:
         return Claim("proved", "identity")
-    if own.verdict == "undecided" or all_needed:
-        return own
-    if own.argument in ("links in general position", "exact elimination"):
-        return own
-    return ground.claim(weakest(own.verdict, "probable"), "rows at a point")
+    if of_blocks.verdict == "undecided" or all_needed:
+        return of_blocks
+    if of_blocks.argument in ("links in general position", "exact elimination"):
+        return of_blocks
+    return ground.claim(weakest(of_blocks.verdict, "probable"), "rows at a point")

@@ -221,11 +221,11 @@ class GenericAnswer:
     inequalities: Sequence[Inequality] = ()
 
     def allows(self, canon: Canon, leaf: Leaf) -> bool:
-        """Does no inequality forbid the conditions, as far as these are solved?"""
+        """Return whether no inequality forbids the conditions, as far as these are solved."""
         values = {canon.ring.var_expr[i]: canon.to_expr(v) for i, v in leaf.solved}
-        known = {s: v for s, v in values.items() if s.op == "sym"}
+        coordinates = {s: v for s, v in values.items() if s.op == "sym"}
         positive = self.setting.positive
-        return not any(never_holds(substitute(q.expr, known), q.strict, positive) for q in self.inequalities)
+        return not any(never_holds(substitute(q.expr, coordinates), q.strict, positive) for q in self.inequalities)
 
     def names(self, constraints: Sequence[int]) -> list[str]:
         return [self.system.constraints[i].name for i in constraints]
@@ -284,16 +284,16 @@ def _merged(cases: Sequence[SpecialCase]) -> list[SpecialCase]:
     return list(kept.values())
 
 
-def _search(block: Block, a: Answer, told: GenericAnswer) -> SearchedBlock | None:
+def _search(block: Block, a: Answer, answer_of_system: GenericAnswer) -> SearchedBlock | None:
     """The candidates of a block; None where it takes too long."""
-    system = told.system
+    system = answer_of_system.system
     if expired():
         return None
     nonzero = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "nonzero")
     rank = len(block.coordinates) - (a.velocity_dof or 0)
     curvature = a.growth[1] - a.growth[0] if a.growth and len(a.growth) > 1 else 0
     try:
-        table = table_of(block, a.hidden, told.setting, nonzero)
+        table = table_of(block, a.hidden, answer_of_system.setting, nonzero)
         curved = any(label.holonomic is False for label in a.labels.values())
         return SearchedBlock(block, a, table, candidates(table, rank, curvature, curved), rank, curved)
     except _UNFINISHED:
@@ -312,83 +312,83 @@ def _small(block: Block, a: Answer) -> bool:
     )
 
 
-def _plain(block: Block, told: GenericAnswer) -> bool:
+def _plain(block: Block, answer: GenericAnswer) -> bool:
     """Coordinates that are what their names say, no generic geometry, and no drawing that speaks for itself."""
-    system = told.system
+    system = answer.system
     turning = {name for r in system.rotations if r.chart == "gibbs" for name in r.names}
     if not turning.isdisjoint(block.coordinates) or (system.reference is not None and not block.forms):
         return False
     generic = {ex.parameter(p) for p in system.generic}
-    own = {c.name for c in system.coordinates}
-    return own.issuperset(block.coordinates) and all(generic.isdisjoint(e.symbols) for e in expressions(block))
+    system_names = {c.name for c in system.coordinates}
+    return system_names.issuperset(block.coordinates) and all(generic.isdisjoint(e.symbols) for e in expressions(block))
 
 
 # -- loci -----------------------------------------------------------------------------------------
 
 
-def _places(found: SearchedBlock, told: GenericAnswer) -> Iterator[SpecialCase]:
+def _places(searched: SearchedBlock, generic: GenericAnswer) -> Iterator[SpecialCase]:
     """Yield what changes on each locus, once where one locus with the same change lies in another."""
-    located = list(_located(found, told))
+    located = list(_located(searched, generic))
     for what in dict.fromkeys(case.what for _, case in located):
         alike = [(leaf, case) for leaf, case in located if case.what == what]
-        largest = found.table.reals.largest([leaf for leaf, _ in alike])
+        largest = searched.table.reals.largest([leaf for leaf, _ in alike])
         yield from (case for leaf, case in alike if leaf in largest)
 
 
-def _located(found: SearchedBlock, told: GenericAnswer) -> Iterator[tuple[Leaf, SpecialCase]]:
+def _located(searched: SearchedBlock, generic: GenericAnswer) -> Iterator[tuple[Leaf, SpecialCase]]:
     """Yield ranks that drop, then curvature that vanishes elsewhere."""
-    if told.report.velocity_dof is None:
+    if generic.report.velocity_dof is None:
         return
     dropped: list[Leaf] = []
-    for leaf in found.candidates.ranks[:MAX_PLACES]:
-        seen = _locus_of(found, told, leaf, 0)
-        if seen is not None and seen.rank < found.rank:
+    for leaf in searched.candidates.ranks[:MAX_PLACES]:
+        seen = _locus_of(searched, generic, leaf, 0)
+        if seen is not None and seen.rank < searched.rank:
             dropped.append(leaf)
-            yield from ((leaf, case) for case in _dropping(found, told, leaf, seen))
-    for leaf in found.candidates.bends[:MAX_PLACES] if found.curved else ():
-        seen = None if leaf in dropped else _locus_of(found, told, leaf, found.rank)
+            yield from ((leaf, case) for case in _dropping(searched, generic, leaf, seen))
+    for leaf in searched.candidates.bends[:MAX_PLACES] if searched.curved else ():
+        seen = None if leaf in dropped else _locus_of(searched, generic, leaf, searched.rank)
         if seen is not None:
-            yield from ((leaf, case) for case in _bending(found, told, leaf, seen))
+            yield from ((leaf, case) for case in _bending(searched, generic, leaf, seen))
 
 
-def _locus_of(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, grows: int) -> Locus | None:
-    canon, reals = found.table.canon, found.table.reals
-    remaining = [g for g in found.table.relations if not reals.vanishes_on(leaf, g)]
-    if len(leaf.conditions(canon)) + len(remaining) > len(found.block.coordinates):
+def _locus_of(searched: SearchedBlock, generic: GenericAnswer, leaf: Leaf, grows: int) -> Locus | None:
+    canon, reals = searched.table.canon, searched.table.reals
+    remaining = [g for g in searched.table.relations if not reals.vanishes_on(leaf, g)]
+    if len(leaf.conditions(canon)) + len(remaining) > len(searched.block.coordinates):
         return None
     conditions, relations = ([canon.to_expr(p) for p in polys] for polys in (leaf.conditions(canon), remaining))
     try:
-        return place(found.block, found.answer, told.setting, conditions, relations, grows)
+        return place(searched.block, searched.answer, generic.setting, conditions, relations, grows)
     except _UNFINISHED:
         return None
 
 
 def _locus(
-    found: SearchedBlock, told: GenericAnswer, leaf: Leaf, what: str, constraints: Sequence[int], sure: Verdict
+    searched: SearchedBlock, generic: GenericAnswer, leaf: Leaf, what: str, constraints: Sequence[int], sure: Verdict
 ) -> Iterator[SpecialCase]:
-    at = where(found.table.canon, leaf, told.order)
-    sure = weakest(sure, found.answer.verdict)
-    if sure != "undecided" and told.allows(found.table.canon, leaf):
-        yield SpecialCase(where=at, kind="locus", what=what, constraints=told.names(constraints), verdict=sure)
+    at = where(searched.table.canon, leaf, generic.order)
+    sure = weakest(sure, searched.answer.verdict)
+    if sure != "undecided" and generic.allows(searched.table.canon, leaf):
+        yield SpecialCase(where=at, kind="locus", what=what, constraints=generic.names(constraints), verdict=sure)
 
 
-def _dropping(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, seen: Locus) -> Iterator[SpecialCase]:
+def _dropping(searched: SearchedBlock, generic: GenericAnswer, leaf: Leaf, seen: Locus) -> Iterator[SpecialCase]:
     """The minors vanish identically on the locus; a ball certifies the rank that is left."""
-    by, velocities = found.rank - seen.rank, told.report.velocity_dof or 0
-    rank = len(told.system.coordinates) - velocities
+    by, velocities = searched.rank - seen.rank, generic.report.velocity_dof or 0
+    rank = len(generic.system.coordinates) - velocities
     sure: Verdict = "proved" if by == 1 and seen.regular else "probable"
-    return _locus(found, told, leaf, drop(rank, by, velocities, seen.moves), seen.dependent, sure)
+    return _locus(searched, generic, leaf, drop(rank, by, velocities, seen.moves), seen.dependent, sure)
 
 
-def _bending(found: SearchedBlock, told: GenericAnswer, leaf: Leaf, seen: Locus) -> Iterator[SpecialCase]:
+def _bending(searched: SearchedBlock, generic: GenericAnswer, leaf: Leaf, seen: Locus) -> Iterator[SpecialCase]:
     """Curvature that vanishes, or of which less is independent, where no rank drops."""
-    own, there = found.answer.growth, seen.growth
-    if seen.rank != found.rank or not seen.moves or len(there) < 2:
+    elsewhere, there = searched.answer.growth, seen.growth
+    if seen.rank != searched.rank or not seen.moves or len(there) < 2:
         return
     vanishes = there[1] == there[0]
-    if not vanishes and (own is None or len(own) < 2 or there[1] >= own[1]):
+    if not vanishes and (elsewhere is None or len(elsewhere) < 2 or there[1] >= elsewhere[1]):
         return
-    forms = tuple(sorted({r.constraint for r in found.block.forms}))
-    what, grown = flag(told.report.growth_vector, own, there, vanishes)
+    forms = tuple(sorted({r.constraint for r in searched.block.forms}))
+    what, grown = flag(generic.report.growth_vector, elsewhere, there, vanishes)
     sure: Verdict = "proved" if vanishes and seen.regular and not grown else "probable"
-    yield from _locus(found, told, leaf, what, forms, sure)
+    yield from _locus(searched, generic, leaf, what, forms, sure)

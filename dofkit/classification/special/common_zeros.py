@@ -74,7 +74,7 @@ class Reals:
         return even is not None and any(not zeros for zeros in even)
 
     def of_parameters(self, poly: Poly) -> bool:
-        """Do neither coordinates nor time occur?"""
+        """Return whether neither coordinates nor time occur."""
         return self.moving.isdisjoint(self.canon.generators_in(poly))
 
     def factors(self, poly: Poly) -> list[Poly]:
@@ -171,7 +171,7 @@ class Reals:
         return [[factor]]
 
     def _is_graph(self, factor: Poly) -> bool:
-        """Is an irreducible factor linear in a real generator? Then its zeros are a graph over the others."""
+        """Return whether an irreducible factor is linear in a real generator, so that its zeros are a graph."""
         return any(k == 1 and len(self.canon.gens) - 1 - i in self.free for i, k in enumerate(factor.degrees()))
 
     def solved(self, poly: Poly) -> tuple[int, Poly] | None:
@@ -231,16 +231,16 @@ class CommonZeros:
             for together in self.reals.splits(factor):
                 self._take(together, remainder, leaf)
 
-    def _take(self, together: list[Poly], rest: list[Poly], leaf: Leaf) -> None:
+    def _take(self, together: list[Poly], others_to_vanish: list[Poly], leaf: Leaf) -> None:
         if not together:
-            self.follow(rest, leaf)
+            self.follow(others_to_vanish, leaf)
             return
         condition, more = together[0], together[1:]
         result = self.reals.solved(condition)
         if self.short and (len(condition) > MAX_READ or (result is None and leaf.others)):
             return
         if result is None:
-            kept = [p for p in rest if divmod(p, condition)[1] != 0]
+            kept = [p for p in others_to_vanish if divmod(p, condition)[1] != 0]
             self._take(more, kept, Leaf(leaf.solved, (*leaf.others, condition)))
             return
         index, value = result
@@ -256,7 +256,7 @@ class CommonZeros:
         if any(self.reals.never_zero(p) for p in (*after, *others)):
             return
         solved = (*((i, put(v)) for i, v in leaf.solved), result)
-        self._take(after, [put(p) for p in rest], Leaf(solved, others))
+        self._take(after, [put(p) for p in others_to_vanish], Leaf(solved, others))
 
 
 def common_zeros(reals: Reals, polys: Iterable[Poly], short: bool = False) -> list[Leaf]:
@@ -328,16 +328,21 @@ def drop(rank: int, by: int, velocities: int, moves: bool) -> str:
 
 
 def flag(
-    scene: Sequence[int] | None, own: Sequence[int] | None, there: Sequence[int], vanishes: bool
+    scene: Sequence[int] | None, elsewhere: Sequence[int] | None, there: Sequence[int], vanishes: bool
 ) -> tuple[str, bool]:
     """(what it means that the curvature vanishes or shrinks, whether the growth vector is told).
 
-    ``own`` and ``there`` are the block's dimensions; the scene's have as many more as it has other coordinates.
+    ``elsewhere`` and ``there`` are the block's dimensions; the scene's have as many more as it has other coordinates.
     """
     answer = f"the first Lie brackets add {'no direction' if vanishes else 'fewer directions'} there"
-    if not scene or not own or there[-1] != own[-1] or [g + scene[0] - own[0] for g in own] != list(scene):
+    if (
+        not scene
+        or not elsewhere
+        or there[-1] != elsewhere[-1]
+        or [g + scene[0] - elsewhere[0] for g in elsewhere] != list(scene)
+    ):
         return answer, False
-    special = [g + scene[0] - own[0] for g in there]
+    special = [g + scene[0] - elsewhere[0] for g in there]
     return f"{answer}: the growth vector is {tuple_of(special)} instead of {tuple_of(scene)}", True
 
 

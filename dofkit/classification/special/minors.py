@@ -107,7 +107,7 @@ class EliminatedTable:
     """The rows after elimination with pivots that never vanish.
 
     ``solved``: (pivot column, row) with the pivot 1 and 0 in the other pivot columns, up to the factors in
-    ``scales``; ``rest``: what is left of the other rows, over the ``free`` columns.
+    ``scales``; ``remaining_rows``: what is left of the other rows, over the ``free`` columns.
     """
 
     def __init__(self, table: MinorTable) -> None:
@@ -127,7 +127,7 @@ class EliminatedTable:
         self.work = work
         done, columns = {r for r, _ in self.solved}, {c for _, c in self.solved}
         self.free = [c for c in range(len(table.symbols)) if c not in columns]
-        self.rest = [r for r in range(len(work)) if r not in done]
+        self.remaining_rows = [r for r in range(len(work)) if r not in done]
 
     def _pivot(self, work: list[list[Poly]]) -> tuple[int, int] | None:
         """(row, coordinate column) of a coefficient that never vanishes; a number where there is one."""
@@ -149,9 +149,9 @@ class EliminatedTable:
     def minors(self, size: int) -> list[Poly]:
         """All minors of a size of what is left, in the coordinates' columns. Raises TooLargeError."""
         columns = [c for c in self.free if c < self.table.n]
-        if comb(len(columns), size) * comb(len(self.rest), size) > MAX_MINORS:
+        if comb(len(columns), size) * comb(len(self.remaining_rows), size) > MAX_MINORS:
             raise TooLargeError
-        return [self._minor(r, c) for r in combinations(self.rest, size) for c in combinations(columns, size)]
+        return [self._minor(r, c) for r in combinations(self.remaining_rows, size) for c in combinations(columns, size)]
 
     def _minor(self, rows: Sequence[int], columns: Sequence[int]) -> Poly:
         check()
@@ -162,10 +162,10 @@ class EliminatedTable:
 
     def kernel(self, size: int) -> list[list[Poly]]:
         """Vectors that span the kernel wherever the rank is not smaller (Cramer). Raises TooLargeError."""
-        if comb(len(self.free), size + 1) * comb(len(self.rest), size) > MAX_VECTORS:
+        if comb(len(self.free), size + 1) * comb(len(self.remaining_rows), size) > MAX_VECTORS:
             raise TooLargeError
         zero, result = self.canon.one * 0, []
-        for rows in combinations(self.rest, size):
+        for rows in combinations(self.remaining_rows, size):
             for columns in combinations(self.free, size + 1):
                 vector = [zero] * len(self.table.symbols)
                 for k, c in enumerate(columns):

@@ -25,7 +25,7 @@ ORDER, RADIUS = 6, 2.0**-90
 
 
 def largest_branch(ball: Manifold, forms: Sequence[Form], wanted: int) -> int | None:
-    """The largest dimension found among the branches of the set through the point; None where none was found.
+    """Return the largest dimension found among the branches of the set through the point; None where none was found.
 
     A branch begins along a real zero of the second-order ``forms`` and is followed towards the point: at each distance
     a real point of the set is brought to high precision, the rank of all relations there is told by a gap, and the
@@ -39,9 +39,9 @@ def largest_branch(ball: Manifold, forms: Sequence[Form], wanted: int) -> int | 
     best = None
     for direction in starts:
         check()
-        found = _dimension_along(here, direction)
-        if found is not None and (best is None or found > best):
-            best = found
+        dimension = _dimension_along(here, direction)
+        if dimension is not None and (best is None or dimension > best):
+            best = dimension
         if best is not None and best >= wanted:
             return best
     return best
@@ -65,16 +65,16 @@ def _tangents(here: Neighbourhood, forms: Sequence[Form]) -> list[np.ndarray]:
     sizes = np.abs(cut).max(axis=(1, 2))
     cut = cut / np.where(sizes > 0, sizes, 1.0)[:, None, None]
     rng = np.random.default_rng(7)
-    found = []
+    tangents = []
     for _ in range(ATTEMPTS):
         v = _null(cut, rng.standard_normal(ball.dimension))
         if v is not None:
-            found.append(tangent @ v / np.linalg.norm(tangent @ v))
-    return found
+            tangents.append(tangent @ v / np.linalg.norm(tangent @ v))
+    return tangents
 
 
 def _null(forms: np.ndarray, v: np.ndarray) -> np.ndarray | None:
-    """A unit vector near v on which all forms are 0, by damped steps across v: along v they would lead to 0."""
+    """Return a unit vector near v on which all forms are 0, by damped steps across v: along v they would lead to 0."""
     for _ in range(ITERATIONS):
         v = v / np.linalg.norm(v)
         slopes = forms @ v
@@ -93,17 +93,17 @@ def _dimension_along(here: Neighbourhood, direction: np.ndarray) -> int | None:
             size = 0.0 if u is None else float(np.linalg.norm(u))
             if u is None or not distance / 8 < size < distance * 8:
                 return None
-            found = _dimension_at(here, u)
+            dimension_here = _dimension_at(here, u)
         except FAULTS:
             return None
-        if found is None or dimension not in (None, found):
+        if dimension_here is None or dimension not in (None, dimension_here):
             return None
-        dimension, direction = found, u / size
+        dimension, direction = dimension_here, u / size
     return dimension
 
 
 def _descend(here: Neighbourhood, u: np.ndarray) -> np.ndarray | None:
-    """The nearest point of the set, by damped steps."""
+    """Return the nearest point of the set, by damped steps."""
     for _ in range(ITERATIONS):
         check()
         f, j = here.floats(u, here.ball.nodes)
@@ -117,7 +117,7 @@ def _descend(here: Neighbourhood, u: np.ndarray) -> np.ndarray | None:
 
 
 def _dimension_at(here: Neighbourhood, u: np.ndarray) -> int | None:
-    """The dimension of the set at a regular point near u; None where the point is not seen to be one."""
+    """Return the dimension of the set at a regular point near u; None where the point is not seen to be one."""
     ball = here.ball
     _, j = here.floats(u, ball.nodes)
     rows, columns = independent(j, SOME)
@@ -136,10 +136,10 @@ def _dimension_at(here: Neighbourhood, u: np.ndarray) -> int | None:
 
 
 def _stays(here: Neighbourhood, moved: dict[Expr, arb], rows: Sequence[int], columns: Sequence[int]) -> bool:
-    """Do the dependent equations are satisfied along a random curve through the point?"""
+    """Return whether the dependent equations are satisfied along a random curve through the point."""
     ball = here.ball
-    own = set(here.keys)
-    point = BallPoint({s: arb(v, RADIUS) if s in own else v for s, v in moved.items()}, 0)
+    columns_here = set(here.keys)
+    point = BallPoint({s: arb(v, RADIUS) if s in columns_here else v for s, v in moved.items()}, 0)
     dependent = tuple(sorted(here.place[c] for c in columns))
     free = tuple(i for i in range(len(ball.columns)) if i not in set(dependent))
     there = Manifold(ball.ring, ball.nodes, ball.columns, Pivots(tuple(sorted(rows)), dependent, free), point)

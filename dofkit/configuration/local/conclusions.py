@@ -84,11 +84,11 @@ def isolated_zero(germ: Germ) -> Conclusion | None:
     return Conclusion(germ.rigid, why, germ.time is not None)
 
 
-def _timed(germ: Germ, told: Conclusion) -> Conclusion:
-    """``told`` of the whole manifold M, with time held against a random curve of it."""
+def _timed(germ: Germ, conclusion: Conclusion) -> Conclusion:
+    """``conclusion`` of the whole manifold M, with time held against a random curve of it."""
     if germ.time is None or any(time_moves(germ.manifold, germ.time, order) for order in (2, LONG_ORDER)):
-        return told
-    return told._replace(verdict="probable", confined=True)
+        return conclusion
+    return conclusion._replace(verdict="probable", confined=True)
 
 
 # Second order
@@ -126,7 +126,7 @@ def prestress_stable(germ: Germ) -> Conclusion | None:
 
 def least_along_a_motion(germ: Germ) -> Conclusion | None:
     """k = 1, Q of one sign and g = 0: the set is N, all of it singular [GromollMeyer1969]."""
-    if not _splits(germ) or germ.remainder_order is not None or not germ.parts.solved:
+    if not _splits(germ) or germ.remainder_order is not None or not germ.critical.solved:
         return None
     if not _vanishes_on_critical(germ):
         return None
@@ -134,7 +134,7 @@ def least_along_a_motion(germ: Germ) -> Conclusion | None:
         f"to order {CRITICAL_ORDER - 1} the dependent equation attains its minimum along a motion that is "
         "singular throughout"
     )
-    return Conclusion(len(germ.parts.free), why)
+    return Conclusion(len(germ.critical.free), why)
 
 
 def changing_sign(germ: Germ) -> Conclusion | None:
@@ -152,7 +152,7 @@ def changing_sign(germ: Germ) -> Conclusion | None:
 
 def critical_branch(germ: Germ) -> Conclusion | None:
     """k > 1: all f_i vanish on N, whose dimension is that of the second-order cone [TangentCone]."""
-    if not _has_cone(germ) or len(germ.parts.free) != germ.cone:
+    if not _has_cone(germ) or len(germ.critical.free) != germ.cone:
         return None
     if any(s.poly.degree() >= 0 for s in germ.remainders) or not _vanishes_on_critical(germ):
         return None
@@ -171,8 +171,8 @@ def branch_followed(germ: Germ) -> Conclusion | None:
 
 
 def _vanishes_on_critical(germ: Germ) -> bool:
-    """Do the dependent relations vanish on N at a distance too?"""
-    return germ.ball is not None and holds_on_critical(germ.ball, germ.parts, germ.ahead())
+    """Return whether the dependent relations vanish on N at a distance too."""
+    return germ.ball is not None and holds_on_critical(germ.ball, germ.critical, germ.ahead())
 
 
 def _has_one_form(germ: Germ) -> bool:
@@ -183,7 +183,7 @@ def _has_one_form(germ: Germ) -> bool:
 def _splits(germ: Germ) -> bool:
     """k = 1 over both engines, time is no column, and balls see the whole rank of Q."""
     both = _has_one_form(germ) and germ.exact and germ.time is None
-    return both and sum(germ.signature) == len(germ.parts.solved)
+    return both and sum(germ.signature) == len(germ.critical.solved)
 
 
 def _has_cone(germ: Germ) -> bool:

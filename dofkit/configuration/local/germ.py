@@ -64,7 +64,7 @@ class Germ:
 
     @property
     def exact(self) -> bool:
-        """Is there a point over GF(p)?"""
+        """Whether there is a point over GF(p)."""
         return self.field is not None
 
     @property
@@ -97,12 +97,12 @@ class Germ:
 
     @cached_property
     def vanishes(self) -> bool:
-        """Are they 0 along it, to the order?"""
+        """Whether they are 0 along it, to the order."""
         return all(is_zero(s.coefficient(k)) for s in self.series for k in range(self.order))
 
     @cached_property
     def vanishes_away(self) -> bool | None:
-        """Are they 0 at a distance too? None where no curve could be followed that far.
+        """Whether they are 0 at a distance too; None where no curve could be followed that far.
 
         At a random point nothing is flat but what is 0 everywhere [SchwartzZippel]: there nothing more is asked.
         """
@@ -131,7 +131,7 @@ class Germ:
         return quadratic_cone.bound(self.forms, self.rigid)
 
     @cached_property
-    def parts(self) -> Split:
+    def critical(self) -> Split:
         """Which equations of the critical set N can be solved for which of M's coordinates."""
         return split(self.forms)
 
@@ -139,8 +139,8 @@ class Germ:
     def remainders(self) -> list[Series]:
         """The dependent relations along a random curve of N."""
         assert self.field is not None
-        direction = [self.field.base.random() for _ in self.parts.free]
-        return series_on_critical(self.field, self.forms, self.parts, direction, CRITICAL_ORDER)
+        direction = [self.field.base.random() for _ in self.critical.free]
+        return series_on_critical(self.field, self.forms, self.critical, direction, CRITICAL_ORDER)
 
     @cached_property
     def remainder_order(self) -> int | None:
@@ -152,29 +152,29 @@ class Germ:
         """Signs of its leading coefficient in random directions of N, as far as balls tell them."""
         assert self.ball is not None
         assert self.remainder_order is not None
-        rng, found = self.ball.base.rng, set[int]()
+        rng, leading_signs = self.ball.base.rng, set[int]()
         for _ in range(DIRECTIONS):
-            direction = [arb(rng.choice((-1, 1)) * rng.randrange(64, 512)) / 256 for _ in self.parts.free]
-            series = series_on_critical(self.ball, self.signs, self.parts, direction, self.remainder_order + 1)[0]
+            direction = [arb(rng.choice((-1, 1)) * rng.randrange(64, 512)) / 256 for _ in self.critical.free]
+            series = series_on_critical(self.ball, self.signs, self.critical, direction, self.remainder_order + 1)[0]
             value = series.coefficient(self.remainder_order)
-            found |= set() if value.contains(0) else {1 if value > 0 else -1}
-        return found
+            leading_signs |= set() if value.contains(0) else {1 if value > 0 else -1}
+        return leading_signs
 
     def ahead(self) -> list[float]:
-        """A random direction of N in which it is looked at from a distance."""
+        """Return a random direction of N in which it is looked at from a distance."""
         assert self.ball is not None
-        return _ahead(self.ball, len(self.parts.free))
+        return _ahead(self.ball, len(self.critical.free))
 
 
 def random_direction(manifold: Manifold) -> Sequence[Scalar]:
-    """A random direction of the manifold's free columns, in its own numbers."""
+    """Return a random direction of the manifold's free columns, in its own numbers."""
     if isinstance(manifold.sample, arb):
         return [arb(manifold.base.rng.randrange(64, 512)) / 256 for _ in range(manifold.dimension)]
     return [manifold.base.random() for _ in range(manifold.dimension)]
 
 
 def time_moves(manifold: Manifold, time: int, order: int) -> bool:
-    """Does time, the column of that number, change along a random curve of the manifold, to the order?"""
+    """Return whether time, the column of that number, changes along a random curve of the manifold, to the order."""
     path = manifold.line(random_direction(manifold), order).path[time]
     return any(not is_zero(path.coefficient(k)) for k in range(1, order))
 
@@ -188,7 +188,7 @@ def _ahead(ball: Manifold, count: int) -> list[float]:
 
 
 def degree_of(manifold: Manifold) -> int:
-    """A bound on the degree of the dependent relations; columns that no relation gives explicitly count 1."""
+    """Return a bound on the degree of the dependent relations; columns that no relation gives explicitly count 1."""
     weights = _Weights(manifold)
     return max((weights.of(n) for n in manifold.others), default=0)
 
@@ -199,14 +199,14 @@ class _Weights:
         dependent = {manifold.columns[c] for c in manifold.frame.dependent}
         self.explicit: dict[int, list[int]] = {}
         for row in manifold.rows:
-            for column, rest in _explicit_columns(self.ring, row):
+            for column, others in _explicit_columns(self.ring, row):
                 if column in dependent and column not in self.explicit:
-                    self.explicit[column] = rest
+                    self.explicit[column] = others
                     break
         self.known: dict[int, int] = {}
 
     def of(self, node: int) -> int:
-        """The degree of an instruction."""
+        """Return the degree of an instruction."""
         degrees: dict[int, int] = {}
         for i in reversed(reachable(self.ring, [node], through_generators=False)):
             op, payload = self.ring.code[i]
@@ -235,14 +235,14 @@ def _explicit_columns(ring: Ring, row: int) -> Iterable[tuple[int, list[int]]]:
         return
     for term in terms:
         column = _column_of(ring, term)
-        rest = [t for t in terms if t != term]
-        if column is not None and ring.var_node[column] not in reachable(ring, rest):
-            yield column, rest
+        others = [t for t in terms if t != term]
+        if column is not None and ring.var_node[column] not in reachable(ring, others):
+            yield column, others
 
 
 def _column_of(ring: Ring, term: int) -> int | None:
     op, payload = ring.code[term]
     if op == MUL:
-        left = [i for i in payload if ring.code[i][0] != NUM]
-        op, payload = ring.code[left[0]] if len(left) == 1 else (NUM, None)
+        factors = [i for i in payload if ring.code[i][0] != NUM]
+        op, payload = ring.code[factors[0]] if len(factors) == 1 else (NUM, None)
     return payload if op == VAR and ring.vars[payload].kind == "symbol" else None

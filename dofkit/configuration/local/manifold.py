@@ -44,13 +44,13 @@ class Curve:
     def slopes(self, nodes: Sequence[int], columns: Sequence[int]) -> list[list[Series]]:
         """d(node)/d(column) along the curve."""
         order = self.point.order
-        zero, one = Series(self.point.like, order), Series(self.point.like + 1, order)
-        found = []
+        zero, unit = Series(self.point.like, order), Series(self.point.like + 1, order)
+        matrix = []
         for node in nodes:
             check()
-            g = gradient(self.ring, self.at, self.point, [(node, one)])
-            found.append([g.get(c, zero) if c >= 0 else zero for c in columns])
-        return found
+            g = gradient(self.ring, self.at, self.point, [(node, unit)])
+            matrix.append([g.get(c, zero) if c >= 0 else zero for c in columns])
+        return matrix
 
 
 class Manifold:
@@ -87,31 +87,31 @@ class Manifold:
     def _inverse(self) -> Any:
         """The inverse of the independent rows by the dependent columns, at the point."""
         at = values(self.ring, self.base)
-        one = self.sample + 1
+        unit = self.sample + 1
         if isinstance(self.sample, nmod):
             place = {self.columns[c]: k for k, c in enumerate(self.frame.dependent)}
-            slopes = (gradient(self.ring, at, self.base, [(node, one)]) for node in self.rows)
+            slopes = (gradient(self.ring, at, self.base, [(node, unit)]) for node in self.rows)
             sparse_rows = [{place[c]: int(v) for c, v in g.items() if c in place and v != 0} for g in slopes]
             return FactoredMatrix(sparse_rows, self.sample.modulus())
         rows = []
         for node in self.rows:
-            g = gradient(self.ring, at, self.base, [(node, one)])
+            g = gradient(self.ring, at, self.base, [(node, unit)])
             rows.append([g.get(self.columns[c], self.sample) for c in self.frame.dependent])
         return inverse(rows)
 
     def follow(self, direction: Sequence[Scalar], order: int) -> list[Series]:
-        """The other relations along q(s), whose free columns are start + s direction."""
+        """Return the other relations along q(s), whose free columns are start + s direction."""
         curve = self.line(direction, order)
         return [curve.at[n] for n in self.others]
 
     def line(self, direction: Sequence[Scalar], order: int) -> Curve:
-        """The curve whose free columns are start + s direction."""
+        """Return the curve whose free columns are start + s direction."""
         step = Series(monomial(self.like), order)
         starts = [Series(self.like + self.start[c], order) for c in self.frame.free]
         return self.curve([a + step * v for a, v in zip(starts, direction, strict=True)], order)
 
     def curve(self, free: Sequence[Series], order: int) -> Curve:
-        """The curve with the given free columns: the dependent ones are found one order after another.
+        """Return the curve with the given free columns: the dependent ones are found one order after another.
 
         With A the inverse of dg/d(dependent) at the point, the coefficient of s^k is -A [s^k] g, where g is
         evaluated with that coefficient 0: it enters g at s^k by dg/d(dependent) alone.
@@ -135,30 +135,30 @@ class Manifold:
         return point, values(self.ring, point)
 
     def slopes(self, curve: Curve, functions: Sequence[int]) -> list[list[Series]]:
-        """The derivatives by the free columns of ``functions`` on the manifold, along a curve.
+        """Return the derivatives by the free columns of ``functions`` on the manifold, along a curve.
 
         df/d(free) = f_free - l B, with the multipliers l A = f_dep for the rows (A, B) of the independent relations.
         """
         dependent = [self.columns[c] for c in self.frame.dependent]
         free = [self.columns[c] for c in self.frame.free]
         rows = curve.slopes(self.rows, dependent + free)
-        found = curve.slopes(functions, dependent + free)
+        ambient = curve.slopes(functions, dependent + free)
         r = len(dependent)
         a = [[row[c] for row in rows] for c in range(r)]
-        multipliers = solve(a, [[f[c] for f in found] for c in range(r)]) if r else []
-        told = []
-        for i, f in enumerate(found):
+        multipliers = solve(a, [[f[c] for f in ambient] for c in range(r)]) if r else []
+        restricted = []
+        for i, f in enumerate(ambient):
             line = list(f[r:])
             for k, row in enumerate(rows):
                 line = [v - multipliers[k][i] * row[r + j] for j, v in enumerate(line)]
-            told.append(line)
-        return told
+            restricted.append(line)
+        return restricted
 
     def quadratic_forms(self) -> list[Form]:
         """For each other relation, the matrix of its second-order part on the free columns."""
         m = self.dimension
-        zero, one = self.sample, self.sample + 1
-        unit = [[one if i == j else zero for j in range(m)] for i in range(m)]
+        zero, unity = self.sample, self.sample + 1
+        unit = [[unity if i == j else zero for j in range(m)] for i in range(m)]
         alone = [self._second(u) for u in unit]
         forms = [[[zero] * m for _ in range(m)] for _ in self.others]
         for i in range(m):
@@ -175,7 +175,7 @@ class Manifold:
 
 @raising_no_value
 def inverse(rows: list[list[Scalar]]) -> Any:
-    """The inverse of a square matrix over GF(p) or balls; raises PoleError."""
+    """Return the inverse of a square matrix over GF(p) or balls; raises PoleError."""
     if not rows:
         return None
     if isinstance(rows[0][0], nmod):
@@ -184,14 +184,14 @@ def inverse(rows: list[list[Scalar]]) -> Any:
 
 
 def product(matrix: Any, vector: Sequence[Scalar]) -> list[Scalar]:
-    """The inverse of a matrix times a vector."""
+    """Return the inverse of a matrix times a vector."""
     if isinstance(matrix, FactoredMatrix):
         found_by_parts: list[Scalar] = [nmod(v, matrix.p) for v in matrix.solve([int(v) for v in vector])]
         return found_by_parts
     over_field = isinstance(matrix, nmod_mat)
     column = nmod_mat([[int(v)] for v in vector], matrix.modulus()) if over_field else arb_mat([[v] for v in vector])
-    found = matrix * column
-    return [found[i, 0] for i in range(len(vector))]
+    image = matrix * column
+    return [image[i, 0] for i in range(len(vector))]
 
 
 def is_zero(value: Scalar) -> bool:
@@ -219,7 +219,7 @@ class Split:
 
 
 def split(forms: Sequence[Form]) -> Split:
-    """A choice of equations and of coordinates that they determine, from forms over GF(p)."""
+    """Return a choice of equations and of coordinates that they determine, from forms over GF(p)."""
     m = len(forms[0])
     p = forms[0][0][0].modulus()
     rows = [(i, j) for i in range(len(forms)) for j in range(m)]
@@ -231,23 +231,23 @@ def split(forms: Sequence[Form]) -> Split:
 
 
 def series_on_critical(
-    manifold: Manifold, forms: Sequence[Form], parts: Split, direction: Sequence[Scalar], order: int
+    manifold: Manifold, forms: Sequence[Form], critical: Split, direction: Sequence[Scalar], order: int
 ) -> list[Series]:
-    """The dependent relations along the curve of N whose free coordinates are start + s direction."""
+    """Return the dependent relations along the curve of N whose free coordinates are start + s direction."""
     frame = manifold.frame
     path = [Series(manifold.like + manifold.start[c], order) for c in frame.free]
     step = monomial(manifold.like)
-    for value, c in zip(direction, parts.free, strict=True):
+    for value, c in zip(direction, critical.free, strict=True):
         path[c] = path[c] + Series(step * value, order)
-    hessian = [[forms[i][j][c] * 2 for c in parts.solved] for i, j in parts.equations]
+    hessian = [[forms[i][j][c] * 2 for c in critical.solved] for i, j in critical.equations]
     back = inverse(hessian)
-    used = sorted({i for i, _ in parts.equations})
+    used = sorted({i for i, _ in critical.equations})
     place = {i: a for a, i in enumerate(used)}
-    for k in range(1, order if parts.solved else 1):
+    for k in range(1, order if critical.solved else 1):
         curve = manifold.curve([s.truncated(k + 1) for s in path], k + 1)
         slopes = manifold.slopes(curve, [manifold.others[i] for i in used])
-        wrong = [slopes[place[i]][j].coefficient(k) for i, j in parts.equations]
-        for value, c in zip(product(back, wrong), parts.solved, strict=True):
+        wrong = [slopes[place[i]][j].coefficient(k) for i, j in critical.equations]
+        for value, c in zip(product(back, wrong), critical.solved, strict=True):
             path[c] = path[c] - Series(step**k * value, order)
     curve = manifold.curve(path, order)
     return [curve.at[n] for n in manifold.others]

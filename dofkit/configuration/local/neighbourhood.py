@@ -49,7 +49,7 @@ class Neighbourhood:
         self.norm_of = dict(zip(ball.nodes, self.norms, strict=True))
 
     def floats(self, u: np.ndarray, nodes: Sequence[int], weighed: bool = True) -> tuple[np.ndarray, np.ndarray]:
-        """The relations and their derivatives by u, rows scaled to gradients of length 1 at the point."""
+        """Return the relations and their derivatives by u, rows scaled to gradients of length 1 at the point."""
         with ctx.workprec(WIDE):
             point = BallPoint(self.exactly(u), 0)
             at = values(self.ring, point)
@@ -63,7 +63,7 @@ class Neighbourhood:
         return f, j
 
     def exactly(self, u: np.ndarray) -> dict[Expr, arb]:
-        """The symbols at u."""
+        """Return the symbols at u."""
         moved = {
             k: self.middle[k] + arb(float(s)) * arb(float(v)) for k, s, v in zip(self.keys, self.scales, u, strict=True)
         }
@@ -89,24 +89,24 @@ class Neighbourhood:
         return None
 
     def onto(self, symbols: dict[Expr, arb]) -> dict[Expr, arb] | None:
-        """The point of M with the same free columns."""
+        """Return the point of M with the same free columns."""
         if not self.ball.rows:
             return symbols
         return self.newton(symbols, self.ball.rows, self.dependent)
 
     def of_free(self, c: int) -> tuple[Expr, float]:
-        """The symbol and the scale of the free column number ``c``."""
+        """Return the symbol and the scale of the free column number ``c``."""
         i = self.number[self.ball.frame.free[c]]
         return self.keys[i], float(self.scales[i])
 
-    def gradients(self, symbols: Mapping[Expr, arb], parts: Split) -> list[arb]:
-        """The derivatives of dependent relations on M by its coordinates, for each equation of N."""
+    def gradients(self, symbols: Mapping[Expr, arb], critical: Split) -> list[arb]:
+        """Return the derivatives of dependent relations on M by its coordinates, for each equation of N."""
         ball = self.ball
         point = BallPoint(symbols, 0)
         at = values(self.ring, point)
         free = [ball.columns[c] for c in ball.frame.free]
         solved = [self.columns[i] for i in self.dependent]
-        used = sorted({i for i, _ in parts.equations})
+        used = sorted({i for i, _ in critical.equations})
         f = jacobian(self.ring, at, point, [ball.others[i] for i in used], solved + free, arb(0))
         r = len(solved)
         if r:
@@ -117,16 +117,16 @@ class Neighbourhood:
                 [v - sum((multipliers[k, i] * g[k][c] for k in range(r)), arb(0)) for c, v in enumerate(line)]
                 for i, line in enumerate(f)
             ]
-        return [f[used.index(i)][r + j].mid() for i, j in parts.equations]
+        return [f[used.index(i)][r + j].mid() for i, j in critical.equations]
 
     def residual(self, symbols: Mapping[Expr, arb], nodes: Sequence[int]) -> float:
-        """The largest of the relations, relative to their gradients."""
+        """Return the largest of the relations, relative to their gradients."""
         at = values(self.ring, BallPoint(symbols, 0))
         return max((abs(float(at[n].mid())) / float(self.norm_of[n]) for n in nodes), default=0.0)
 
 
 def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool | None:
-    """Are the dependent relations 0, to high precision, at a point of M some way along a curve?
+    """Return whether the dependent relations are 0, to high precision, at a point of M some way along a curve.
 
     ``deep``: the curve begins at exact coordinates, so that what is flat there shows to an order of several hundreds.
     None where the curve could not be followed far enough to see.
@@ -156,8 +156,8 @@ def _holds_at(here: Neighbourhood, u: np.ndarray, sure: float) -> bool | None:
     return None if symbols is None else here.residual(symbols, ball.others) <= sure
 
 
-def holds_on_critical(ball: Manifold, parts: Split, direction: Sequence[float]) -> bool:
-    """Are the dependent relations 0, to high precision, at a point of the critical set N some way along a curve?
+def holds_on_critical(ball: Manifold, critical: Split, direction: Sequence[float]) -> bool:
+    """Return whether the dependent relations are 0, to high precision, at a point of the critical set N along a curve.
 
     False also where the curve could not be followed far enough to see.
     """
@@ -167,7 +167,7 @@ def holds_on_critical(ball: Manifold, parts: Split, direction: Sequence[float]) 
             return False
         reach = FAR
         while reach > NEAR:
-            symbols = _onto_critical(here, parts, direction, reach)
+            symbols = _onto_critical(here, critical, direction, reach)
             if symbols is not None:
                 return here.residual(symbols, ball.others) <= SURE
             reach /= 8
@@ -177,43 +177,43 @@ def holds_on_critical(ball: Manifold, parts: Split, direction: Sequence[float]) 
 
 
 def _onto_critical(
-    here: Neighbourhood, parts: Split, direction: Sequence[float], reach: float
+    here: Neighbourhood, critical: Split, direction: Sequence[float], reach: float
 ) -> dict[Expr, arb] | None:
-    """The point of N whose free coordinates have moved by ``reach``: Newton's method on the gradients."""
+    """Return the point of N whose free coordinates have moved by ``reach``: Newton's method on the gradients."""
     symbols = dict(here.middle)
-    for value, c in zip(direction, parts.free, strict=True):
+    for value, c in zip(direction, critical.free, strict=True):
         if here.ball.frame.free[c] not in here.number:
             continue
         key, scale = here.of_free(c)
         symbols[key] = symbols[key] + arb(value * reach * scale)
-    found = here.onto(symbols)
+    point = here.onto(symbols)
     last = arb(1)
-    for _ in range(ROUNDS if parts.solved else 0):
+    for _ in range(ROUNDS if critical.solved else 0):
         check()
-        if found is None:
+        if point is None:
             return None
-        before, (last, found) = last, _round(here, parts, found)
+        before, (last, point) = last, _round(here, critical, point)
         if last < arb(DIFFERENCE):
-            return found
+            return point
         if last > before:
             return None
-    return None if parts.solved else found
+    return None if critical.solved else point
 
 
-def _round(here: Neighbourhood, parts: Split, symbols: dict[Expr, arb]) -> tuple[arb, dict[Expr, arb] | None]:
+def _round(here: Neighbourhood, critical: Split, symbols: dict[Expr, arb]) -> tuple[arb, dict[Expr, arb] | None]:
     """A step of Newton's method, with differences for second derivatives: its size, and the point of M it leads to."""
-    wrong = here.gradients(symbols, parts)
+    wrong = here.gradients(symbols, critical)
     columns = []
-    for c in parts.solved:
+    for c in critical.solved:
         key, scale = here.of_free(c)
         step = arb(DIFFERENCE * scale)
         moved = here.onto({**symbols, key: symbols[key] + step})
         if moved is None:
             return arb(1), None
-        columns.append([(b - a) / step for a, b in zip(wrong, here.gradients(moved, parts), strict=True)])
+        columns.append([(b - a) / step for a, b in zip(wrong, here.gradients(moved, critical), strict=True)])
     change = arb_mat(columns).transpose().solve(arb_mat([[w] for w in wrong]))
     size = arb(0)
-    for i, c in enumerate(parts.solved):
+    for i, c in enumerate(critical.solved):
         key, scale = here.of_free(c)
         symbols = {**symbols, key: (symbols[key] - change[i, 0]).mid()}
         size = max(size, abs(change[i, 0].mid()) / scale)
@@ -262,9 +262,9 @@ def _back(here: Neighbourhood, u: np.ndarray) -> np.ndarray | None:
 
 def damped(j: np.ndarray, f: np.ndarray, power: int = 1) -> np.ndarray:
     """The step -J^T (J J^T + |f|^power I)^-1 f: it leaves the directions alone in which J is smaller than the error."""
-    left, singular, right = np.linalg.svd(j, full_matrices=False)
+    left_vectors, singular, right = np.linalg.svd(j, full_matrices=False)
     factors = singular / (singular * singular + float(np.linalg.norm(f)) ** power + 1e-300)
-    return np.asarray(-(right.T @ (factors * (left.T @ f))))
+    return np.asarray(-(right.T @ (factors * (left_vectors.T @ f))))
 
 
 def independent(j: np.ndarray, least: float) -> tuple[list[int], list[int]]:

@@ -126,8 +126,8 @@ class _Arms:
                 arms += arm
         self.ring = Ring(arms)
         self.nodes = [self.ring.node(e) for e in arms]
-        known = [self.ring.var_index(s) for s in symbols]
-        self.columns = [-1 if i is None else i for i in known]
+        indices = [self.ring.var_index(s) for s in symbols]
+        self.columns = [-1 if i is None else i for i in indices]
 
     def values(self, at: Point) -> Any:
         """Return the arms as one vector over the columns, 0 where a column is no position of a body."""
@@ -165,8 +165,8 @@ class MeasuredPose:
 
     @cached_property
     def _svd(self) -> tuple[Any, Any, Any]:
-        left, singular, right = np.linalg.svd(self.j)
-        return left, singular, right
+        left_vectors, singular, right = np.linalg.svd(self.j)
+        return left_vectors, singular, right
 
     @property
     def independent(self) -> Any:

@@ -46,11 +46,11 @@ def greedy_rows(matrix: np.ndarray, rank: int) -> list[int]:
     kept: list[int] = []
     basis = np.zeros((0, matrix.shape[1]))
     for i, row in enumerate(matrix):
-        rest = row - basis.T @ (basis @ row)
-        rest = rest - basis.T @ (basis @ rest)
-        size = float(np.linalg.norm(rest))
+        residual = row - basis.T @ (basis @ row)
+        residual = residual - basis.T @ (basis @ residual)
+        size = float(np.linalg.norm(residual))
         if size > math.sqrt(NOISE * SIGNAL):
-            basis = np.vstack([basis, rest / size])
+            basis = np.vstack([basis, residual / size])
             kept.append(i)
         if len(kept) == rank:
             break
@@ -76,13 +76,13 @@ def dependency_pattern(j: np.ndarray, rows: Sequence[int]) -> list[list[int]]:
 def greedy_pivots(matrix: np.ndarray, rank: int) -> list[int]:
     """Rows chosen for the largest remainder: well conditioned, in no order."""
     kept: list[int] = []
-    rest = matrix.copy()
+    residual = matrix.copy()
     for _ in range(rank):
-        sizes = np.linalg.norm(rest, axis=1)
+        sizes = np.linalg.norm(residual, axis=1)
         best = int(np.argmax(sizes))
         kept.append(best)
-        direction = rest[best] / sizes[best]
-        rest = rest - np.outer(rest @ direction, direction)
+        direction = residual[best] / sizes[best]
+        residual = residual - np.outer(residual @ direction, direction)
     return sorted(kept)
 
 
@@ -111,27 +111,27 @@ def ball_part(matrix: Balls) -> PivotedPart:
     kept: list[tuple[list[arb], int]] = []
     rows: list[int] = []
     sizes: list[float] = []
-    left = 0.0
+    largest_residual = 0.0
     for r, row in enumerate(matrix):
-        rest = _reduced(row, kept)
-        c = _pivot(rest)
+        residual = _reduced(row, kept)
+        c = _pivot(residual)
         if c < 0:
-            left = max(left, _share(_largest(rest), row))
+            largest_residual = max(largest_residual, _share(_largest(residual), row))
         else:
-            kept.append((rest, c))
+            kept.append((residual, c))
             rows.append(r)
-            sizes.append(_share(rest[c].abs_lower(), row))
-    return PivotedPart(len(rows), _ratio(sizes, left), rows, [c for _, c in kept], _fall(sizes))
+            sizes.append(_share(residual[c].abs_lower(), row))
+    return PivotedPart(len(rows), _ratio(sizes, largest_residual), rows, [c for _, c in kept], _fall(sizes))
 
 
 def _reduced(row: Sequence[arb], kept: Sequence[tuple[list[arb], int]]) -> list[arb]:
-    rest = list(row)
+    residual = list(row)
     for pivot_row, c in kept:
-        if rest[c] != 0:
-            factor = rest[c] / pivot_row[c]
-            rest = [a - factor * b for a, b in zip(rest, pivot_row, strict=True)]
-            rest[c] = arb(0)
-    return rest
+        if residual[c] != 0:
+            factor = residual[c] / pivot_row[c]
+            residual = [a - factor * b for a, b in zip(residual, pivot_row, strict=True)]
+            residual[c] = arb(0)
+    return residual
 
 
 def _pivot(row: Sequence[arb]) -> int:
@@ -158,8 +158,8 @@ def _share(size: arb, row: Sequence[arb]) -> float:
     return float(size / _scale(row))
 
 
-def _ratio(sizes: Sequence[float], left: float) -> float:
-    return min(sizes) / left if sizes and left else math.inf
+def _ratio(sizes: Sequence[float], largest_residual: float) -> float:
+    return min(sizes) / largest_residual if sizes and largest_residual else math.inf
 
 
 def _fall(sizes: Sequence[float]) -> float:

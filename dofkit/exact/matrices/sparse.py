@@ -22,10 +22,10 @@ Numbers = Sequence[Any]
 LinearRow = dict[int, Any]
 
 
-def combined(parts: Iterable[tuple[Any, Mapping[int, Any]]]) -> LinearRow:
+def combined(terms: Iterable[tuple[Any, Mapping[int, Any]]]) -> LinearRow:
     """Return the sum of numbers times rows."""
     total: LinearRow = {}
-    for factor, row in parts:
+    for factor, row in terms:
         for c, v in row.items():
             total[c] = total.get(c, 0) + factor * v
     return total
@@ -54,9 +54,9 @@ def spanning(n: Numbers) -> list[tuple[Any, ...]]:
     directions = []
     for i in range(len(n)):
         if i != pivot:
-            parts = [0] * len(n)
-            parts[i], parts[pivot] = n[pivot], -n[i]
-            directions.append(tuple(parts))
+            direction = [0] * len(n)
+            direction[i], direction[pivot] = n[pivot], -n[i]
+            directions.append(tuple(direction))
     return directions
 
 
@@ -192,10 +192,10 @@ def private(rows: Sequence[Mapping[int, int]]) -> set[int]:
     single = [c for c, owners in having.items() if len(owners) == 1]
     gone: set[int] = set()
     while single:
-        left = having[single.pop()]
-        if not left:
+        owners_left = having[single.pop()]
+        if not owners_left:
             continue
-        number = next(iter(left))
+        number = next(iter(owners_left))
         gone.add(number)
         for c in rows[number]:
             having[c].discard(number)
@@ -221,9 +221,9 @@ class _Reduction:
                 check()
             if i in without:
                 continue
-            rest, used = self._reduced(row)
-            if rest:
-                self._add(i, rest, used)
+            residual, used = self._reduced(row)
+            if residual:
+                self._add(i, residual, used)
             else:
                 self.dependent[i] = used
 
@@ -256,12 +256,12 @@ class _Reduction:
                         del work[c]
         return work, used
 
-    def _add(self, row: int, rest: SparseRow, used: SparseRow) -> None:
-        """A new pivot row: ``rest`` is the row less ``used`` multiples of earlier ones, then scaled."""
-        column = min(rest, key=lambda c: (self._weight[c], c))
-        inverse = pow(rest[column], -1, self.p)
+    def _add(self, row: int, residual: SparseRow, used: SparseRow) -> None:
+        """A new pivot row: ``residual`` is the row less ``used`` multiples of earlier ones, then scaled."""
+        column = min(residual, key=lambda c: (self._weight[c], c))
+        inverse = pow(residual[column], -1, self.p)
         self._of[column] = len(self._rows)
-        self._rows.append([(column, 1), *((c, v * inverse % self.p) for c, v in rest.items() if c != column)])
+        self._rows.append([(column, 1), *((c, v * inverse % self.p) for c, v in residual.items() if c != column)])
         self._sources.append((row, inverse, used))
 
     def solved(self, right: Sequence[int]) -> list[int]:
@@ -285,21 +285,21 @@ class _Reduction:
 
     def support(self, used: Mapping[int, int]) -> SparseRow:
         """A sum of pivot rows as one of rows, row -> factor: each is its row less earlier ones, unfolded backwards."""
-        left, factors = dict(used), SparseRow()
-        pending = [-k for k in left]
+        multiples, factors = dict(used), SparseRow()
+        pending = [-k for k in multiples]
         heapify(pending)
         while pending:
             number = -heappop(pending)
             row, inverse, earlier = self._sources[number]
-            factor = left.pop(number) * inverse % self.p
+            factor = multiples.pop(number) * inverse % self.p
             if not factor:
                 continue
             factors[row] = factor
             for k, v in earlier.items():
-                if k not in left:
-                    left[k] = 0
+                if k not in multiples:
+                    multiples[k] = 0
                     heappush(pending, -k)
-                left[k] = (left[k] - factor * v) % self.p
+                multiples[k] = (multiples[k] - factor * v) % self.p
         return factors
 
 

@@ -237,9 +237,9 @@ def _root(value: fmpq, degree: int) -> fmpq:
     raise NoPointError("a root that is no rational")
 
 
-def rational_values(known: Mapping[Expr, Expr]) -> dict[Expr, Fraction]:
+def rational_values(pose: Mapping[Expr, Expr]) -> dict[Expr, Fraction]:
     """Return the symbols whose values are written as rational numbers."""
-    return {s: v.args[0] for s, v in known.items() if v.op == "num"}
+    return {s: v.args[0] for s, v in pose.items() if v.op == "num"}
 
 
 def vanish_exactly(ring: Ring, nodes: Sequence[int], symbols: Mapping[Expr, Fraction]) -> bool:

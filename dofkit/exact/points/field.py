@@ -85,9 +85,9 @@ class Character:
         degree = relation.pop(u)
         if self._unit is not None and abs(degree) > 1 and int(self._unit[0]) in relation:
             raise NoPointError("an argument is a fraction of pi that is none of those written")
-        known = {**self.values} if self._unit is None else {**self.values, int(self._unit[0]): self._unit[1]}
+        settled = {**self.values} if self._unit is None else {**self.values, int(self._unit[0]): self._unit[1]}
         sign = 1 if degree > 0 else -1
-        power = prod((known[v] ** (-k * sign) for v, k in relation.items()), start=nmod(1, self.p))
+        power = prod((settled[v] ** (-k * sign) for v, k in relation.items()), start=nmod(1, self.p))
         return _root(power, abs(degree), self.p)
 
     def _multiple_of_unit(self, u: int) -> Any | None:
@@ -96,11 +96,11 @@ class Character:
             return None
         unit, root, order = self._unit
         for at, value in ((0, nmod(1, self.p)), *self.values.items()):
-            for other, known in ((at, value), (-at, 1 / value)):
+            for other, factor in ((at, value), (-at, 1 / value)):
                 k = int((nmod(u, self.p) - other) / unit)
                 k = k if 2 * k < self.p else k - self.p
                 if abs(k) <= TURNS * order:
-                    return known * root**k
+                    return factor * root**k
         return None
 
     def _reduced(self, u: int) -> dict[int, int] | None:
@@ -158,7 +158,7 @@ def circle_order(rings: Iterable[Ring]) -> int:
     """The common denominator D of all angles pi/D; where pi itself is written, also of what x = pi/9 leads to."""
     rings = tuple(rings)
     keys = (var.key for ring in rings for var in ring.vars if var.kind in ("cos", "sin"))
-    order = lcm(1, *(denominator for rest, denominator in keys if rest == ex.PI))
+    order = lcm(1, *(denominator for angle, denominator in keys if angle == ex.PI))
     turning = [ring for ring in rings if {"pi", "cos"} <= {"cos" if v.kind == "sin" else v.kind for v in ring.vars}]
     for ring in turning:
         written = {part.denominator for op, part in ring.code if op == NUM}
@@ -308,8 +308,8 @@ class FieldPoint:
         return self.random()
 
     def _draw_angle(self, var: Var, args: Sequence[Scalar]) -> None:
-        rest, denominator = var.key
-        if rest == ex.PI:
+        angle, denominator = var.key
+        if angle == ex.PI:
             cos, sin = self._root_of_unity(denominator)
         elif args[0] == 0:
             cos, sin = nmod(1, self.p), nmod(0, self.p)
@@ -383,12 +383,12 @@ class FieldPoint:
         return total if prime % 4 == 1 else total / self._imaginary
 
 
-def field_point(rings: Sequence[Ring], seed: int, beside: str = "") -> FieldPoint:
+def field_point(rings: Sequence[Ring], seed: int, salt: str = "") -> FieldPoint:
     """A fresh random point for programs that share their symbols, modulo a prime where the roots of numbers exist.
 
-    Primes and values are drawn by a hash of the programs, and of what stands ``beside`` them: a coefficient that is
+    Primes and values are drawn by a hash of the programs, and of what stands ``salt`` them: a coefficient that is
     made to vanish modulo the primes in use changes them.
     """
-    order, roots, own = circle_order(rings), number_roots(rings), " ".join((*(ring.digest for ring in rings), beside))
-    p = prime_for(order, roots, f"{seed % 3} {own}")
-    return FieldPoint(p, random.Random(f"dofkit point {seed} {own}"), order)
+    order, roots, digests = circle_order(rings), number_roots(rings), " ".join((*(ring.digest for ring in rings), salt))
+    p = prime_for(order, roots, f"{seed % 3} {digests}")
+    return FieldPoint(p, random.Random(f"dofkit point {seed} {digests}"), order)

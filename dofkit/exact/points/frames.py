@@ -100,8 +100,8 @@ def solve(a: list[list[Scalar]], b: list[list[Scalar]]) -> list[list[Scalar]]:
     n = len(a)
     if n and isinstance(a[0][0], nmod) and b[0]:
         p = a[0][0].modulus()
-        left, right = (nmod_mat([[int(v) for v in row] for row in side], p) for side in (a, b))
-        solution = left.solve(right)
+        matrix, right = (nmod_mat([[int(v) for v in row] for row in side], p) for side in (a, b))
+        solution = matrix.solve(right)
         return [[solution[i, j] for j in range(len(b[0]))] for i in range(n)]
     if n and isinstance(a[0][0], arb) and b[0]:
         balls = arb_mat(a).solve(arb_mat(b))

@@ -88,7 +88,7 @@ class RealSearch:
         self.positive = positive
         self.upto = len(ring.code)
 
-    def start(self, seed: int, given: Mapping[Expr, float]) -> dict[Expr, float]:
+    def start(self, seed: int, initial: Mapping[Expr, float]) -> dict[Expr, float]:
         """Random dyadic values, so that what is not solved for is an exact number.
 
         Time and a parameter that has a name have the same value wherever they occur: so points of sets fit.
@@ -96,21 +96,21 @@ class RealSearch:
         rng = random.Random(f"dofkit start {seed}")
         symbols = [var.key for var in self.ring.vars if var.kind == "symbol"]
         drawn = {s: _start_value(s, rng, seed, s in self.positive) for s in symbols}
-        return {s: given.get(s, value) for s, value in drawn.items()}
+        return {s: initial.get(s, value) for s, value in drawn.items()}
 
     @raising_no_value
     def search(
         self,
         seed: int = 0,
-        given: Mapping[Expr, float] | None = None,
+        initial: Mapping[Expr, float] | None = None,
         starts: int = STARTS,
         steps: int = ITERATIONS,
     ) -> RealPoint | None:
-        """Return the first certified point found, else any; ``given`` values of symbols are where the search begins."""
+        """Return the first certified point found, else any; the search begins at ``initial`` values of symbols."""
         singular: RealPoint | None = None
         tries = 0
         for attempt in range(starts):
-            symbols = self.start(seed * STARTS + attempt, given or {})
+            symbols = self.start(seed * STARTS + attempt, initial or {})
             slopes = self.descend(symbols, seed, steps) if self.nodes else None
             refined = self.refine(symbols, slopes, seed) if slopes is not None or not self.nodes else None
             if refined is not None and refined.certified and refined.consistent:

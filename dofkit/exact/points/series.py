@@ -166,22 +166,22 @@ class SeriesPoint:
 
     def _circle(self, var: Var, u: Series, head: Scalar) -> Series:
         """c' = -u' s and s' = u' c; both are found at once."""
-        known = self._circles.get((var.kind, var.key))
-        if known is not None:
-            return known
+        earlier = self._circles.get((var.kind, var.key))
+        if earlier is not None:
+            return earlier
         kind = "sin" if var.kind == "cos" else "cos"
         partner = self.base.generator(Var(var.partner, kind, var.key, var.args, var.index), [u.coefficient(0)])
-        slope, own, other = u.derivative().poly.coeffs(), [head], [partner]
+        slope, coefficients, other = u.derivative().poly.coeffs(), [head], [partner]
         sign = -1 if var.kind == "cos" else 1
         for k in range(1, self.order):
             a = b = head * 0
             for j in range(min(k, len(slope))):
                 a = a + slope[j] * other[k - 1 - j]
-                b = b + slope[j] * own[k - 1 - j]
-            own.append(a * sign / k)
+                b = b + slope[j] * coefficients[k - 1 - j]
+            coefficients.append(a * sign / k)
             other.append(-b * sign / k)
         self._circles[kind, var.key] = self._series(other)
-        return self._series(own)
+        return self._series(coefficients)
 
     def _root(self, u: Series, head: Scalar, degree: int) -> Series:
         """r' u degree = u' r, solved coefficient by coefficient."""
@@ -217,7 +217,7 @@ class SeriesPoint:
 def _multi_indices(n: int, total: int) -> list[tuple[int, ...]]:
     if n == 1:
         return [(k,) for k in range(total + 1)]
-    indices = [(k, *rest) for k in range(total + 1) for rest in _multi_indices(n - 1, total - k)]
+    indices = [(k, *others) for k in range(total + 1) for others in _multi_indices(n - 1, total - k)]
     return indices[:MAX_JET]
 
 

@@ -144,10 +144,10 @@ class Canon:
 
     def to_expr(self, poly: Poly) -> Expr:
         """Return a polynomial in the generators as an expression."""
-        shown = [self.ring.var_expr[var.index] for var in reversed(self.ring.vars)]
+        generators = [self.ring.var_expr[var.index] for var in reversed(self.ring.vars)]
         terms = []
         for exponents, coefficient in poly.to_dict().items():
-            factors = [ex.power(shown[i], ex.num(int(k))) for i, k in enumerate(exponents) if k]
+            factors = [ex.power(generators[i], ex.num(int(k))) for i, k in enumerate(exponents) if k]
             number = Fraction(int(coefficient.p), int(coefficient.q))
             terms.append(ex.mul(ex.num(number), *factors))
         return ex.add(*terms) if terms else ex.ZERO
@@ -278,10 +278,10 @@ def degree_bound(ring: Ring, nodes: Sequence[int]) -> int:
     return max((max(most[node]) for node in nodes), default=0)
 
 
-def _of_sum(parts: Sequence[Degrees]) -> Degrees:
+def _of_sum(terms: Sequence[Degrees]) -> Degrees:
     """Over the product of all denominators."""
-    below = sum(bottom for _, bottom in parts)
-    return max(top + below - bottom for top, bottom in parts), below
+    below = sum(bottom for _, bottom in terms)
+    return max(top + below - bottom for top, bottom in terms), below
 
 
 def error_bits(ring: Ring, nodes: Sequence[int], size: int) -> int:
@@ -290,6 +290,6 @@ def error_bits(ring: Ring, nodes: Sequence[int], size: int) -> int:
     Of ``size`` rows of the nodes' derivatives it has at most so many times twice their degree. Where several
     exponentials or angles occur, relations among their arguments are found by chance with 2^-30.
     """
-    own = PRIME - (2 * max(1, size) * max(1, degree_bound(ring, nodes))).bit_length()
+    bits = PRIME - (2 * max(1, size) * max(1, degree_bound(ring, nodes))).bit_length()
     several = sum(var.kind in ("exp", "cos") for var in ring.vars) > 1
-    return max(1, min(own, RELATIONS) if several else own)
+    return max(1, min(bits, RELATIONS) if several else bits)

@@ -110,14 +110,14 @@ class Instructions(ABC):
                 new[i] = mapping.get(payload, i) if op == VAR else i
         return new[node]
 
-    def generator(self, kind: str, key: Any, shown: Expr, args: tuple[int, ...] = (), degree: int = 1) -> int:
-        """Return the node of a generator, made at first use; ``shown`` is it as an expression."""
+    def generator(self, kind: str, key: Any, expression: Expr, args: tuple[int, ...] = (), degree: int = 1) -> int:
+        """Return the node of a generator, made at first use; ``expression`` is it as an expression."""
         index = self._var_of.get((kind, key))
         if index is None:
             index = len(self.vars)
             self._var_of[kind, key] = index
             self.vars.append(Var(index, kind, key, args, -1, degree))
-            self.var_expr.append(shown)
+            self.var_expr.append(expression)
             self.var_node.append(self.emit(VAR, index))
         return self.var_node[index]
 
@@ -132,11 +132,11 @@ class Instructions(ABC):
     def number(self, value: Fraction | int) -> int:
         return self.emit(NUM, Fraction(value))
 
-    def total(self, *parts: int) -> int:
-        return self.emit(ADD, parts)
+    def total(self, *terms: int) -> int:
+        return self.emit(ADD, terms)
 
-    def product(self, *parts: int) -> int:
-        return self.emit(MUL, parts)
+    def product(self, *factors: int) -> int:
+        return self.emit(MUL, factors)
 
     def power_node(self, base: int, exponent: int) -> int:
         """Return the node of an integer power of a node."""

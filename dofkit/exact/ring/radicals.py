@@ -19,12 +19,12 @@ Key = tuple[Any, int]
 def root(ring: Instructions, radicand: Expr, degree: int) -> int:
     """Return the real ``degree``-th root; of a product, the product of the roots; of an integer, over its primes."""
     if radicand.op == "mul":
-        apart, rest = known_signs(ring, radicand)
+        apart, cofactor = known_signs(ring, radicand)
         if degree % 2:
-            apart, rest = list(radicand.args), ex.ONE
-        if rest.op != "mul" or apart:
-            parts = [*apart, *([rest] if rest != ex.ONE else [])]
-            return ring.product(*(root(ring, part, degree) for part in parts))
+            apart, cofactor = list(radicand.args), ex.ONE
+        if cofactor.op != "mul" or apart:
+            factors = [*apart, *([cofactor] if cofactor != ex.ONE else [])]
+            return ring.product(*(root(ring, part, degree) for part in factors))
     if radicand.op == "pow" and radicand.args[1].op == "num":
         return _root_of_power(ring, radicand, degree)
     if radicand.op == "num":
@@ -35,23 +35,23 @@ def root(ring: Instructions, radicand: Expr, degree: int) -> int:
 
 
 def _root_of_sum(ring: Instructions, radicand: Expr, degree: int) -> int:
-    number, rest = content(radicand)
+    number, primitive = content(radicand)
     if number != 1:
-        return ring.product(root_of_number(ring, number, degree), root(ring, rest, degree))
+        return ring.product(root_of_number(ring, number, degree), root(ring, primitive, degree))
     return _new_root(ring, (sorted_sum(radicand), degree), radicand, ring.node(radicand))
 
 
 def known_signs(ring: Instructions, product: Expr) -> tuple[list[Expr], Expr]:
     """(factors that are never negative, the product of the others): only those have roots and logs of their own."""
     apart: list[Expr] = []
-    rest: list[Expr] = []
+    signed: list[Expr] = []
     for part in product.args:
-        (apart if never_negative(part, ring.positive) else rest).append(part)
-    number = next((p for p in rest if p.op == "num"), None)
+        (apart if never_negative(part, ring.positive) else signed).append(part)
+    number = next((p for p in signed if p.op == "num"), None)
     if number is not None and number.args[0] != -1:
         apart.append(ex.num(abs(number.args[0])))
-        rest = [ex.MINUS_ONE if p is number else p for p in rest]
-    return apart, Expr("mul", tuple(rest)) if len(rest) > 1 else rest[0] if rest else ex.ONE
+        signed = [ex.MINUS_ONE if p is number else p for p in signed]
+    return apart, Expr("mul", tuple(signed)) if len(signed) > 1 else signed[0] if signed else ex.ONE
 
 
 def never_negative(part: Expr, positive: frozenset[Expr]) -> bool:
@@ -71,15 +71,15 @@ def never_negative(part: Expr, positive: frozenset[Expr]) -> bool:
 
 
 def _new_root(ring: Instructions, key: Key, radicand: Expr, node: int) -> int:
-    shown = Expr("pow", (radicand, ex.num(Fraction(1, key[1]))))
-    return ring.generator("root", key, shown, (node,), key[1])
+    expression = Expr("pow", (radicand, ex.num(Fraction(1, key[1]))))
+    return ring.generator("root", key, expression, (node,), key[1])
 
 
 def _root_of_power(ring: Instructions, radicand: Expr, degree: int) -> int:
     base, exponent = radicand.args[0], radicand.args[1].args[0]
-    whole, rest = divmod(exponent / degree, 1)
+    whole, fraction = divmod(exponent / degree, 1)
     even_inside = exponent.denominator == 1 and exponent % 2 == 0 and degree % 2 == 0
-    if rest == 0:
+    if fraction == 0:
         power = ring.power_node(ring.node(base), int(whole))
         return ring.product(power, ring.power_node(sign(ring, base), abs(int(whole)))) if even_inside else power
     reduced = Fraction(exponent, degree)
@@ -98,14 +98,16 @@ def root_of_number(ring: Instructions, value: Fraction, degree: int) -> int:
             return ring.product(ring.number(-1), root_of_number(ring, -value, degree))
         return _new_root(ring, (ex.num(value), degree), ex.num(value), ring.number(value))
     top = value.numerator * value.denominator ** (degree - 1)
-    parts = [ring.number(Fraction(1, value.denominator))]
+    factors = [ring.number(Fraction(1, value.denominator))]
     for prime, power in prime_powers(top):
-        whole, rest = divmod(power, degree)
-        parts.append(ring.number(prime**whole))
-        if rest:
-            shown = ex.num(prime)
-            parts.append(ring.power_node(_new_root(ring, (shown, degree), shown, ring.number(prime)), rest))
-    return ring.product(*parts)
+        whole, exponent = divmod(power, degree)
+        factors.append(ring.number(prime**whole))
+        if exponent:
+            expression = ex.num(prime)
+            factors.append(
+                ring.power_node(_new_root(ring, (expression, degree), expression, ring.number(prime)), exponent)
+            )
+    return ring.product(*factors)
 
 
 def prime_powers(value: int) -> list[tuple[int, int]]:
@@ -114,14 +116,14 @@ def prime_powers(value: int) -> list[tuple[int, int]]:
         return []
     if value.bit_length() <= 128:
         return [(int(p), int(k)) for p, k in fmpz(value).factor()]
-    powers, rest = [], value
+    powers, cofactor = [], value
     for prime in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):
         k = 0
-        while rest % prime == 0:
-            rest, k = rest // prime, k + 1
+        while cofactor % prime == 0:
+            cofactor, k = cofactor // prime, k + 1
         if k:
             powers.append((prime, k))
-    return [*powers, (rest, 1)] if rest > 1 else powers
+    return [*powers, (cofactor, 1)] if cofactor > 1 else powers
 
 
 def sign(ring: Instructions, e: Expr) -> int:
@@ -134,25 +136,25 @@ def sign(ring: Instructions, e: Expr) -> int:
         return ring.product(*(sign(ring, part) for part in e.args))
     if e.op == "pow" and e.args[1].op == "num" and e.args[1].args[0].denominator == 1:
         return ring.power_node(sign(ring, e.args[0]), abs(int(e.args[1].args[0])))
-    known = _sign_of_constant(e)
-    if known:
-        return ring.number(known)
+    constant_sign = _sign_of_constant(e)
+    if constant_sign:
+        return ring.number(constant_sign)
     if leads_with_minus(e):
         return ring.product(ring.number(-1), sign(ring, -e))
     if e.op == "add":
-        number, rest = content(e)
+        number, primitive = content(e)
         if number != 1:
-            return sign(ring, rest)
-    shown = ex.fn("abs", e) / e if not e.is_zero else ex.ZERO
-    return ring.generator("sign", sorted_sum(e), shown, (ring.node(e),))
+            return sign(ring, primitive)
+    expression = ex.fn("abs", e) / e if not e.is_zero else ex.ZERO
+    return ring.generator("sign", sorted_sum(e), expression, (ring.node(e),))
 
 
 def _sign_of_constant(e: Expr) -> int:
     """1 or -1 where a ball tells; 0 where ``e`` is no constant or no ball tells."""
-    found = interval_of(e) if is_constant(e) else None
-    if found is None or found.contains(0):
+    ball = interval_of(e) if is_constant(e) else None
+    if ball is None or ball.contains(0):
         return 0
-    return 1 if found > 0 else -1
+    return 1 if ball > 0 else -1
 
 
 def leads_with_minus(e: Expr) -> bool:
@@ -177,7 +179,7 @@ def inverse_function(ring: Instructions, name: str, e: Expr) -> int:
 
 
 def _minus(u: Expr) -> bool:
-    """Of u and -u, is this the one that is written by the other?"""
+    """Return whether, of u and -u, this is the one that is written by the other."""
     if u.op == "num":
         return bool(u.args[0] < 0)
     return leads_with_minus(u) if u.op in ("add", "mul") else False
@@ -186,9 +188,9 @@ def _minus(u: Expr) -> bool:
 def log(ring: Instructions, u: Expr) -> int:
     """Return log u: of a product of positive factors the sum, of a power a multiple, of an integer over its primes."""
     if u.op == "mul":
-        apart, rest = known_signs(ring, u)
+        apart, cofactor = known_signs(ring, u)
         if apart:
-            return ring.total(*(log(ring, part) for part in [*apart, *([rest] if rest != ex.ONE else [])]))
+            return ring.total(*(log(ring, part) for part in [*apart, *([cofactor] if cofactor != ex.ONE else [])]))
     if u.op == "pow" and (never_negative(u.args[0], ring.positive) or u.args[1].op != "num" or u.args[1].args[0] % 2):
         return ring.product(ring.node(u.args[1]), log(ring, u.args[0]))
     if u.op == "fn" and u.args[0] == "exp":

@@ -51,13 +51,13 @@ def multiple(ring: Instructions, angle: Turn, n: int) -> Turn:
     return rotated(ring, total, angle) if n > 1 and n % 2 else total
 
 
-def of_inverse(ring: Instructions, rest: Expr) -> Turn:
+def of_inverse(ring: Instructions, angle: Expr) -> Turn:
     """cos and sin of asin u, acos u, atan u or atan2(y, x)."""
-    u = rest.args[1]
-    if rest.args[0] in ("asin", "acos"):
+    u = angle.args[1]
+    if angle.args[0] in ("asin", "acos"):
         other = ring.node(ex.sqrt(ex.ONE - u * u))
-        return (other, ring.node(u)) if rest.args[0] == "asin" else (ring.node(u), other)
-    x = ex.ONE if rest.args[0] == "atan" else rest.args[2]
+        return (other, ring.node(u)) if angle.args[0] == "asin" else (ring.node(u), other)
+    x = ex.ONE if angle.args[0] == "atan" else angle.args[2]
     inverse = ring.power_node(ring.node(ex.sqrt(x * x + u * u)), -1)
     return ring.product(ring.node(x), inverse), ring.product(ring.node(u), inverse)
 
@@ -93,23 +93,23 @@ def _angle_arguments(expressions: Iterable[Expr], alias: Mapping[Expr, Expr]) ->
         family = _family(node) if node.op in ("fn", "pow") else None
         if family:
             argument = node.args[1] if node.op == "fn" else node.args[1] * ex.fn("log", node.args[0])
-            for rest, factor in linear_terms(over_primes(substitute(argument, alias))).items():
-                if rest == ex.PI and family == "cis" and _in_twelfths(factor):
+            for term, factor in linear_terms(over_primes(substitute(argument, alias))).items():
+                if term == ex.PI and family == "cis" and _in_twelfths(factor):
                     continue
-                old = denominators.get((family, rest), 1)
-                denominators[family, rest] = old * factor.denominator // gcd(old, factor.denominator)
+                old = denominators.get((family, term), 1)
+                denominators[family, term] = old * factor.denominator // gcd(old, factor.denominator)
     return denominators
 
 
 def _with_functions(expressions: Iterable[Expr]) -> set[Expr]:
     """Return every node in which a function occurs."""
     nodes: set[Expr] = set()
-    left = [e for e in expressions if e.functions]
-    while left:
-        node = left.pop()
+    pending = [e for e in expressions if e.functions]
+    while pending:
+        node = pending.pop()
         if node not in nodes:
             nodes.add(node)
-            left.extend(child for child in ex.children(node) if child.functions)
+            pending.extend(child for child in ex.children(node) if child.functions)
     return nodes
 
 
@@ -138,8 +138,8 @@ class Ring(Instructions):
         super().__init__(positive)
         self._bases: dict[Expr, Expr] = {}
         self.alias = alias or {}
-        given = [e for e in expressions if e.functions]
-        self._denominators = _angle_arguments(given, self.alias)
+        with_functions = [e for e in expressions if e.functions]
+        self._denominators = _angle_arguments(with_functions, self.alias)
         self._memo: dict[Expr, int] = {}
         self._turns: dict[Expr, tuple[int, int]] = {}
 
@@ -164,9 +164,9 @@ class Ring(Instructions):
     def _number(self, e: Expr) -> int:
         return self.emit(NUM, e.args[0])
 
-    def _nodes(self, parts: Iterable[Expr]) -> tuple[int, ...]:
+    def _nodes(self, children: Iterable[Expr]) -> tuple[int, ...]:
         memo = self._memo
-        return tuple([memo[e] if e in memo else self.node(e) for e in parts])
+        return tuple([memo[e] if e in memo else self.node(e) for e in children])
 
     def forget(self, size: int) -> None:
         """Instructions from number ``size`` on are dropped, as if they had never been emitted, if none is a generator.
@@ -225,30 +225,30 @@ class Ring(Instructions):
     def related(self) -> bool:
         """True where a function occurs of an argument and of a large multiple of it, as generators apart."""
         arguments = {(v.kind, v.key[0]) for v in self.vars if v.kind in ("exp", "cos")}
-        bases = [(kind, self._bases.get(rest, rest)) for kind, rest in arguments]
+        bases = [(kind, self._bases.get(argument, argument)) for kind, argument in arguments]
         return len(set(bases)) < len(bases)
 
-    def _large_multiple(self, rest: Expr, size: Fraction) -> Expr:
+    def _large_multiple(self, argument: Expr, size: Fraction) -> Expr:
         """Return a multiple that is an argument of its own."""
-        multiple = Expr("mul", (ex.num(size), rest))
-        self._bases[multiple] = rest
+        multiple = Expr("mul", (ex.num(size), argument))
+        self._bases[multiple] = argument
         return multiple
 
     def _exp(self, u: Expr) -> int:
         """exp of a sum as the product of powers of the basic exponentials; exp(r log x) = x^r."""
         u = over_primes(substitute(u, self.alias))
-        parts = []
-        for rest, factor in linear_terms(u).items():
-            if rest.op == "fn" and rest.args[0] == "log":
-                parts.append(self.node(ex.power(rest.args[1], ex.num(factor))))
+        factors = []
+        for term, factor in linear_terms(u).items():
+            if term.op == "fn" and term.args[0] == "log":
+                factors.append(self.node(ex.power(term.args[1], ex.num(factor))))
                 continue
-            denominator = self._denominators.get(("exp", rest), factor.denominator)
+            denominator = self._denominators.get(("exp", term), factor.denominator)
             if abs(factor * denominator) > MAX_MULTIPLE:
-                rest, factor, denominator = self._large_multiple(rest, abs(factor)), factor / abs(factor), 1
-            basic = ex.num(Fraction(1, denominator)) * rest
-            generator = self.generator("exp", (rest, denominator), Expr("fn", ("exp", basic)), (self.node(basic),))
-            parts.append(self.power_node(generator, int(factor * denominator)))
-        return self.product(*parts) if parts else self.number(1)
+                term, factor, denominator = self._large_multiple(term, abs(factor)), factor / abs(factor), 1
+            basic = ex.num(Fraction(1, denominator)) * term
+            generator = self.generator("exp", (term, denominator), Expr("fn", ("exp", basic)), (self.node(basic),))
+            factors.append(self.power_node(generator, int(factor * denominator)))
+        return self.product(*factors) if factors else self.number(1)
 
     def _cis(self, u: Expr) -> tuple[int, int]:
         """Return (cos u, sin u) as polynomials in those of the basic angles."""
@@ -260,30 +260,30 @@ class Ring(Instructions):
     def _turn(self, u: Expr) -> tuple[int, int]:
         u = substitute(u, self.alias)
         total = (self.number(1), self.number(0))
-        for rest, factor in linear_terms(u).items():
-            if rest == ex.PI and _in_twelfths(factor):
+        for angle, factor in linear_terms(u).items():
+            if angle == ex.PI and _in_twelfths(factor):
                 k = int(12 * factor)
                 turn = self.node(_cosine_of_twelfths(k)), self.node(_cosine_of_twelfths(k - 6))
             else:
-                cos, sin, n = self._basic_angle(rest, factor)
+                cos, sin, n = self._basic_angle(angle, factor)
                 turn = multiple(self, (cos, sin), n)
             total = rotated(self, total, turn)
         return total
 
-    def _basic_angle(self, rest: Expr, factor: Fraction) -> tuple[int, int, int]:
-        denominator = self._denominators.get(("cis", rest), factor.denominator)
+    def _basic_angle(self, angle: Expr, factor: Fraction) -> tuple[int, int, int]:
+        denominator = self._denominators.get(("cis", angle), factor.denominator)
         if abs(factor * denominator) > MAX_MULTIPLE:
-            rest, factor, denominator = self._large_multiple(rest, abs(factor)), factor / abs(factor), 1
-        if denominator == 1 and rest.op == "fn" and rest.args[0] in ("asin", "acos", "atan", "atan2"):
-            return (*of_inverse(self, rest), int(factor))
-        basic = ex.num(Fraction(1, denominator)) * rest
+            angle, factor, denominator = self._large_multiple(angle, abs(factor)), factor / abs(factor), 1
+        if denominator == 1 and angle.op == "fn" and angle.args[0] in ("asin", "acos", "atan", "atan2"):
+            return (*of_inverse(self, angle), int(factor))
+        basic = ex.num(Fraction(1, denominator)) * angle
         argument = self.node(basic)
-        cos = self.generator("cos", (rest, denominator), ex.fn("cos", basic), (argument,))
-        sin = self.generator("sin", (rest, denominator), ex.fn("sin", basic), (argument,))
+        cos = self.generator("cos", (angle, denominator), ex.fn("cos", basic), (argument,))
+        sin = self.generator("sin", (angle, denominator), ex.fn("sin", basic), (argument,))
         first, second = self.code[cos][1], self.code[sin][1]
         if self.vars[first].partner < 0:
-            self.vars[first] = Var(first, "cos", (rest, denominator), (argument,), second)
-            self.vars[second] = Var(second, "sin", (rest, denominator), (argument,), first)
+            self.vars[first] = Var(first, "cos", (angle, denominator), (argument,), second)
+            self.vars[second] = Var(second, "sin", (angle, denominator), (argument,), first)
         return cos, sin, int(factor * denominator)
 
     def _call(self, e: Expr) -> int:

@@ -127,23 +127,23 @@ def _plain(char: str, column: int) -> str:
         if char in table:
             return table[char]
     if char not in _LOOKALIKES and char not in _REFUSED:
-        parts = unicodedata.decomposition(char).split()
-        if len(parts) == 2 and (parts[0] == "<font>" or parts[0] in _BASES):
-            plain = _composed(char, parts)
+        codes = unicodedata.decomposition(char).split()
+        if len(codes) == 2 and (codes[0] == "<font>" or codes[0] in _BASES):
+            plain = _composed(char, codes)
             if plain is not None:
                 return plain
-        if len(parts) == 1 and parts[0][0] != "<":  # one character with two codes, such as the sign for ohm
-            return _plain_or_ascii(chr(int(parts[0], 16)), column)
+        if len(codes) == 1 and codes[0][0] != "<":  # one character with two codes, such as the sign for ohm
+            return _plain_or_ascii(chr(int(codes[0], 16)), column)
     raise _refusal(char, column)
 
 
-def _composed(char: str, parts: list[str]) -> str | None:
+def _composed(char: str, decomposition: list[str]) -> str | None:
     """Return a letter in another type face, or a letter with dots above it."""
-    if parts[0] == "<font>":
-        base = chr(int(parts[1], 16))
+    if decomposition[0] == "<font>":
+        base = chr(int(decomposition[1], 16))
         base = _LETTERS.get(base, base)
         return base if (base.isascii() and base.isalnum()) or base in GREEK else None
-    base, mark = (chr(int(part, 16)) for part in parts)
+    base, mark = (chr(int(part, 16)) for part in decomposition)
     return base + mark if mark in (DOT, TWO_DOTS) else None
 
 
@@ -159,8 +159,8 @@ def _refusal(char: str, column: int) -> TextError:
         message, hint = _REFUSED[char]
         return TextError(message, column, hint)
     name = unicodedata.name(char, "unnamed character")
-    shown = f"`{char}` " if char.isprintable() and not unicodedata.combining(char) else ""
-    what = f"{shown}(U+{ord(char):04X}, {name.lower()})"
+    quoted = f"`{char}` " if char.isprintable() and not unicodedata.combining(char) else ""
+    what = f"{quoted}(U+{ord(char):04X}, {name.lower()})"
     latin = _LOOKALIKES.get(char) or _wide(char)
     if latin is not None:
         script = name.split()[0].capitalize()

@@ -59,15 +59,15 @@ class Parser(TextReader):
     def relations(self) -> tuple[Comparison, ...]:
         """Return the relations of the whole text: of a value, which is 0, of a relation or of a chain of them."""
         first = self.next
-        left = self.computed(first, bounded, self.sum())
+        left_side = self.computed(first, bounded, self.sum())
         token = self.take()
         if token.kind == "end":
-            return (Comparison(left, "=", ZERO, self.columns[first.start], tuple(self.domain)),)
+            return (Comparison(left_side, "=", ZERO, self.columns[first.start], tuple(self.domain)),)
         comparisons = []
         while token.kind == "relation":
             right = self.computed(token, bounded, self.sum())
-            comparisons.append(Comparison(left, cast(RelationSign, token.name), right, self.columns[token.start]))
-            left, token = right, self.take()
+            comparisons.append(Comparison(left_side, cast(RelationSign, token.name), right, self.columns[token.start]))
+            left_side, token = right, self.take()
         if token.kind != "end":
             self.unexpected(token)
         return tuple(replace(c, domain=tuple(self.domain)) for c in comparisons)
@@ -280,9 +280,9 @@ def _ask_quotient(parser: Parser, first: Token, slash: Token) -> NoReturn:
     below = parser.source(slash.end, parser.last.end)
     token = parser.next
     parser.power()
-    beside = parser.source(token.start, parser.last.end)
+    factor = parser.source(token.start, parser.last.end)
     quotient = parser.source(first.start, parser.last.end)
-    readings = (f"({above}/{below})*{beside}", f"{above}/({below}*{beside})")
+    readings = (f"({above}/{below})*{factor}", f"{above}/({below}*{factor})")
     hint = f"write `{readings[0]}` or `{readings[1]}`"
     span = (parser.columns[first.start], parser.columns[parser.last.end])
     column = parser.columns[token.start]

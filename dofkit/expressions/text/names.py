@@ -158,8 +158,8 @@ class Lookup:
     @cached_property
     def unmarked(self) -> dict[str, str]:
         """Names without `_` and capitals -> the name: what people mistake for one another."""
-        known = (*ELEMENTARY, *reversed(self.declared))
-        return {unmarked(name): name for name in known}
+        names_read = (*ELEMENTARY, *reversed(self.declared))
+        return {unmarked(name): name for name in names_read}
 
     def _find(self, word: str) -> Meaning | None:
         meaning = self._declared.get(word)
@@ -286,20 +286,20 @@ def pattern_of(text: str, lookup: Lookup) -> Pattern | None:
     """Return the pattern of a text; None where it has to be read by itself."""
     if len(text) > LONGEST or _UNUSUAL.search(text):
         return None
-    parts: list[Hashable] = list(_WORDS.split(text))
+    pieces: list[Hashable] = list(_WORDS.split(text))
     places: dict[str, int] = {}
-    for i in range(1, len(parts), 2):
-        word = str(parts[i])
+    for i in range(1, len(pieces), 2):
+        word = str(pieces[i])
         meaning = lookup.meaning(word)
         if meaning is None or meaning.kind not in ("value", "motion", "function") or word == "d":
             return None
-        if word[0] in "eExXoObB" and _IN_A_NUMBER.search(str(parts[i - 1])):
+        if word[0] in "eExXoObB" and _IN_A_NUMBER.search(str(pieces[i - 1])):
             return None
         moving = _moving(meaning)
         if moving is not None:
             kind, name = moving
-            parts[i] = (kind, places.setdefault(name, len(places)))
-    return Pattern(tuple(parts), tuple(places))
+            pieces[i] = (kind, places.setdefault(name, len(places)))
+    return Pattern(tuple(pieces), tuple(places))
 
 
 def _moving(meaning: Meaning) -> tuple[str, str] | None:

@@ -25,8 +25,8 @@ def _print(e: Expr) -> Printed:
 
 def _within(e: Expr, strength: int) -> str:
     """Return ``e`` in parentheses where it binds less tightly than ``strength``."""
-    text, own = _print(e)
-    return text if own >= strength else f"({text})"
+    text, binding = _print(e)
+    return text if binding >= strength else f"({text})"
 
 
 def _digits(value: int) -> str:
@@ -120,8 +120,10 @@ def _call(e: Expr) -> Printed:
     steps = [_step(arguments, index) for index in range(len(arguments))]
     named = all(step is not None for step, order in zip(steps, orders, strict=True) if order)
     if named and not _moves_with_time(arguments, orders):
-        shown = (f"{step}, {order}" if order > 1 else step for step, order in zip(steps, orders, strict=True) if order)
-        return f"diff({plain}, {', '.join(map(str, shown))})", _ATOM
+        variables = (
+            f"{step}, {order}" if order > 1 else step for step, order in zip(steps, orders, strict=True) if order
+        )
+        return f"diff({plain}, {', '.join(map(str, variables))})", _ATOM
     shown_steps = (step or str(i) for i, step in enumerate(steps, 1))
     places = chain.from_iterable(map(repeat, shown_steps, orders))
     return f"partial({plain}, {', '.join(places)})", _ATOM

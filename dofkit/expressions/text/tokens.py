@@ -138,8 +138,8 @@ def _scan(text: str, columns: Sequence[int], lookup: Lookup) -> list[Token]:
         elif kind == "word":
             before = tokens[-1] if tokens and tokens[-1].kind == "number" else None
             number = "" if before is None else text[before.start : before.end]
-            parts = read_word(match[kind], lookup, columns[start], text[end : end + 1] == "(", number)
-            tokens += [_word_token(part, start, text) for part in parts]
+            words = read_word(match[kind], lookup, columns[start], text[end : end + 1] == "(", number)
+            tokens += [_word_token(part, start, text) for part in words]
         elif kind == "sign" or kind == "relation":
             sign = match[kind]
             sign = _ALIKE.get(sign, sign)
@@ -252,11 +252,11 @@ def _check_number(digits: str, text: str, end: int, column: int, lookup: Lookup)
 
 def _number(digits: str, column: int) -> Fraction:
     """Return the exact value of a decimal."""
-    whole, rest, power = _PARTS.findall(digits)[0]
-    if (size := len(whole) + len(rest)) > MAX_DIGITS:
+    whole, decimals, power = _PARTS.findall(digits)[0]
+    if (size := len(whole) + len(decimals)) > MAX_DIGITS:
         hint = "write fewer digits, or a fraction"
         raise TextError(f"this number has {size} digits; at most {MAX_DIGITS} are read", column, hint)
-    value = Fraction(int(whole + rest), 10 ** len(rest))
+    value = Fraction(int(whole + decimals), 10 ** len(decimals))
     if not power:
         return value
     if len(power) > 6 or abs(int(power)) > MAX_EXPONENT:
@@ -274,8 +274,8 @@ def _stop(text: str, position: int, columns: Sequence[int]) -> NoReturn:
     if char in _STRANGE:
         message, hint = _STRANGE[char]
         raise TextError(message, column, hint)
-    shown = f"`{char}`" if char.isprintable() else f"the control character U+{ord(char):04X}"
-    raise TextError(f"{shown} has no meaning here", column, "write arithmetic with names, numbers and `+ - * / ^`")
+    quoted = f"`{char}`" if char.isprintable() else f"the control character U+{ord(char):04X}"
+    raise TextError(f"{quoted} has no meaning here", column, "write arithmetic with names, numbers and `+ - * / ^`")
 
 
 class WordPart(NamedTuple):
@@ -315,7 +315,7 @@ def _splits(word: str, lookup: Lookup) -> list[tuple[WordPart, ...]]:
         if start == len(word):
             return ((),)
         complete: list[tuple[WordPart, ...]] = []
-        for part in _parts(word, start, after_function, lookup):
+        for part in _beginnings(word, start, after_function, lookup):
             is_function = part.meaning is not None and part.meaning.kind == "function"
             complete.extend((part, *following) for following in readings(part.end, is_function))
             if len(complete) > 1:
@@ -325,13 +325,13 @@ def _splits(word: str, lookup: Lookup) -> list[tuple[WordPart, ...]]:
     return list(readings(0, False))
 
 
-def _parts(word: str, start: int, after_function: bool, lookup: Lookup) -> list[WordPart]:
+def _beginnings(word: str, start: int, after_function: bool, lookup: Lookup) -> list[WordPart]:
     """Return the known words that may begin at ``start``."""
     if word[start].isdigit():
         digits = re.match(r"\d+", word[start:])
         logarithm = word[:start].endswith(("log", "ln"))  # `log10` and `log2` name other functions
         return [WordPart(None, start, start + digits.end())] if digits and after_function and not logarithm else []
-    parts = []
+    beginnings = []
     for end in range(start + 1, min(len(word), start + lookup.longest + 4) + 1):
         if end < len(word) and not (word[end].isalpha() or word[end].isdigit()):
             continue  # `_` and the dots above a letter belong to what stands before them
@@ -342,5 +342,5 @@ def _parts(word: str, start: int, after_function: bool, lookup: Lookup) -> list[
             continue
         if start and word[start:end].isascii() and meaning.expr in (PI, E):
             continue  # Latin letters are a number only where they begin a word: `piR`, never `spin`
-        parts.append(WordPart(meaning, start, end))
-    return parts
+        beginnings.append(WordPart(meaning, start, end))
+    return beginnings

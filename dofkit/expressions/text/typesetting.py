@@ -179,31 +179,31 @@ class _Setter:
 
     def formula(self) -> str:
         """Return sums with relations and commas between them."""
-        parts = [self.sums()]
+        pieces = [self.sums()]
         while self.next.kind == "relation":
             sign = self.take().text
-            parts += [_RELATIONS.get(sign, sign), self.sums()]
+            pieces += [_RELATIONS.get(sign, sign), self.sums()]
         if self.next.kind != "end":
             raise _NoFormulaError
-        return " ".join(parts)
+        return " ".join(pieces)
 
     def sums(self) -> str:
-        parts = [self.sum()]
+        pieces = [self.sum()]
         while self.takes(","):
-            parts += [",", self.sum()]
-        return " ".join(parts)
+            pieces += [",", self.sum()]
+        return " ".join(pieces)
 
     def sum(self) -> str:
         self.depth += 1
         if self.depth > MAX_DEPTH:
             raise _NoFormulaError
-        parts: list[str] = []
-        while self.next.kind in ("+", "-") or not parts:
+        pieces: list[str] = []
+        while self.next.kind in ("+", "-") or not pieces:
             if self.next.kind in ("+", "-"):
-                parts.append(self.take().text)
-            parts.append(self.product())
+                pieces.append(self.take().text)
+            pieces.append(self.product())
         self.depth -= 1
-        return " ".join(parts)
+        return " ".join(pieces)
 
     def product(self) -> str:
         """Return factors side by side; a quotient's numerator is what was read since the last one."""

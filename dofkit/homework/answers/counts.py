@@ -86,31 +86,31 @@ def number(answer: object, called: frozenset[str] = frozenset(), foreign: frozen
     reason = REASONS.search(script.text)
     body = script if reason is None else script.cut(0, reason.start())
     body = _concluded(body.replaced(_REPLACED, ""))
-    told, first, unread = set[Fraction](), None, set[int]()
+    amounts, first, unread = set[Fraction](), None, set[int]()
     segments = list(_segments(body))
-    named = [one for one in segments if (name := _NAMED.match(one.text)) and plain(name[1]) in called]
-    strange = [one for one in segments if (name := _NAMED.match(one.text)) and plain(name[1]) in _OTHERS - called]
+    named = [part for part in segments if (name := _NAMED.match(part.text)) and plain(name[1]) in called]
+    strange = [part for part in segments if (name := _NAMED.match(part.text)) and plain(name[1]) in _OTHERS - called]
     if segments and len(strange) == len(segments):
         raise DoubtError("it is labelled as a different quantity.", segments[0].columns[0], _HINT)
-    others = [one for one in segments if one not in named and _only_number(one.text)]
+    others = [part for part in segments if part not in named and _only_number(part.text)]
     for segment in [*named, *others] if named else segments:
         try:
-            found = _segment(segment)
+            amount = _segment(segment)
         except DoubtError:
             raise
         except TextError as error:
             first = first or segment.moved(error)
-            unread |= _beside(segment.text)
+            unread |= _numbers_alone(segment.text)
             continue
-        if found is not None and segment not in named and _is_foreign(segment.text, foreign):
+        if amount is not None and segment not in named and _is_foreign(segment.text, foreign):
             raise DoubtError("it is labelled as a different quantity.", segment.columns[0], _HINT)
-        if found is not None:
-            told.add(found)
-    if not told:
+        if amount is not None:
+            amounts.add(amount)
+    if not amounts:
         raise first or TextError("there is no number in this answer", 1, _HINT)
-    if len(told) > 1 or (not named and not told >= unread):
+    if len(amounts) > 1 or (not named and not amounts >= unread):
         raise DoubtError("it gives more than one number.", 1, _HINT)
-    return told.pop()
+    return amounts.pop()
 
 
 def _concluded(script: Script) -> Script:
@@ -127,7 +127,7 @@ def _is_foreign(text: str, foreign: frozenset[str]) -> bool:
     return not foreign.isdisjoint(said) and "=" not in text
 
 
-def _beside(text: str) -> set[int]:
+def _numbers_alone(text: str) -> set[int]:
     """The numbers that stand alone in a part that is not read; `one` is an article in what is longer than two words."""
     alone = [plain(w) for w in _ALONE.findall(text)]
     least = 1 if len(alone) > _ARTICLE_WORDS else 0
@@ -165,7 +165,7 @@ def _only_number(text: str) -> bool:
 
 def _segment(script: Script) -> Fraction | None:
     """The number of a part; None where it holds none. Raises DoubtError where its sums do not agree."""
-    place, found, failure = 0, list[Fraction](), None
+    place, amounts, failure = 0, list[Fraction](), None
     text = script.text
     bound = _BOUND.search(text)
     if bound is not None:
@@ -183,17 +183,17 @@ def _segment(script: Script) -> Fraction | None:
                 raise DoubtError("it gives more than one number.", piece.columns[0], _HINT) from None
             continue
         if value is not None:
-            found.append(value)
+            amounts.append(value)
             failure = None
         elif cut[0] >= len(text):
             failure = failure or TextError("there is no number here", 1, _HINT)
-    if len(set(found)) > 1:
+    if len(set(amounts)) > 1:
         raise DoubtError("its numbers contradict each other.", script.columns[0], _HINT)
-    if failure is not None and not found:
+    if failure is not None and not amounts:
         raise failure
-    if found and found[-1] < 0 and _BETWEEN.fullmatch(script.text):
+    if amounts and amounts[-1] < 0 and _BETWEEN.fullmatch(script.text):
         raise DoubtError("it gives more than one number.", script.columns[0], _HINT)
-    return found[-1] if found else None
+    return amounts[-1] if amounts else None
 
 
 def _value(script: Script) -> Fraction | None:
@@ -217,12 +217,12 @@ def _value(script: Script) -> Fraction | None:
         script = script.cut(stated.end())
     figures = _FIGURE.search(script.text)
     start = len(script.text) if figures is None else figures.start()
-    rest = script.replaced(_WORD, lambda m: _counted(m, m.start() < start)).replaced(_ENDING, "")
-    if not rest.text.strip():
+    remainder = script.replaced(_WORD, lambda m: _counted(m, m.start() < start)).replaced(_ENDING, "")
+    if not remainder.text.strip():
         return None
-    if re.search(r"[^\W\d_]", rest.text) and not _FIGURE.search(rest.text):
-        return None if _is_remark(rest.text) else _refused(rest)
-    return _arithmetic(rest)
+    if re.search(r"[^\W\d_]", remainder.text) and not _FIGURE.search(remainder.text):
+        return None if _is_remark(remainder.text) else _refused(remainder)
+    return _arithmetic(remainder)
 
 
 def _is_remark(text: str) -> bool:
@@ -250,10 +250,10 @@ def _before_number(match: re.Match[str]) -> bool:
 
 def _arithmetic(script: Script) -> Fraction:
     try:
-        found = parse_relations(script.text, Names(allow_time=False, allow_velocities=False))
+        relations = parse_relations(script.text, Names(allow_time=False, allow_velocities=False))
     except TextError as error:
         raise script.moved(TextError(error.message, error.column, _HINT)) from None
-    value = found[0].left
-    if len(found) > 1 or value.op != "num" or not isinstance(value.args[0], Fraction):
+    value = relations[0].left
+    if len(relations) > 1 or value.op != "num" or not isinstance(value.args[0], Fraction):
         raise TextError("this is not a number", script.columns[0], _HINT)
     return value.args[0]

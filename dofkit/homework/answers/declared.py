@@ -36,7 +36,7 @@ class DeclaredNames:
     names: Names
     coordinates: tuple[str, ...]
     constraints: tuple[str, ...]
-    also: frozenset[str]
+    also: tuple[str, ...]
     others: Mapping[str, str]
     constants: tuple[str, ...]
 
@@ -51,7 +51,7 @@ class DeclaredNames:
             replace(names, parameters={**names.parameters, **more}) if more else names,
             tuple(c.name for c in coordinate_table(scene).coordinates),
             constraints,
-            frozenset(also),
+            tuple(also),
             others,
             tuple(n for n, e in names.parameters.items() if e.op == "sym"),
         )
@@ -59,7 +59,7 @@ class DeclaredNames:
     @cached_property
     def with_also(self) -> Names:
         """The names with the further coordinates, which are read in every notation of a declared one."""
-        return replace(self.names, coordinates=self.names.coordinates | self.also)
+        return replace(self.names, coordinates=self.names.coordinates | {*self.also})
 
 
 def usual_name(word: str, names: Names) -> Expr | None:

@@ -53,12 +53,15 @@ _CONTRACTED = (
 )
 
 
-def says_none(text: str, known: Collection[str] = (), every: bool = False) -> bool:
-    """Does a text say that there is none? ``known``: names, which are no words; ``every``: `all are needed` says so."""
-    told = plain(REASONS.split(text, maxsplit=1)[0])
-    first = plain(re.split(_PARTS, told, maxsplit=1)[0])
-    names = {plain(name) for name in known}
-    return any(_denies(part, names) or (every and _needs_all(part, names)) for part in (told, first))
+def says_none(text: str, vocabulary: Collection[str] = (), every: bool = False) -> bool:
+    """Return whether a text says that there is none.
+
+    ``vocabulary``: names, which are no words; ``every``: `all are needed` says so.
+    """
+    lowered = plain(REASONS.split(text, maxsplit=1)[0])
+    first = plain(re.split(_PARTS, lowered, maxsplit=1)[0])
+    names = {plain(name) for name in vocabulary}
+    return any(_denies(part, names) or (every and _needs_all(part, names)) for part in (lowered, first))
 
 
 def beside_none(text: str) -> list[str]:
@@ -67,53 +70,53 @@ def beside_none(text: str) -> list[str]:
     >>> beside_none("y = C x, not integrable"), beside_none("y = C x"), beside_none("none")
     (['y = C x'], [], [])
     """
-    parts = [part.strip(" ()") for part in re.split(rf"{_PARTS}|{_ANDS}", REASONS.split(text, maxsplit=1)[0])]
-    denied = [part for part in parts if _denies(plain(part)) and re.search(r"[^\W\d_]", part)]
-    return [part for part in parts if part and part not in denied] if denied else []
+    pieces = [part.strip(" ()") for part in re.split(rf"{_PARTS}|{_ANDS}", REASONS.split(text, maxsplit=1)[0])]
+    denied = [part for part in pieces if _denies(plain(part)) and re.search(r"[^\W\d_]", part)]
+    return [part for part in pieces if part and part not in denied] if denied else []
 
 
 def affirms(part: str) -> bool:
-    """Does a part of an answer say yes, or of what is asked that it is so: `it is integrable`?"""
-    found = _tokens(plain(part))
-    return plain(part) in YES or (bool(found) and _closed(found) and _denial(found) == 0 and _names_it(found))
+    """Return whether a part of an answer says yes, or affirms what is asked: `it is integrable`."""
+    tokens = _tokens(plain(part))
+    return plain(part) in YES or (bool(tokens) and _closed(tokens) and _denial(tokens) == 0 and _names_it(tokens))
 
 
-def _denies(told: str, names: Collection[str] = ()) -> bool:
-    """Does a text in small letters say that there is none, in a known phrase or in words of a closed list?"""
-    if told in NONE:
+def _denies(lowered: str, names: Collection[str] = ()) -> bool:
+    """Return whether a text in small letters says that there is none, by a phrase or by words of a closed list."""
+    if lowered in NONE:
         return True
-    found = _tokens(told)
-    if not found or not _closed(found) or not _EVERY.isdisjoint(found) or any(w in names for w in found):
+    tokens = _tokens(lowered)
+    if not tokens or not _closed(tokens) or not _EVERY.isdisjoint(tokens) or any(w in names for w in tokens):
         return False
-    return _denial(found) == 1 and (_names_it(found) or not _NONES.isdisjoint(found))
+    return _denial(tokens) == 1 and (_names_it(tokens) or not _NONES.isdisjoint(tokens))
 
 
-def _needs_all(told: str, names: Collection[str]) -> bool:
+def _needs_all(lowered: str, names: Collection[str]) -> bool:
     """`all are needed`, `alle sind unabhängig`."""
-    found = _tokens(told)
-    whole = bool(found) and _closed(found) and not _EVERY.isdisjoint(found) and not any(w in names for w in found)
-    return whole and _denial(found) == 0 and any(_NEEDED.match(w) for w in found)
+    tokens = _tokens(lowered)
+    whole = bool(tokens) and _closed(tokens) and not _EVERY.isdisjoint(tokens) and not any(w in names for w in tokens)
+    return whole and _denial(tokens) == 0 and any(_NEEDED.match(w) for w in tokens)
 
 
-def _tokens(told: str) -> list[str]:
+def _tokens(lowered: str) -> list[str]:
     """The words of a text; none where it holds anything else."""
     for pattern, by in _CONTRACTED:
-        told = pattern.sub(by, told)
-    return [] if re.search(r"[^\w\s'’.,-]|\d|_", told) else re.findall(r"[^\W\d_]+(?:-[^\W\d_]+)*", told)
+        lowered = pattern.sub(by, lowered)
+    return [] if re.search(r"[^\w\s'’.,-]|\d|_", lowered) else re.findall(r"[^\W\d_]+(?:-[^\W\d_]+)*", lowered)
 
 
-def _names_it(found: list[str]) -> bool:
-    return any(_DENIED.fullmatch(w) for w in found)
+def _names_it(tokens: list[str]) -> bool:
+    return any(_DENIED.fullmatch(w) for w in tokens)
 
 
-def _closed(found: list[str]) -> bool:
-    """Are all words of the lists?"""
-    known = _DENIALS | _WITH_DENIALS | _AROUND | _EVERY | FILLING
-    return all(w in known or _DENIED.fullmatch(w) or _NEEDED.match(w) for w in found)
+def _closed(tokens: list[str]) -> bool:
+    """Return whether all words are in the lists."""
+    vocabulary = _DENIALS | _WITH_DENIALS | _AROUND | _EVERY | FILLING
+    return all(w in vocabulary or _DENIED.fullmatch(w) or _NEEDED.match(w) for w in tokens)
 
 
-def _denial(found: list[str]) -> int:
-    """How often it is denied."""
-    prefixed = sum(1 for w in found if (m := _DENIED.fullmatch(w)) and m["prefix"])
-    denied = sum(w in _DENIALS for w in found)
-    return prefixed + (denied or int(any(w in _WITH_DENIALS for w in found)))
+def _denial(tokens: list[str]) -> int:
+    """Return the number of denials."""
+    prefixed = sum(1 for w in tokens if (m := _DENIED.fullmatch(w)) and m["prefix"])
+    denied = sum(w in _DENIALS for w in tokens)
+    return prefixed + (denied or int(any(w in _WITH_DENIALS for w in tokens)))

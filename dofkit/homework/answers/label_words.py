@@ -151,10 +151,10 @@ def read_labels(answer: Given) -> Labels:
     A negation before a label, joined to it or not, turns it round; what else a sentence says is read over. Raises
     TextError where there is no label, or a word that may be one and cannot be read; DoubtError for questions.
     """
-    found: dict[str, frozenset[bool]] = {}
+    labels: dict[str, frozenset[bool]] = {}
     negated, unread = False, None
-    given = _split(answer)
-    for place, word in enumerate(given):
+    sequence = _split(answer)
+    for place, word in enumerate(sequence):
         text = plain(word.text.strip(".:!()\"'"))
         if text in DOUBTS or text in _HALF_SAID or text.endswith("%"):
             raise DoubtError("a word makes the answer ambiguous.", word.column, _HINT)
@@ -163,21 +163,21 @@ def read_labels(answer: Given) -> Labels:
             if text.endswith("?"):
                 raise DoubtError("a question mark makes the answer ambiguous.", word.column, _HINT)
             part, holds = label
-            found[part] = found.get(part, frozenset()) | {holds != negated}
+            labels[part] = labels.get(part, frozenset()) | {holds != negated}
         elif unread is None and "nom" in text and text not in _ORDINARY:
             unread = word
         if text in _NEGATIONS:
             negated = not negated
         elif label is not None or text not in _FILLING:
             if negated and label is None:
-                _reasoned(given[max(place - _BEFORE, 0) : place + _NEAR])
+                _reasoned(sequence[max(place - _BEFORE, 0) : place + _NEAR])
             negated = False
-    if found and negated:
-        raise DoubtError("it is not clear what is negated.", given[-1].column, _HINT)
-    if unread is not None or not found:
-        told = f"'{unread.text[:40]}' is not a label" if unread is not None else "there is no label in this answer"
-        raise TextError(told, unread.column if unread is not None else 1, _HINT)
-    return found
+    if labels and negated:
+        raise DoubtError("it is not clear what is negated.", sequence[-1].column, _HINT)
+    if unread is not None or not labels:
+        message = f"'{unread.text[:40]}' is not a label" if unread is not None else "there is no label in this answer"
+        raise TextError(message, unread.column if unread is not None else 1, _HINT)
+    return labels
 
 
 def _reasoned(following: list[Word]) -> None:
@@ -210,26 +210,26 @@ def _split(answer: Given) -> list[Word]:
     for pattern, by in _PHRASES:
         script = script.replaced(pattern, by)
     script = script.replaced(_SLASH, " ")
-    found = [Word(w.text, script.columns[w.column - 1]) for w in split_words(script.text)]
-    return [Word(part, w.column) for w in found for part in _parted(w.text)]
+    separated = [Word(w.text, script.columns[w.column - 1]) for w in split_words(script.text)]
+    return [Word(part, w.column) for w in separated for part in _parted(w.text)]
 
 
 def _answered(match: re.Match[str]) -> str:
     """A label that a word after it affirms or denies."""
-    label, told = match[1], plain(match[3])
+    label, reply = match[1], plain(match[3])
     if _label(plain(label)) is None:
         return match[0]
     before = _JOINED.search(match.string[: match.start()])
-    if told in NO and before is not None and _label(plain(before[1])) is not None:
+    if reply in NO and before is not None and _label(plain(before[1])) is not None:
         raise DoubtError("it is not clear what is negated.", None, _HINT)
-    return f"not {label}" if told in NO else label
+    return f"not {label}" if reply in NO else label
 
 
 def _parted(text: str) -> list[str]:
     """`holonomic-scleronomic` is two labels."""
-    parts = _HYPHEN.split(text)
-    if len(parts) == 2 and all(_label(plain(part)) for part in parts):
-        return parts
+    halves = _HYPHEN.split(text)
+    if len(halves) == 2 and all(_label(plain(part)) for part in halves):
+        return halves
     return [text]
 
 
@@ -240,8 +240,8 @@ def _label(text: str) -> tuple[str, bool] | None:
     if bare in _WORDS:
         return _WORDS[bare]
     negated = next((n for n in ("non", "not", "nicht", "nao", "no") if bare.startswith(n)), "")
-    rest = bare[len(negated) :]
-    near = closest(rest, _GUESSED, ALIKE) if len(rest) <= _LONGEST else None
+    stem = bare[len(negated) :]
+    near = closest(stem, _GUESSED, ALIKE) if len(stem) <= _LONGEST else None
     if near is None:
         return None
     part, holds = _WORDS[near]
@@ -249,15 +249,15 @@ def _label(text: str) -> tuple[str, bool] | None:
 
 
 def mentions(part: str, answer: Given) -> bool:
-    """Is something said of a part in other words, such as `integrable` or `time`?"""
+    """Return whether a part is described in other words, such as `integrable` or `time`."""
     return isinstance(answer, str) and _ABOUT[part].search(plain(answer)) is not None
 
 
 def word_of(part: str, holds: bool) -> str:
-    """What a part is called."""
+    """Return the name of a part."""
     return TERMS[part].holds if holds else TERMS[part].fails
 
 
-def label_text(given: Labels) -> str:
+def label_text(labels: Labels) -> str:
     """Labels as they were understood."""
-    return ", ".join(word_of(part, holds) for part in TERMS for holds in sorted(given.get(part, ()), reverse=True))
+    return ", ".join(word_of(part, holds) for part in TERMS for holds in sorted(labels.get(part, ()), reverse=True))

@@ -196,7 +196,7 @@ def with_differentials(script: Script) -> Script:
 
 
 def _closed(text: str, start: int) -> int | None:
-    """Where the bracket that opens at a place is closed."""
+    """Return the place where the bracket that opens at ``start`` is closed, or None."""
     depth = 0
     for i in range(start, len(text)):
         depth += (text[i] in "([{") - (text[i] in ")]}")
@@ -229,8 +229,11 @@ def _as_equation(script: Script) -> Script:
     for i in range(match.end() + 1, end):
         depth += (script.text[i] in "([{") - (script.text[i] in ")]}")
         if script.text[i] == "," and depth == 0:
-            left, right = script.cut(match.end() + 1, i), script.cut(i + 1, end)
-            return Script(f"{left.text} = {right.text}", (*left.columns[:-1], *left.columns[-1:] * 3, *right.columns))
+            left_side, right = script.cut(match.end() + 1, i), script.cut(i + 1, end)
+            return Script(
+                f"{left_side.text} = {right.text}",
+                (*left_side.columns[:-1], *left_side.columns[-1:] * 3, *right.columns),
+            )
     return script
 
 

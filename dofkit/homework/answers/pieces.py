@@ -98,19 +98,19 @@ class Pieces:
 def pieces_of(answer: object, names: Names) -> Pieces:
     """The equations of an answer, a text or a list. Raises TextError where there is none."""
     texts = [one_text(part) for part in answer] if isinstance(answer, (list, tuple)) else [one_text(answer)]
-    found: list[Script] = []
+    equations: list[Script] = []
     derived = False
     for text in texts:
         script = script_of(text)
         if "d" not in names.coordinates and "d" not in names.parameters:
             script = with_differentials(script)
         derived = derived or ARROW in script.text
-        found += [p for part in _split(script, names) if (p := _cleaned(part, names)) is not None]
-    if not found:
+        equations += [p for part in _split(script, names) if (p := _cleaned(part, names)) is not None]
+    if not equations:
         raise TextError("there is no equation", 1, "write an equation such as x^2 + y^2 = l^2")
-    if len(found) > MOST_PIECES:
-        raise TextError(f"there are {len(found)} equations", found[MOST_PIECES].columns[0], "give fewer")
-    return Pieces(tuple(found), derived and len(found) > 1)
+    if len(equations) > MOST_PIECES:
+        raise TextError(f"there are {len(equations)} equations", equations[MOST_PIECES].columns[0], "give fewer")
+    return Pieces(tuple(equations), derived and len(equations) > 1)
 
 
 def _split(script: Script, names: Names) -> Iterator[Script]:
@@ -135,14 +135,14 @@ def _joined(script: Script) -> list[Script]:
         goes_on = (after[:1] in tuple("+-*/=<>)^") and not bulleted) or before[-1:] in tuple("+-*/=(<>^,")
         if not goes_on or before[-1:] == ",":
             cuts.append(match.span())
-    found, place = [], 0
+    joined, place = [], 0
     for start, end in [*cuts, (len(text), len(text))]:
-        found.append(script.cut(place, start).replaced(re.compile(r"[\r\n]"), " "))
+        joined.append(script.cut(place, start).replaced(re.compile(r"[\r\n]"), " "))
         place = end
     bullet = re.compile(r"\A\s*[-*•]\s+")
-    if len(found) > 1 and all(bullet.match(one.text) for one in found if one.text.strip()):
-        found = [one.replaced(bullet, "") for one in found]
-    return found
+    if len(joined) > 1 and all(bullet.match(script_line.text) for script_line in joined if script_line.text.strip()):
+        joined = [script_line.replaced(bullet, "") for script_line in joined]
+    return joined
 
 
 def _last_line(text: str) -> str:
@@ -160,7 +160,7 @@ def _at_signs(text: str) -> Iterator[tuple[int, int]]:
 
 
 def _within_brackets(before: str) -> bool:
-    """Is a parenthesis open behind a text? One that closes none, as behind an equation's number, counts nothing."""
+    """Return whether a parenthesis is open after a text; one that closes none is ignored."""
     depth = 0
     for char in before:
         depth = max(0, depth + (char == "(") - (char == ")"))
@@ -209,12 +209,12 @@ def _check(remark: str, column: int) -> None:
         raise DoubtError("a remark makes the answer ambiguous.", column, None)
 
 
-def _known(word: str, names: Names) -> bool:
+def _is_declared(word: str, names: Names) -> bool:
     return names.lookup.meaning(word) is not None
 
 
 def _readable(word: str, names: Names) -> bool:
-    """Is a word a name, or a product of names, such as `mgl`?"""
+    """Return whether a word is a name, or a product of names, such as `mgl`."""
     try:
         return bool(read_word(word, names.lookup, 1, False))
     except TextError:
@@ -222,19 +222,21 @@ def _readable(word: str, names: Names) -> bool:
 
 
 def _is_lead(text: str, names: Names) -> bool:
-    """Do words stand here, none of which is a name? A name with a number, such as g1, titles an equation too."""
-    found = re.findall(r"\w+", text)
+    """Return whether these are words, none of which is a name; `g1:` titles an equation too."""
+    lead_words = re.findall(r"\w+", text)
     least = 0 if ":" in text else 1
-    return not any(len(w) > least and _known(w, names) for w in found) and (len(found) > 1 or ":" in text)
+    return not any(len(w) > least and _is_declared(w, names) for w in lead_words) and (
+        len(lead_words) > 1 or ":" in text
+    )
 
 
 def _of_coordinates(text: str, names: Names) -> bool:
-    """Does the left side hold coordinates, as `x y = const`?"""
+    """Return whether the left side contains coordinates, as `x y = const`."""
     try:
-        found = parse_relations(re.split(r"[=∈:]", text)[0], names)
+        relations = parse_relations(re.split(r"[=∈:]", text)[0], names)
     except TextError:
         return any(w in names.coordinates for w in re.findall(r"\w+", text))
-    return any(s.args[0] != "parameter" for c in found for s in c.left.symbols)
+    return any(s.args[0] != "parameter" for c in relations for s in c.left.symbols)
 
 
 def _is_remark(text: str, names: Names, least: int = 5) -> bool:
@@ -243,9 +245,9 @@ def _is_remark(text: str, names: Names, least: int = 5) -> bool:
         return False
     if all(_readable(w, names) for w in _WORDS.findall(text)):
         return False
-    found = [plain(w) for w in _WORDS.findall(text)]
-    unknown = [w for w in found if not _known(w, names)]
-    if not unknown or any(len(w) > 1 and _known(w, names) for w in found):
+    remark_words = [plain(w) for w in _WORDS.findall(text)]
+    unknown = [w for w in remark_words if not _is_declared(w, names)]
+    if not unknown or any(len(w) > 1 and _is_declared(w, names) for w in remark_words):
         return False
     long = [w for w in unknown if len(w) > 3]
     if any(w in _REMARKED for w in unknown) or len(unknown) > 2 or (len(unknown) > 1 and bool(long)):
@@ -259,14 +261,14 @@ def with_energies(answer: Given, names: Names) -> Given:
         *steps, last = [script.text for script in pieces_of(answer, names).scripts]
     except TextError:
         return answer
-    told = [_STEP.match(step) for step in steps]
+    definitions = [_STEP.match(step) for step in steps]
     result = _RESULT.match(last)
-    if result is None or not told or None in told:
+    if result is None or not definitions or None in definitions:
         return answer
-    energies = {step["name"]: f"({step['value'].strip()})" for step in told if step is not None}
+    energies = {step["name"]: f"({step['value'].strip()})" for step in definitions if step is not None}
     if any(names.lookup.meaning(name) is not None for name in energies):
         return answer
-    return _NAME.sub(lambda found: energies.get(found[0], found[0]), result["value"])
+    return _NAME.sub(lambda energy: energies.get(energy[0], energy[0]), result["value"])
 
 
 def plainer(script: Script, names: Names) -> Script:

@@ -128,16 +128,16 @@ def plain(text: str) -> str:
 
 
 def takes_back(remark: str) -> bool:
-    """Does a short remark leave open what stands before it: `?`, `not sure`, `maybe 2`?
+    """Return whether a short remark leaves open what precedes it: `?`, `not sure`, `maybe 2`.
 
     >>> takes_back("not sure"), takes_back("it would be 2 without the rod")
     (True, False)
     """
-    told = re.findall(r"[^\W\d_]+(?:['’-][^\W\d_]+)*", plain(remark))
-    doubted = len(told) <= _DOUBTFUL_WORDS and not _TAKING_BACK.isdisjoint(told)
+    remark_words = re.findall(r"[^\W\d_]+(?:['’-][^\W\d_]+)*", plain(remark))
+    doubted = len(remark_words) <= _DOUBTFUL_WORDS and not _TAKING_BACK.isdisjoint(remark_words)
     return "?" in remark or doubted or _UNSURE.search(plain(remark)) is not None
 
 
 def says_nothing(answer: object) -> bool:
-    """Is there no answer: nothing, a dash, a question mark?"""
+    """Return whether there is no answer: nothing, a dash, a question mark."""
     return isinstance(answer, str) and answer.strip().lower() in NOTHING_SAID

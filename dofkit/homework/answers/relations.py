@@ -48,7 +48,7 @@ def is_constant_name(name: str) -> bool:
 class AnswerReading(NamedTuple):
     """One way to read an answer.
 
-    ``bare``: which relations were written without a sign, as `x y`; ``own``: names that nobody declared;
+    ``bare``: which relations were written without a sign, as `x y`; ``undeclared``: names that nobody declared;
     ``moving``: those of them whose derivatives occur; ``meant``: spelling -> the declared name it was read as;
     ``derived``: arrows stand between the equations; ``places``: the columns of the names of its own; ``rank``: how much
     the reading supposes, 0 for nothing.
@@ -56,7 +56,7 @@ class AnswerReading(NamedTuple):
 
     relations: tuple[Comparison, ...]
     bare: tuple[bool, ...]
-    own: tuple[str, ...] = ()
+    undeclared: tuple[str, ...] = ()
     moving: frozenset[str] = frozenset()
     meant: Mapping[str, str] = {}
     derived: bool = False
@@ -64,7 +64,7 @@ class AnswerReading(NamedTuple):
     rank: int = 0
 
     @property
-    def shown(self) -> str:
+    def text(self) -> str:
         """In the grammar of scenes."""
         return "; ".join(as_text(c) for c in self.relations)
 
@@ -75,9 +75,9 @@ class AnswerReading(NamedTuple):
 
     @property
     def on_coordinates(self) -> bool:
-        """Does it say something of the scene's coordinates?"""
+        """Return whether it contains coordinates of the scene."""
         symbols = {s for c in self.relations for e in (c.left, c.right) for s in e.symbols}
-        return any(s.args[0] != "parameter" and s.args[-1] not in self.own for s in symbols)
+        return any(s.args[0] != "parameter" and s.args[-1] not in self.undeclared for s in symbols)
 
     def with_own(self, names: Iterable[str]) -> AnswerReading:
         """Return the reading with these coordinates as names of the answer's own."""
@@ -89,14 +89,14 @@ class AnswerReading(NamedTuple):
             Comparison(substitute(c.left, still), c.relation, substitute(c.right, still), c.column)
             for c in self.relations
         )
-        own = (*self.own, *(n for n, kinds in used.items() if kinds))
-        return self._replace(relations=relations, own=own, moving=self.moving | moving)
+        undeclared = (*self.undeclared, *(n for n, kinds in used.items() if kinds))
+        return self._replace(relations=relations, undeclared=undeclared, moving=self.moving | moving)
 
     def read(self, constants: frozenset[str] = frozenset()) -> Read:
         """As equations for a scene."""
         symbols = {s for c in self.relations for side in (c.left, c.right) for s in side.symbols}
         moving = any(s.args[0] not in ("coordinate", "parameter", "time") for s in symbols)
-        return Read(tuple(as_text(c) for c in self.relations), constants, self.shown, moving)
+        return Read(tuple(as_text(c) for c in self.relations), constants, self.text, moving)
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ class AnswerNames:
     """
 
     names: Names
-    own: tuple[str, ...] = ()
+    undeclared: tuple[str, ...] = ()
     moving: frozenset[str] = frozenset()
     meant: Mapping[str, str] = field(default_factory=dict)
     places: Mapping[str, int] = field(default_factory=dict)
@@ -122,13 +122,13 @@ class AnswerNames:
     rank: int = 0
     frequencies: bool = False
 
-    def known(self) -> Names:
+    def as_names(self) -> Names:
         """All of them as names of a text; `e` is Euler's number unless it is declared."""
         base = self.names
         more: dict[str, Expr] = {**({"e": E} if self.euler else {}), **self.usual}
         for word, name in self.meant.items():
             more[word] = coordinate(name) if name in base.coordinates else base.parameters[name]
-        more.update({name: parameter(name) for name in self.own if name not in self.moving})
+        more.update({name: parameter(name) for name in self.undeclared if name not in self.moving})
         return Names(
             base.coordinates | self.moving,
             {**base.parameters, **more},
@@ -140,10 +140,10 @@ class AnswerNames:
         )
 
     def declares(self, word: str) -> bool:
-        """Does a word mean something already?"""
+        """Return whether a word has a meaning already."""
         return (
             (self.euler and word == "e")
-            or word in self.own
+            or word in self.undeclared
             or word in self.usual
             or self.names.lookup.meaning(word) is not None
         )
@@ -155,7 +155,7 @@ class AnswerNames:
             return replace(self, euler=True)
         rate = _RATE.fullmatch(word)
         stem = rate[1] + (rate[2] or "") if rate else word[1:] if word[0] == "d" and len(word) > 1 else ""
-        if stem and stem in self.own and stem not in self.moving:
+        if stem and stem in self.undeclared and stem not in self.moving:
             return replace(self, moving=self.moving | {stem})
         twin = self._twin(word) or (stem and self._twin(stem))
         if twin and word not in self.meant:
@@ -163,16 +163,16 @@ class AnswerNames:
         quantity = None if word in self.usual else usual_name(word, self._names_with_accelerations)
         if quantity is not None:
             return replace(self, usual={**self.usual, word: quantity})
-        if not self.free or len(self.own) == MOST_OWN:
+        if not self.free or len(self.undeclared) == MOST_OWN:
             return None
         letter = self._letter(word)
         if letter is not None:
             return letter
         if stem and rate is not None and self._may_be_own(stem):
-            return replace(self, own=(*self.own, stem), moving=self.moving | {stem})
+            return replace(self, undeclared=(*self.undeclared, stem), moving=self.moving | {stem})
         if stem and self._may_be_own(stem) and spelled(stem) in _LONG:
-            return replace(self, own=(*self.own, stem), moving=self.moving | {stem})
-        return replace(self, own=(*self.own, word)) if self._may_be_own(word) else None
+            return replace(self, undeclared=(*self.undeclared, stem), moving=self.moving | {stem})
+        return replace(self, undeclared=(*self.undeclared, word)) if self._may_be_own(word) else None
 
     @property
     def _names_with_accelerations(self) -> Names:
@@ -181,11 +181,11 @@ class AnswerNames:
     def _twin(self, word: str) -> str | None:
         """The one declared name that differs by capitals and `_` only."""
         declared = (*self.names.coordinates, *self.names.parameters)
-        found = {name for name in declared if unmarked(name) == unmarked(word)}
-        return found.pop() if len(found) == 1 else None
+        twins = {name for name in declared if unmarked(name) == unmarked(word)}
+        return twins.pop() if len(twins) == 1 else None
 
     def _may_be_own(self, word: str) -> bool:
-        """Is it a short name? ``x_A`` is none where x is declared, as z is none: they are meant for coordinates."""
+        """Return whether it is a short name; z, and ``x_A`` if x is declared, are meant for coordinates."""
         if word in _CARTESIAN:
             return False
         stem, _, index = word.partition("_")
@@ -199,20 +199,20 @@ class AnswerNames:
         """With the one letter of a word that is no name, where all the others are: `Cx` is C x, `Ce^x` C e^x."""
         if len(word) < 2 or spelled(word) in _LONG or "_" in word or _WHOLE.match(word):
             return None
-        found = []
+        candidates = []
         for base in (self, replace(self, euler="e" in word or self.euler)):
             for letter in dict.fromkeys(["", *(c for c in word if c.isalpha() and not base.declares(c))]):
                 if letter and not base._may_be_own(letter):
                     continue
-                grown = replace(base, own=(*base.own, letter)) if letter else base
+                grown = replace(base, undeclared=(*base.undeclared, letter)) if letter else base
                 try:
-                    read_word(word, grown.known().lookup, 1, False)
+                    read_word(word, grown.as_names().lookup, 1, False)
                 except TextError:
                     continue
-                found.append(grown)
-            if found:
+                candidates.append(grown)
+            if candidates:
                 break
-        return found[0] if len(found) == 1 else None
+        return candidates[0] if len(candidates) == 1 else None
 
 
 def with_explained_names(ways: Iterable[AnswerReading], names: DeclaredNames) -> list[AnswerReading]:
@@ -223,7 +223,7 @@ def with_explained_names(ways: Iterable[AnswerReading], names: DeclaredNames) ->
     """
     kept, failure = [], None
     for way in ways:
-        strange = [name for name in way.own if name not in names.also and not is_constant_name(name)]
+        strange = [name for name in way.undeclared if name not in names.also and not is_constant_name(name)]
         sums = [c.left.symbols | c.right.symbols for c in way.relations]
         used = {str(s.args[1]) for symbols in sums for s in symbols if len(s.args) > 1}
         counts = {name: sum(any(s.args[-1] == name for s in symbols) for symbols in sums) for name in strange}
@@ -249,9 +249,9 @@ def readings_of(
     """
     pieces = pieces_of(answer, vocabulary.names)
     defined = {word for script in pieces.scripts for word in _defined_constants(script, vocabulary)}
-    vocabulary = replace(vocabulary, own=(*vocabulary.own, *sorted(defined)))
+    vocabulary = replace(vocabulary, undeclared=(*vocabulary.undeclared, *sorted(defined)))
     if lead is not None:
-        pieces = replace(pieces, scripts=tuple(lead(one) for one in pieces.scripts))
+        pieces = replace(pieces, scripts=tuple(lead(piece) for piece in pieces.scripts))
     return list(_readings(pieces, vocabulary))
 
 
@@ -262,19 +262,28 @@ def _readings(pieces: Pieces, vocabulary: AnswerNames) -> Iterator[AnswerReading
         script = plainer(script, vocabulary.names)
         if pieces.derived and n + 1 < len(pieces.scripts) and not _readable(script, vocabulary):
             continue
-        for relations, bare, own in ways:
-            for found, grown in _ways(script, own):
-                alone = len(found) == 1 and not _RELATION.search(script.text)
-                more.append(((*relations, *found), (*bare, *[alone] * len(found)), grown))
+        for relations, bare, extended in ways:
+            for more_relations, grown in _ways(script, extended):
+                alone = len(more_relations) == 1 and not _RELATION.search(script.text)
+                more.append(((*relations, *more_relations), (*bare, *[alone] * len(more_relations)), grown))
         ways = more
         if len(ways) > MOST_READINGS:
             raise DoubtError("it can be read in many ways.", script.columns[0], "write parentheses")
-    for relations, bare, own in ways:
-        told = [c.left != c.right or not own.usual for c in relations]
-        if any(told) and not all(told):
-            relations = tuple(c for c, kept in zip(relations, told, strict=True) if kept)
-            bare = tuple(b for b, kept in zip(bare, told, strict=True) if kept)
-        yield AnswerReading(relations, bare, own.own, own.moving, own.meant, pieces.derived, own.places, own.rank)
+    for relations, bare, extended in ways:
+        informative = [c.left != c.right or not extended.usual for c in relations]
+        if any(informative) and not all(informative):
+            relations = tuple(c for c, kept in zip(relations, informative, strict=True) if kept)
+            bare = tuple(b for b, kept in zip(bare, informative, strict=True) if kept)
+        yield AnswerReading(
+            relations,
+            bare,
+            extended.undeclared,
+            extended.moving,
+            extended.meant,
+            pieces.derived,
+            extended.places,
+            extended.rank,
+        )
 
 
 def _readable(script: Script, vocabulary: AnswerNames) -> bool:
@@ -293,12 +302,12 @@ def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Compa
     script = _with_both_signs(script)
     while True:
         try:
-            relations = parse_relations(script.text, vocabulary.known())
+            relations = parse_relations(script.text, vocabulary.as_names())
             if not (other := _of_other_meaning(script, vocabulary)):
                 yield relations, vocabulary
                 return
             usual = {word: e for word, e in vocabulary.usual.items() if word not in other}
-            vocabulary = replace(vocabulary, usual=usual, own=(*vocabulary.own, *other))
+            vocabulary = replace(vocabulary, usual=usual, undeclared=(*vocabulary.undeclared, *other))
         except AmbiguousError as error:
             if not error.readings:
                 raise script.moved(error) from None
@@ -319,7 +328,7 @@ def _ways(script: Script, vocabulary: AnswerNames) -> Iterator[tuple[tuple[Compa
                 moved = script.moved(error)
                 raise UnknownNameError(moved.message, moved.column, moved.hint) from None
             column = script.moved(error).column or 1
-            places = {**dict.fromkeys(set(grown.own) - set(vocabulary.own), column), **vocabulary.places}
+            places = {**dict.fromkeys(set(grown.undeclared) - set(vocabulary.undeclared), column), **vocabulary.places}
             vocabulary = replace(grown, places=places)
         except TextError as error:
             raise script.moved(error) from None
@@ -330,7 +339,9 @@ def _as_frequency(
 ) -> Iterator[tuple[tuple[Comparison, ...], AnswerNames]]:
     """Yield the readings in which omega is a frequency, and not the velocity of the only angle."""
     if vocabulary.frequencies and grown is not None and "omega" in set(grown.usual) - set(vocabulary.usual):
-        yield from _ways(script, replace(vocabulary, own=(*vocabulary.own, "omega"), rank=vocabulary.rank + 1))
+        yield from _ways(
+            script, replace(vocabulary, undeclared=(*vocabulary.undeclared, "omega"), rank=vocabulary.rank + 1)
+        )
 
 
 def _defined_constants(script: Script, vocabulary: AnswerNames) -> Iterator[str]:
@@ -348,10 +359,10 @@ def _of_other_meaning(script: Script, vocabulary: AnswerNames) -> tuple[str, ...
     """Return the words that cannot be the usual names of quantities which the same text writes in full."""
     if not vocabulary.usual:
         return ()
-    plain_names = replace(vocabulary, usual={}, own=(*vocabulary.own, *vocabulary.usual))
-    relations = parse_relations(script.text, plain_names.known())
+    plain_names = replace(vocabulary, usual={}, undeclared=(*vocabulary.undeclared, *vocabulary.usual))
+    relations = parse_relations(script.text, plain_names.as_names())
     written = {s for c in relations for e in (c.left, c.right) for s in e.symbols}
-    read = parse_relations(script.text, vocabulary.known())
+    read = parse_relations(script.text, vocabulary.as_names())
     if all(c.left == c.right for c in read):
         return ()  # `v = xdot` says what the name means
     return tuple(word for word, quantity in vocabulary.usual.items() if quantity in written)
@@ -364,7 +375,7 @@ def _with_both_signs(script: Script) -> Script:
     sides = script.text.split("=")
     if len(sides) != 2:
         return script
-    product = "*".join(f"(({one}) - ({other}))" for one, other in (_signed(sides, "+-"), _signed(sides, "-+")))
+    product = "*".join(f"(({upper}) - ({other}))" for upper, other in (_signed(sides, "+-"), _signed(sides, "-+")))
     return Script(f"{product} = 0", (script.columns[0],) * (len(product) + 5))
 
 

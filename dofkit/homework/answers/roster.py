@@ -104,10 +104,12 @@ class Participant:
             yield f"{first} {last}"
 
     def goes_by(self, text: str) -> bool:
-        """Is a text one of their names, or a part of their name of whole words?"""
-        given = set(_key(text.replace(",", " ")).split())
+        """Return whether a text is one of their names, or whole words of one."""
+        whole_words = set(_key(text.replace(",", " ")).split())
         names = [set(_key(name.replace(",", " ")).split()) for name in (self.name, self.student, *self.others)]
-        return _key(text) in map(_key, self.called()) or (bool(given) and any(given <= words for words in names))
+        return _key(text) in map(_key, self.called()) or (
+            bool(whole_words) and any(whole_words <= words for words in names)
+        )
 
 
 @dataclass(frozen=True)
@@ -119,36 +121,36 @@ class Roster:
     digest: str = field(default="", compare=False)
 
     @cached_property
-    def _known(self) -> dict[str, Participant | None]:
+    def _by_name(self) -> dict[str, Participant | None]:
         """By what they go by; None for what several go by."""
-        found: dict[str, Participant | None] = {}
+        by_name: dict[str, Participant | None] = {}
         for member in self.members:
             for text in {*map(_key, member.called()), _key(member.student)}:
-                found[text] = member if found.get(text, member) is member else None
-        return found
+                by_name[text] = member if by_name.get(text, member) is member else None
+        return by_name
 
     def find(self, text: str) -> Participant | None:
-        """Who goes by a name, an address or a number; None for nobody, and for what two go by."""
-        return self._known.get(_key(text))
+        """Return who has a name, an address or a number; None for nobody, and if two have it."""
+        return self._by_name.get(_key(text))
 
     def owners(self, claims: Sequence[str]) -> list[Participant]:
-        """Whom the names of a file and of its folders name, the innermost first; usually one, or nobody."""
+        """Return whom the names of a file and of its folders identify, the innermost first; usually one, or nobody."""
         return list(dict.fromkeys(owner for owner in map(self._owner, claims) if owner is not None))
 
     def _owner(self, claim: str) -> Participant | None:
-        """Whom a name of a file or a folder names, as platforms write it."""
-        if found := _MOODLE.match(claim):
-            return self.find(found["who"])
-        if found := _CANVAS.match(claim):
-            by_canvas = next((member for member in self.members if member.canvas == found["who"]), None)
+        """Return whom the name of a file or a folder identifies, as platforms write it."""
+        if platform := _MOODLE.match(claim):
+            return self.find(platform["who"])
+        if platform := _CANVAS.match(claim):
+            by_canvas = next((member for member in self.members if member.canvas == platform["who"]), None)
             return by_canvas or self.find(claim)
-        if found := _PRAIRIELEARN.fullmatch(claim):
-            return self.find(found["who"]) or self.find(claim)
+        if platform := _PRAIRIELEARN.fullmatch(claim):
+            return self.find(platform["who"]) or self.find(claim)
         return self.find(claim)
 
 
 def own_name(claim: str) -> str:
-    """What one is called whom nothing else names but a file or a folder: never as another is.
+    """Return the name of a student who is identified by a file or a folder only: never that of another.
 
     >>> own_name("Ada Lovelace_123_assignsubmission_file_"), own_name("sheet_1_2_ada")
     ('Ada Lovelace_123', 'sheet_1_2_ada')
@@ -157,8 +159,8 @@ def own_name(claim: str) -> str:
     """
     if at_prairielearn := _PRAIRIELEARN.fullmatch(claim):
         return at_prairielearn["who"]
-    found = _MOODLE.match(claim)
-    return claim if found is None else found["who"] + found["number"]
+    moodle = _MOODLE.match(claim)
+    return claim if moodle is None else moodle["who"] + moodle["number"]
 
 
 def _key(text: str) -> str:
@@ -171,8 +173,8 @@ def lookalike(name: str) -> str:
     >>> lookalike("Ad\u0430 ") == lookalike("\uff21da\u200b")  # a Cyrillic letter; a wide letter and a zero-width space
     True
     """
-    shown = unicodedata.normalize("NFKC", name).casefold().translate(_LOOKALIKES)
-    return " ".join("".join(c for c in shown if unicodedata.category(c) != "Cf").split())
+    letters = unicodedata.normalize("NFKC", name).casefold().translate(_LOOKALIKES)
+    return " ".join("".join(c for c in letters if unicodedata.category(c) != "Cf").split())
 
 
 def load_roster(path: str | os.PathLike[str]) -> Roster:
@@ -180,74 +182,74 @@ def load_roster(path: str | os.PathLike[str]) -> Roster:
 
     It needs a column of names, addresses or numbers; rows such as Canvas's ``Points Possible`` are nobody.
     """
-    shown = clean(os.fspath(path))
+    file = clean(os.fspath(path))
     try:
         data = Path(path).read_bytes()
     except OSError as error:
-        raise RosterError(f"{shown} cannot be read: {reason(error)}") from None
+        raise RosterError(f"{file} cannot be read: {reason(error)}") from None
     if len(data) > MOST_BYTES:
-        raise RosterError(f"{shown} is longer than {MOST_BYTES // 10**6} MB")
+        raise RosterError(f"{file} is longer than {MOST_BYTES // 10**6} MB")
     text = decoded(data)
     if clean(text) != text:
-        raise RosterError(f"{shown} is no table in UTF-8: save it as UTF-8")
+        raise RosterError(f"{file} is no table in UTF-8: save it as UTF-8")
     table = list(spreadsheet(text, lambda cells: identity_column(cells) >= 0).rows)
     if not table:
-        raise RosterError(f"{shown} is empty: a roster has a header such as name,email,id and a row for everyone")
+        raise RosterError(f"{file} is empty: a roster has a header such as name,email,id and a row for everyone")
     if broken := next((row for row in table if row.error is not None), None):
-        raise RosterError(f"{shown}, line {broken.line}: {broken.error}")
+        raise RosterError(f"{file}, line {broken.line}: {broken.error}")
     header, *rows = [(row.line, [cell.strip() for cell in row.cells]) for row in table]
-    members = _members(_fields(header[1], shown), rows, shown)
+    members = _members(_fields(header[1], file), rows, file)
     return Roster(tuple(members), tuple(header[1]), hashlib.blake2b(data, digest_size=16).hexdigest())
 
 
-def _fields(header: list[str], shown: str) -> dict[str, int]:
-    """Which column is what."""
+def _fields(header: list[str], file: str) -> dict[str, int]:
+    """Return the column of each field."""
     words = [" ".join(name.lower().split()) for name in header]
-    found: dict[str, int] = {}
+    columns: dict[str, int] = {}
     for i, word in enumerate(words):
         for name, called in _HEADERS.items():
             if word in called:
-                found.setdefault(name, i)
+                columns.setdefault(name, i)
     if "id" in words:
         canvas = {"sis user id", "sis login id"} & set(words)
-        found.setdefault("canvas" if canvas else "other" if "number" in found else "number", words.index("id"))
-    if not {"name", "last", *_UNIQUE} & set(found):
+        columns.setdefault("canvas" if canvas else "other" if "number" in columns else "number", words.index("id"))
+    if not {"name", "last", *_UNIQUE} & set(columns):
         raise RosterError(
-            f"{shown} does not identify anyone: its header is {clean(', '.join(header))[:120]}; "
+            f"{file} does not identify anyone: its header is {clean(', '.join(header))[:120]}; "
             "a roster has a column 'name', 'email' or 'id'"
         )
-    return found
+    return columns
 
 
-def _members(fields: Mapping[str, int], rows: Iterable[tuple[int, list[str]]], shown: str) -> Iterator[Participant]:
+def _members(fields: Mapping[str, int], rows: Iterable[tuple[int, list[str]]], file: str) -> Iterator[Participant]:
     """Everyone, each called by the first of what nobody else goes by."""
-    found: list[Participant] = []
+    members: list[Participant] = []
     for line, cells in rows:
-        one = {name: clean(cells[i]) if i < len(cells) else "" for name, i in fields.items()}
-        first, last = one.pop("first", ""), one.pop("last", "")
-        one["name"] = one.get("name") or f"{first} {last}".strip()
-        if _is_nobody(one):
+        values = {name: clean(cells[i]) if i < len(cells) else "" for name, i in fields.items()}
+        first, last = values.pop("first", ""), values.pop("last", "")
+        values["name"] = values.get("name") or f"{first} {last}".strip()
+        if _is_nobody(values):
             continue
-        found.append(Participant("", line=line, others=(), **one))
-    _told_apart(found, shown)
-    shared = Counter(key for member in found for key in set(map(_key, member.called())))
-    for member in found:
-        own = (getattr(member, name) for name in (*_UNIQUE, "name"))
-        student = next((text for text in own if shared[_key(text)] == 1), None)
+        members.append(Participant("", line=line, others=(), **values))
+    _told_apart(members, file)
+    shared = Counter(key for member in members for key in set(map(_key, member.called())))
+    for member in members:
+        identifiers = (getattr(member, name) for name in (*_UNIQUE, "name"))
+        student = next((text for text in identifiers if shared[_key(text)] == 1), None)
         if student is None:
             raise RosterError(
-                f"{shown}, line {member.line}: '{member.name}' shares every name, address and number with others"
+                f"{file}, line {member.line}: '{member.name}' shares every name, address and number with others"
             )
         yield replace(member, student=student)
 
 
-def _is_nobody(one: Mapping[str, str]) -> bool:
+def _is_nobody(values: Mapping[str, str]) -> bool:
     """Canvas's rows below the header: of points, and of what is posted by hand."""
-    alone = not any(one.get(name) for name in _UNIQUE)
-    return alone and ("Points Possible" in one["name"] or not one["name"])
+    alone = not any(values.get(name) for name in _UNIQUE)
+    return alone and ("Points Possible" in values["name"] or not values["name"])
 
 
-def _told_apart(members: Iterable[Participant], shown: str) -> None:
+def _told_apart(members: Iterable[Participant], file: str) -> None:
     """Raise RosterError where two have the same address or number, or where all that is known of two is alike."""
     seen: dict[tuple[str, str], Participant] = {}
     for member in members:
@@ -256,7 +258,7 @@ def _told_apart(members: Iterable[Participant], shown: str) -> None:
             other = seen.setdefault(mark, member)
             if other is not member:
                 raise RosterError(
-                    f"{shown}, line {member.line}: '{getattr(member, mark[0])}' also occurs in line {other.line}: "
+                    f"{file}, line {member.line}: '{getattr(member, mark[0])}' also occurs in line {other.line}: "
                     "the two cannot be told apart"
                 )
 

@@ -55,17 +55,17 @@ class Handed:
     users: tuple[Participant, ...] = ()
     listed: bool = False
 
-    def submissions(self, known: Columns) -> list[Submission]:
-        """Read it; ``known``: the assignment's columns."""
+    def submissions(self, columns: Columns) -> list[Submission]:
+        """Read it; ``columns``: the assignment's columns."""
         if self.data is None:
             return [refused(self.name, self.place, self.error)]
         if isinstance(self.data, bytes):
-            return of_text(self.data, self.name, self.place, known)
+            return of_text(self.data, self.name, self.place, columns)
         return [of_value(self.data, self.name, self.place)]
 
     @property
     def key(self) -> str:
-        """What tells it from another, in 16 characters."""
+        """Return 16 characters that distinguish it from others."""
         said = self.data if isinstance(self.data, bytes) else repr((self.data, self.error)).encode("utf-8", "replace")
         users = "\0".join(user.student for user in self.users)
         named = f"{self.name}\0{self.place}\0{users}\0".encode("utf-8", "replace")
@@ -77,18 +77,22 @@ class Handed:
         return len(self.data) if isinstance(self.data, bytes) else 200
 
 
-def read_submission(source: str | os.PathLike[str] | Mapping[str, Any], known: Columns) -> Submission:
+def read_submission(source: str | os.PathLike[str] | Mapping[str, Any], columns: Columns) -> Submission:
     """The one submission of a file or folder, or of a mapping ``{student, answers}``."""
     if isinstance(source, Mapping):
-        return of_value(shaped(source, known), "")
+        return of_value(shaped(source, columns), "")
     path = os.fspath(source)
-    found = list(islice((one for h in hand_ins([path], known) for one in h.submissions(known)), 2))
-    if len(found) == 1:
-        return found[0]
+    submissions_there = list(
+        islice((submission for h in hand_ins([path], columns) for submission in h.submissions(columns)), 2)
+    )
+    if len(submissions_there) == 1:
+        return submissions_there[0]
     return refused(_stem(clean(path)), FilePlace(clean(path)), "it contains more than one submission")
 
 
-def hand_ins(sources: Sequence[str], known: Columns, others: Iterable[str | os.PathLike[str]] = ()) -> Iterator[Handed]:
+def hand_ins(
+    sources: Sequence[str], columns: Columns, others: Iterable[str | os.PathLike[str]] = ()
+) -> Iterator[Handed]:
     """All submissions of files, folders and standard input (``-``), in the order given; those of a folder sorted.
 
     ``others``: paths within the folders that hold no submissions, such as that of the results.
@@ -96,35 +100,35 @@ def hand_ins(sources: Sequence[str], known: Columns, others: Iterable[str | os.P
     left_out = frozenset(os.path.realpath(path) for path in others)
     for source in sources:
         nothing = True
-        for one in _source(source, known, left_out):
-            yield _claimed(one, source)
+        for handed in _source(source, columns, left_out):
+            yield _claimed(handed, source)
             nothing = False
         if nothing:
             yield _unreadable(source, "it contains no submission")
 
 
-def _claimed(one: Handed, source: str) -> Handed:
+def _claimed(handed: Handed, source: str) -> Handed:
     """The same with who may have handed it in, by the names of its file and of its folders below ``source``.
 
     A document called "answers" or the like, or as Moodle calls it, is its folder's, or that of the name that Moodle
     gives.
     """
-    path = one.place.file
-    if source == STDIN or not path or one.users:
-        return one
+    path = handed.place.file
+    if source == STDIN or not path or handed.users:
+        return handed
     folder = os.path.isdir(source)
-    one = replace(one, listed=one.listed and not folder)
+    handed = replace(handed, listed=handed.listed and not folder)
     within = os.path.relpath(path, clean(source)) if folder else os.path.join(*_last_two(path))
     *folders, _ = [part for part in within.split(os.sep) if part not in ("", os.curdir, os.pardir)]
     stem = _stem(path)
     claims = (stem, *reversed(folders)) if folder or stem.lower() in GENERIC else (stem,)
     if folder and folders and (users := submitters(source).get(folders[0])):
         named = ", ".join(user.student for user in users)
-        return replace(one, claims=(*claims, named), users=users, name=named if one.name == stem else one.name)
-    if one.name != stem or not isinstance(one.data, bytes | None):
-        return replace(one, claims=claims)
-    own = claims[1] if stem.lower() in GENERIC and len(claims) > 1 else stem
-    return replace(one, claims=claims, name=own_name(own))
+        return replace(handed, claims=(*claims, named), users=users, name=named if handed.name == stem else handed.name)
+    if handed.name != stem or not isinstance(handed.data, bytes | None):
+        return replace(handed, claims=claims)
+    naming = claims[1] if stem.lower() in GENERIC and len(claims) > 1 else stem
+    return replace(handed, claims=claims, name=own_name(naming))
 
 
 def _last_two(path: str) -> tuple[str, str]:
@@ -132,17 +136,17 @@ def _last_two(path: str) -> tuple[str, str]:
     return os.path.basename(folder), name
 
 
-def _source(source: str, known: Columns, left_out: frozenset[str]) -> Iterator[Handed]:
+def _source(source: str, columns: Columns, left_out: frozenset[str]) -> Iterator[Handed]:
     if source == STDIN:
-        return _stream(BytesIO() if sys.stdin is None else sys.stdin.buffer, "stdin", known)
-    return _folder(source, known, left_out) if os.path.isdir(source) else _file(source, known)
+        return _stream(BytesIO() if sys.stdin is None else sys.stdin.buffer, "stdin", columns)
+    return _folder(source, columns, left_out) if os.path.isdir(source) else _file(source, columns)
 
 
-def _folder(folder: str, known: Columns, left_out: frozenset[str]) -> Iterator[Handed]:
+def _folder(folder: str, columns: Columns, left_out: frozenset[str]) -> Iterator[Handed]:
     """All files below a folder, sorted by their names; links are not followed."""
     try:
-        with os.scandir(folder) as found:
-            entries = sorted((entry.name, entry.is_dir(follow_symlinks=False), entry.is_symlink()) for entry in found)
+        with os.scandir(folder) as scanned:
+            entries = sorted((entry.name, entry.is_dir(follow_symlinks=False), entry.is_symlink()) for entry in scanned)
     except OSError as error:
         yield _unreadable(folder, reason(error))
         return
@@ -153,38 +157,38 @@ def _folder(folder: str, known: Columns, left_out: frozenset[str]) -> Iterator[H
         if is_link:
             yield _unreadable(path, "it is a symbolic link, which is not followed")
         elif is_folder:
-            yield from _folder(path, known, left_out)
+            yield from _folder(path, columns, left_out)
         else:
-            yield from _file(path, known, within=True)
+            yield from _file(path, columns, within=True)
 
 
-def _file(path: str, known: Columns, within: bool = False) -> Iterator[Handed]:
+def _file(path: str, columns: Columns, within: bool = False) -> Iterator[Handed]:
     suffix = os.path.splitext(path)[1].lower()
     try:
         if within and (not stat.S_ISREG(os.stat(path).st_mode) or suffix not in (*DOCUMENTS, *LINES, *TABLES)):
             yield _unreadable(path, f"it is not a submission: {', '.join((*DOCUMENTS, *LINES, *TABLES))} are read")
             return
         with open(path, "rb") as file:
-            yield from _stream(file, path, known)
+            yield from _stream(file, path, columns)
     except (OSError, ValueError) as error:
         yield _unreadable(path, f"it cannot be read: {reason(error)}")
 
 
-def _stream(stream: BinaryIO, file: str, known: Columns) -> Iterator[Handed]:
+def _stream(stream: BinaryIO, file: str, columns: Columns) -> Iterator[Handed]:
     """The submissions of an open file: its suffix tells what it is, else its first line."""
-    suffix, shown = os.path.splitext(file)[1].lower(), clean(file)
+    suffix, label = os.path.splitext(file)[1].lower(), clean(file)
     first = stream.readline(MOST_BYTES + 1) if suffix not in DOCUMENTS else b""
     if suffix in TABLES or (suffix not in (*DOCUMENTS, *LINES) and is_header(first.decode("utf-8-sig", "replace"))):
-        yield from _table(decoded(first + stream.read()), shown, known)
+        yield from _table(decoded(first + stream.read()), label, columns)
     elif suffix in LINES or (suffix not in DOCUMENTS and _is_line(first)):
-        yield from _lines(first, stream, shown)
+        yield from _lines(first, stream, label)
     else:
         data = first + stream.read(MOST_BYTES + 1 - len(first))
-        yield Handed(_stem(shown), FilePlace(shown), data)
+        yield Handed(_stem(label), FilePlace(label), data)
 
 
 def _is_line(line: bytes) -> bool:
-    """Is a line all of one JSON object?"""
+    """Return whether a line is one JSON object."""
     text = line.removeprefix(b"\xef\xbb\xbf").strip()
     return text.startswith(b"{") and text.endswith(b"}")
 
@@ -196,14 +200,14 @@ def _lines(first: bytes, stream: BinaryIO, file: str) -> Iterator[Handed]:
         place = FilePlace(file, number)
         if line.strip():
             yield Handed(f"{_stem(file)}:{number}", place, line.strip(b"\r\n"), listed=True)
-        while not line.endswith(b"\n") and (rest := stream.readline(MOST_BYTES)):
-            line = rest
+        while not line.endswith(b"\n") and (continuation := stream.readline(MOST_BYTES)):
+            line = continuation
         line, number = stream.readline(MOST_BYTES + 1), number + 1
 
 
-def _table(text: str, file: str, known: Columns) -> Iterator[Handed]:
+def _table(text: str, file: str, columns: Columns) -> Iterator[Handed]:
     try:
-        for row in rows(text, known):
+        for row in rows(text, columns):
             place = FilePlace(file, row.line)
             if row.error is not None:
                 yield Handed(row.student, place, error=row.error)

@@ -73,11 +73,11 @@ _NOWHERE = FilePlace()
 
 
 def of_text(
-    data: bytes | str, name: str, place: FilePlace, known: Mapping[str, tuple[str, str]] = MappingProxyType({})
+    data: bytes | str, name: str, place: FilePlace, columns: Mapping[str, tuple[str, str]] = MappingProxyType({})
 ) -> list[Submission]:
     """The submissions of a JSON or YAML text: one, or a list of them; ``name`` is the student's where it gives none.
 
-    ``known``: the problem and the question of every ``PROBLEM.QUESTION``, for answers that stand there without
+    ``columns``: the problem and the question of every ``PROBLEM.QUESTION``, for answers that stand there without
     ``answers:``, or in one line.
     """
     if len(data) > MOST_BYTES:
@@ -85,21 +85,21 @@ def of_text(
     document = _with_backslashes(data, name)
     value, faults = document.value, document.faults
     if faults:
-        found = _STUDENT.search(document.text[:100_000])
-        student = clean(next(g for g in found.groups() if g is not None).strip()) if found else name
-        told = "; ".join(place.message(_ours(fault)) for fault in faults[:MOST_FAULTS])
-        return [Submission(student, error=told, place=place)]
+        match = _STUDENT.search(document.text[:100_000])
+        student = clean(next(g for g in match.groups() if g is not None).strip()) if match else name
+        reasons = "; ".join(place.message(_ours(fault)) for fault in faults[:MOST_FAULTS])
+        return [Submission(student, error=reasons, place=place)]
     if not isinstance(value, list):
-        return [of_value(shaped(value, known), name, place, document)]
+        return [of_value(shaped(value, columns), name, place, document)]
     if not value:
         return [refused(name, place, "it contains no submission", _SHAPE)]
     return [
-        of_value(shaped(one, known), name, FilePlace(place.file, document.place((i,))[0]), document, i)
-        for i, one in enumerate(value)
+        of_value(shaped(entry, columns), name, FilePlace(place.file, document.place((i,))[0]), document, i)
+        for i, entry in enumerate(value)
     ]
 
 
-def shaped(value: Any, known: Mapping[str, tuple[str, str]]) -> Any:
+def shaped(value: Any, columns: Mapping[str, tuple[str, str]]) -> Any:
     """A submission as ``{student, answers: {PROBLEM: {QUESTION: answer}}}``; what is no other form of it, as it is.
 
     >>> shaped({"p": {"f": 1}, "q.g": 2}, {"p.f": ("p", "f"), "q.g": ("q", "g")})
@@ -109,25 +109,25 @@ def shaped(value: Any, known: Mapping[str, tuple[str, str]]) -> Any:
         return value
     bare = "answers" not in value
     answers = {key: each for key, each in value.items() if key != "student"} if bare else value["answers"]
-    problems = {problem for problem, _ in known.values()}
-    if not isinstance(answers, Mapping) or not any(str(key) in problems or str(key) in known for key in answers):
+    problems = {problem for problem, _ in columns.values()}
+    if not isinstance(answers, Mapping) or not any(str(key) in problems or str(key) in columns for key in answers):
         return value
     if bare and not all(
-        each is None or isinstance(each, Mapping) or str(key) in known for key, each in answers.items()
+        each is None or isinstance(each, Mapping) or str(key) in columns for key, each in answers.items()
     ):
         return value
-    found: dict[Any, Any] = {}
+    by_problem: dict[Any, Any] = {}
     for key, each in answers.items():
-        problem, question = known.get(str(key), (str(key), ""))
+        problem, question = columns.get(str(key), (str(key), ""))
         if each is None or isinstance(each, Mapping):
             problem, more = str(key), each or {}
-        elif question and isinstance(found.get(problem, {}), Mapping):
+        elif question and isinstance(by_problem.get(problem, {}), Mapping):
             more = {question: each}
         else:
             return value
-        found[problem] = {**found.get(problem, {}), **more}
+        by_problem[problem] = {**by_problem.get(problem, {}), **more}
     kept = {key: each for key, each in value.items() if key == "student" or not bare}
-    return {**kept, "answers": found}
+    return {**kept, "answers": by_problem}
 
 
 def _with_backslashes(data: bytes | str, name: str) -> Document:
@@ -163,14 +163,16 @@ def of_value(
     answers = {} if "answers" in value and value["answers"] is None else value.get("answers")
     if not isinstance(answers, Mapping):
         return bad("'answers' is a mapping of problems to mappings of questions to answers", "answers")
-    found: dict[str, dict[str, Given]] = {}
-    for problem, given in answers.items():
-        if isinstance(given, Mapping):
-            found[clean(str(problem))] = {clean(str(q)): _plain_answer(a) for q, a in given.items() if a is not None}
-        elif given is not None:
-            shown = clean(str(problem))[:60]
-            return bad(f"the answers to problem '{shown}' are a mapping of questions to answers", "answers", problem)
-    return Submission(student, found, place=place)
+    by_problem: dict[str, dict[str, Given]] = {}
+    for problem, problem_answers in answers.items():
+        if isinstance(problem_answers, Mapping):
+            by_problem[clean(str(problem))] = {
+                clean(str(q)): _plain_answer(a) for q, a in problem_answers.items() if a is not None
+            }
+        elif problem_answers is not None:
+            label = clean(str(problem))[:60]
+            return bad(f"the answers to problem '{label}' are a mapping of questions to answers", "answers", problem)
+    return Submission(student, by_problem, place=place)
 
 
 def refused(name: str, place: FilePlace, message: str, hint: str | None = None) -> Submission:
@@ -179,7 +181,7 @@ def refused(name: str, place: FilePlace, message: str, hint: str | None = None) 
 
 
 def reason(error: OSError | ValueError) -> str:
-    """Why a file cannot be read."""
+    """Return why a file cannot be read."""
     said = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
     return said[:1].lower() + said[1:]
 
@@ -211,11 +213,11 @@ def _exact(number: Any) -> Given:
     """A number, or as a text what is none or far too long to be written."""
     if isinstance(number, Decimal) and (not number.is_finite() or abs(number.adjusted()) > LARGEST_EXPONENT):
         return str(number)
-    found = Fraction(number)
-    size = max(found.numerator.bit_length(), found.denominator.bit_length())
+    fraction = Fraction(number)
+    size = max(fraction.numerator.bit_length(), fraction.denominator.bit_length())
     if size > 4 * LARGEST_EXPONENT:
         return f"1e{size // 4}"
-    return int(found) if isinstance(number, Integral) else found
+    return int(fraction) if isinstance(number, Integral) else fraction
 
 
 def _student(value: object, name: str, document: Document | None, path: tuple[str | int, ...]) -> str:
@@ -230,8 +232,8 @@ def _student(value: object, name: str, document: Document | None, path: tuple[st
 def _source(document: Document, path: tuple[str | int, ...]) -> str:
     """An unquoted scalar as it stands in the text."""
     start, _ = document.places.get(path, (len(document.text), -1))
-    found = _SCALAR.match(document.text, start)
-    return found[0].partition(" #")[0].strip() if found else ""
+    scalar = _SCALAR.match(document.text, start)
+    return scalar[0].partition(" #")[0].strip() if scalar else ""
 
 
 def _ours(fault: Fault) -> Fault:
@@ -262,14 +264,14 @@ def hand_in(
     OSError
         If the file cannot be written.
     """
-    given = {
+    by_problem = {
         str(problem): {str(q): _json_value(a) for q, a in asked.items() if a is not None and a is not ...}
         for problem, asked in answers.items()
     }
     target = Path(path)
-    document = {**({} if student is None else {"student": student}), "answers": given}
+    document = {**({} if student is None else {"student": student}), "answers": by_problem}
     target.write_text(json.dumps(document, indent=1, ensure_ascii=True) + "\n", encoding="ascii")
-    print(f"{sum(map(len, given.values()))} answers were written to {target}: submit this file.")
+    print(f"{sum(map(len, by_problem.values()))} answers were written to {target}: submit this file.")
     return target
 
 

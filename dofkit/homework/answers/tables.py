@@ -57,31 +57,31 @@ class Header:
     fault: str | None = None
 
 
-def rows(text: str, known: Columns) -> Iterator[TableRow]:
+def rows(text: str, columns: Columns) -> Iterator[TableRow]:
     """Yield the rows of a table; ``student`` is empty where it has no such column. Raises TableError.
 
-    Bytes that are not UTF-8 are lone surrogates in ``text``. ``known``: the columns of the assignment, which tell where
-    a name with several dots is to be cut.
+    Bytes that are not UTF-8 are lone surrogates in ``text``. ``columns``: those of the assignment, which say where a
+    name with several dots is to be cut.
     """
     table = spreadsheet(text, lambda cells: identity_column(cells) >= 0).rows
-    header = _header(next(table, None), known)
+    header = _header(next(table, None), columns)
     answered = [_row(header, row) for row in table]
     if header.student < 0 and len(answered) > 1:
         raise TableError(f"its header has no column '{STUDENT}', and there is more than one row")
     yield from answered
 
 
-def _header(row: SpreadsheetRow | None, known: Columns) -> Header:
+def _header(row: SpreadsheetRow | None, columns: Columns) -> Header:
     if row is None:
         raise TableError("it is empty")
     names = [cell.strip() for cell in row.cells]
     while names and not names[-1]:
         names.pop()
     student = identity_column(names)
-    if row.error is not None or (student < 0 and not all(_asked(name, known) for name in names)):
-        shown = clean(", ".join(names))[:80]
-        raise TableError(row.error or f"its header has no column '{STUDENT}' but {shown}")
-    return _header_of(names, student, known, row.line)
+    if row.error is not None or (student < 0 and not all(_asked(name, columns) for name in names)):
+        listing = clean(", ".join(names))[:80]
+        raise TableError(row.error or f"its header has no column '{STUDENT}' but {listing}")
+    return _header_of(names, student, columns, row.line)
 
 
 def is_header(line: str) -> bool:
@@ -89,40 +89,40 @@ def is_header(line: str) -> bool:
     return any(delimiter in line and identity_column(cells_of(line, delimiter)) >= 0 for delimiter in DELIMITERS)
 
 
-def _asked(name: str, known: Columns) -> tuple[str, str] | None:
+def _asked(name: str, columns: Columns) -> tuple[str, str] | None:
     """Return the question that a column answers: its header begins with the question's name."""
     match = _QUESTION.match(name)
-    return known.get(name) or (None if match is None else known.get(match["name"]))
+    return columns.get(name) or (None if match is None else columns.get(match["name"]))
 
 
-def _header_of(names: list[str], student: int, known: Columns, line: int) -> Header:
+def _header_of(names: list[str], student: int, columns: Columns, line: int) -> Header:
     folded = [name.casefold() for name in names]
     twice = next(
         (n for i, n in enumerate(names) if n and (n in names[:i] or (i > student and folded[i] == STUDENT))), ""
     )
-    questions = [None if i == student else _asked(name, known) for i, name in enumerate(names)]
+    questions = [None if i == student else _asked(name, columns) for i, name in enumerate(names)]
     fault = None
     if twice:
         fault = f"the header (line {line}) has the column '{clean(twice)[:60]}' twice"
     elif "" in names:
         fault = f"column {names.index('') + 1} of the header (line {line}) has no name"
     elif not any(questions):
-        fault = f"the header (line {line}) names no question: {_meant(names, student, known)}"
+        fault = f"the header (line {line}) names no question: {_meant(names, student, columns)}"
     elif (repeated := next((q for i, q in enumerate(questions) if q and q in questions[:i]), None)) is not None:
         fault = f"the header (line {line}) has two columns for {'.'.join(repeated)}"
     timed = not _TIMES.isdisjoint(folded)
     form = student >= 0 and folded[student] != STUDENT
     strange = [None if i == student or form or timed else _split(name) for i, name in enumerate(names)]
-    asked = tuple(one or other for one, other in zip(questions, strange, strict=True))
+    asked = tuple(question or other for question, other in zip(questions, strange, strict=True))
     return Header(student, asked, fault)
 
 
-def _meant(names: list[str], student: int, known: Columns) -> str:
+def _meant(names: list[str], student: int, columns: Columns) -> str:
     """Return what the columns could have been called."""
     others = [name for i, name in enumerate(names) if i != student]
-    near = next((f"'{near}' for '{clean(name)[:60]}'" for name in others if (near := nearest(name, known))), None)
-    shown = ", ".join(list(known)[:MOST_LISTED]) + (", ..." if len(known) > MOST_LISTED else "")
-    return f"write {near or shown}" if near or shown else "no question of the assignment has this name"
+    near = next((f"'{near}' for '{clean(name)[:60]}'" for name in others if (near := nearest(name, columns))), None)
+    listing = ", ".join(list(columns)[:MOST_LISTED]) + (", ..." if len(columns) > MOST_LISTED else "")
+    return f"write {near or listing}" if near or listing else "no question of the assignment has this name"
 
 
 def _split(name: str) -> tuple[str, str]:

@@ -93,63 +93,63 @@ def _words(script: Script) -> Iterator[Word]:
         yield Word(body[place:].rstrip("."), script.columns[start + place])
 
 
-def is_none(answer: object, says: Callable[[str], bool], known: Collection[str] = (), every: bool = False) -> bool:
-    """Is the answer that there is none? ``says``: does a part of it name one all the same?
+def is_none(answer: object, says: Callable[[str], bool], names: Collection[str] = (), every: bool = False) -> bool:
+    """Return whether the answer is that there is none. ``says``: whether a part of it names one all the same.
 
-    ``known``: names that are no words; ``every``: that all are needed says so too. Raises DoubtError where it
+    ``names``: names that are no words; ``every``: that all are needed says so too. Raises DoubtError where it
     says both.
     """
     if isinstance(answer, Sequence) and not isinstance(answer, str):
-        return not answer or (len(answer) == 1 and is_none(answer[0], says, known, every))
+        return not answer or (len(answer) == 1 and is_none(answer[0], says, names, every))
     if not isinstance(answer, str) or len(answer) > MOST_CHARACTERS:
         return False
     if any(says(part) or affirms(part) for part in beside_none(answer)):
         raise DoubtError("it says that there is none and then gives one.", 1, None)
-    return says_none(answer, known, every)
+    return says_none(answer, names, every)
 
 
-def lists_only(part: str, known: Sequence[str]) -> bool:
-    """Does a part of an answer consist of known names, with words around them that say nothing?"""
-    table = ChoiceOfNames(known)
-    found = [word.text for word in split_words(part)]
-    others = [w for w in found if not table.meant(w)]
-    return len(others) < min(len(found), _FEW_WORDS) and all(plain(w) in FILLING for w in others)
+def lists_only(part: str, names: Sequence[str]) -> bool:
+    """Return whether a part of an answer consists of ``known`` names and words that say nothing."""
+    table = ChoiceOfNames(names)
+    listed = [word.text for word in split_words(part)]
+    others = [w for w in listed if not table.meant(w)]
+    return len(others) < min(len(listed), _FEW_WORDS) and all(plain(w) in FILLING for w in others)
 
 
-def alternatives(answer: Given, known: Sequence[str] = ()) -> list[Given]:
+def alternatives(answer: Given, names: Sequence[str] = ()) -> list[Given]:
     """Return the answers of `x or y`, `one of x and y`, or `any one` of the known names; else the answer itself."""
     if not isinstance(answer, str):
         return [answer]
-    if known and (some := _ANY.match(plain(answer))) is not None:
-        return list(names_of(some["which"], known, "constraint")) if some["which"] else list(known)
-    parts = _OR.split(_EITHER.sub("", answer))
-    return [*parts] if all(part.strip() for part in parts) else [answer]
+    if names and (some := _ANY.match(plain(answer))) is not None:
+        return list(names_of(some["which"], names, "constraint")) if some["which"] else list(names)
+    choices = _OR.split(_EITHER.sub("", answer))
+    return [*choices] if all(part.strip() for part in choices) else [answer]
 
 
-def names_of(answer: object, known: Sequence[str], what: str, others: Mapping[str, str] | None = None) -> list[str]:
+def names_of(answer: object, names: Sequence[str], what: str, others: Mapping[str, str] | None = None) -> list[str]:
     """The known names that an answer lists; remarks in parentheses and words around them are read over.
 
     ``others``: other names of what is known.
     """
     if others:
-        given = [*known, *(other for other, name in others.items() if name in known)]
-        return list(dict.fromkeys(others.get(name, name) for name in names_of(answer, given, what)))
+        every = [*names, *(other for other, name in others.items() if name in names)]
+        return list(dict.fromkeys(others.get(name, name) for name in names_of(answer, every, what)))
     if isinstance(answer, str):
         reason = REASONS.search(answer)
         answer = answer if reason is None else answer[: reason.start()]
         answer = _OF_TIME.sub("", answer)
-        answer = _TITLE.sub(lambda m: " " * len(m[0]), answer) if "q" not in known else answer
+        answer = _TITLE.sub(lambda m: " " * len(m[0]), answer) if "q" not in names else answer
         lead = _LEAD.match(answer)
-        if lead is not None and not any(ChoiceOfNames(known).meant(w) for w in re.findall(r"\w+", lead[0])):
+        if lead is not None and not any(ChoiceOfNames(names).meant(w) for w in re.findall(r"\w+", lead[0])):
             denied = (NEGATIONS | DOUBTS) & {plain(w) for w in re.findall(r"[^\W\d_]+", lead[0])}
             answer = answer if denied else " " * lead.end() + answer[lead.end() :]
         answer = _REMARK.sub(lambda m: " " * len(m[0]), answer)
     words = split_words(answer)
-    table = ChoiceOfNames(known)
+    table = ChoiceOfNames(names)
     if any(table.meant(word.text) for word in words):
         words = [w for w in words if table.meant(w.text) or plain(w.text.strip(".:'\"")) not in FILLING]
         words = _without_count(words, table)
-    return chosen(words, known, what)
+    return chosen(words, names, what)
 
 
 def _without_count(words: Sequence[Word], table: ChoiceOfNames) -> list[Word]:
@@ -161,11 +161,11 @@ def _without_count(words: Sequence[Word], table: ChoiceOfNames) -> list[Word]:
 class ChoiceOfNames:
     """Known names; Greek letters and their spelled names are the same, and case and `_` where they tell nothing."""
 
-    def __init__(self, known: Sequence[str]) -> None:
-        self._exact = {spelled(one): one for one in known}
+    def __init__(self, names: Sequence[str]) -> None:
+        self._exact = {spelled(spelling): spelling for spelling in names}
         self._loose: dict[str, str | None] = {}
-        for one, name in self._exact.items():
-            for form in {one.lower(), one.lower().replace("_", "").replace(" ", "").replace("-", "")}:
+        for spelling, name in self._exact.items():
+            for form in {spelling.lower(), spelling.lower().replace("_", "").replace(" ", "").replace("-", "")}:
                 self._loose[form] = None if self._loose.get(form, name) != name else name
 
     def meant(self, text: str) -> str | None:
@@ -175,23 +175,23 @@ class ChoiceOfNames:
         return self._exact.get(text, loose)
 
 
-def chosen(words: Iterable[Word], known: Sequence[str], what: str) -> list[str]:
+def chosen(words: Iterable[Word], names: Sequence[str], what: str) -> list[str]:
     """The known names that the words are, each once.
 
     Raises TextError for a word that is none, with its column and the nearest name.
     """
-    table = ChoiceOfNames(known)
-    found: dict[str, None] = {}
+    table = ChoiceOfNames(names)
+    chosen_names: dict[str, None] = {}
     for word in words:
         meant = table.meant(word.text)
         if meant is None:
-            near = nearest(word.text, known)
-            hint = f"did you mean '{near}'?" if near else f"the {what}s are {', '.join(known[:12])}"
+            near = nearest(word.text, names)
+            hint = f"did you mean '{near}'?" if near else f"the {what}s are {', '.join(names[:12])}"
             raise TextError(f"there is no {what} '{word.text[:40]}'", word.column, hint)
-        found[meant] = None
-    if not found:
-        raise TextError(f"no {what} is named", 1, f"the {what}s are {', '.join(known[:12])}; or write: none")
-    return list(found)
+        chosen_names[meant] = None
+    if not chosen_names:
+        raise TextError(f"no {what} is named", 1, f"the {what}s are {', '.join(names[:12])}; or write: none")
+    return list(chosen_names)
 
 
 def typed_text(answer: Given) -> str:

@@ -66,10 +66,10 @@ def _below(folder: Traversable, path: str) -> Iterator[tuple[str, bytes]]:
 def _zip(files: dict[str, bytes], out: Path) -> None:
     """Write the zip whole: the same files give the same zip."""
     out.parent.mkdir(parents=True, exist_ok=True)
-    beside = out.with_name(f".{out.name}.new")
-    with zipfile.ZipFile(beside, "w", zipfile.ZIP_DEFLATED) as archive:
+    temporary = out.with_name(f".{out.name}.new")
+    with zipfile.ZipFile(temporary, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, data in files.items():
             info = zipfile.ZipInfo(name, _TIME)
             info.external_attr = (0o755 if name in _EXECUTABLE else 0o644) << 16
             archive.writestr(info, data, zipfile.ZIP_DEFLATED)
-    os.replace(beside, out)
+    os.replace(temporary, out)

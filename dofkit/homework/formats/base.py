@@ -116,10 +116,10 @@ def cell(content: str) -> str:
     >>> cell("=cmd|'/C calc'!A0"), cell("-2"), cell("-2+3"), cell("Ada")
     ("'=cmd|'/C calc'!A0", '-2', "'-2+3", 'Ada')
     """
-    shown = plain(content)
-    if len(shown) > MOST_CHARACTERS:
-        shown = shown[: MOST_CHARACTERS - 3] + "..."
-    return f"'{shown}" if _FORMULA.match(shown) and not _NUMBER.fullmatch(shown) else shown
+    printable = plain(content)
+    if len(printable) > MOST_CHARACTERS:
+        printable = printable[: MOST_CHARACTERS - 3] + "..."
+    return f"'{printable}" if _FORMULA.match(printable) and not _NUMBER.fullmatch(printable) else printable
 
 
 def table(stream: TextIO) -> Any:

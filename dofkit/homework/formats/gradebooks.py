@@ -63,8 +63,8 @@ def _write_apart(apart: list[tuple[Result, str]], target: Target) -> None:
         rows.writerow(["student", "points so far", "of", "open points", "why"])
         for result, why in apart:
             points = "" if result.score is None else number(result.score)
-            shown = [number(result.max_score), number(open_points(result)), cell(why)]
-            rows.writerow([cell(identity(result.student)), points, *shown])
+            amounts = [number(result.max_score), number(open_points(result)), cell(why)]
+            rows.writerow([cell(identity(result.student)), points, *amounts])
 
 
 def _unfit(result: Result) -> str | None:
@@ -121,11 +121,11 @@ def write_canvas(results: Iterator[Result], prepared: Prepared, target: Target, 
         rows.writerow([*_CANVAS, cell(column)])
         rows.writerow([POINTS, "", "", "", "", number(float(sum(prepared.most_points().values())))])
         for result, member in _with_rows(results, roster, apart):
-            found = _canvas_identity(result.student, member)
-            if POINTS in found[0]:
-                apart.append((result, f"Canvas would take a row of '{found[0]}' for that of the points"))
+            cells = _canvas_identity(result.student, member)
+            if POINTS in cells[0]:
+                apart.append((result, f"Canvas would take a row of '{cells[0]}' for that of the points"))
             else:
-                rows.writerow([*map(cell, found), number(result.score or 0.0)])
+                rows.writerow([*map(cell, cells), number(result.score or 0.0)])
     _write_apart(apart, target)
 
 
@@ -146,11 +146,11 @@ def write_moodle(results: Iterator[Result], prepared: Prepared, target: Target, 
     title, apart = line(prepared.assignment.title), list[tuple[Result, str]]()
     with opened(target) as stream:
         table_rows = table(stream)
-        rest = _with_rows(results, roster, apart)
-        first = next(rest, None)
+        remaining = _with_rows(results, roster, apart)
+        first = next(remaining, None)
         column = _moodle_column(roster, "" if first is None else first[0].student)
         table_rows.writerow([column, cell(title), cell(f"{title} (feedback)")])
-        for result, member in chain([] if first is None else [first], rest):
+        for result, member in chain([] if first is None else [first], remaining):
             who = result.student if member is None else _MOODLE[column](member)
             if not is_cell(who) or who == "0" or (member is None and ("@" in who) != (column == "useremail")):
                 apart.append((result, f"the student has no {column}"))

@@ -27,14 +27,14 @@ from dofkit.homework.sentences import Language, in_language
 
 
 def visibility_of(prepared: Prepared | None) -> Visibility:
-    """When students see what their answers are worth; at once where there is no assignment to say it."""
-    return "visible" if prepared is None else prepared.assignment.shown
+    """Return when students see their points: at once if there is no assignment."""
+    return "visible" if prepared is None else prepared.assignment.points_visibility
 
 
 def document(result: Result, visibility: Visibility = "visible", language: Language = "en") -> dict[str, Any]:
-    """What ``results.json`` says of a submission."""
+    """Return the ``results.json`` of a submission."""
     later = visibility != "visible" and result.error is None
-    found: dict[str, Any] = {
+    fields: dict[str, Any] = {
         "score": result.score or 0.0,
         "output": _first_output(result, language) if later else standing(result, language),
         "output_format": "text",
@@ -53,7 +53,7 @@ def document(result: Result, visibility: Visibility = "visible", language: Langu
     if result.error is not None:
         tests = [{"name": in_language(language, "Submission"), "status": "failed", "output": standing(result, language),
                   "output_format": "text", "visibility": "visible"}]  # fmt: skip
-    return {**found, "tests": tests}
+    return {**fields, "tests": tests}
 
 
 def _first_output(result: Result, language: Language) -> str:
@@ -80,16 +80,16 @@ def _reading(item: Item, language: Language) -> dict[str, Any]:
 
 
 def _test(item: Item, visibility: Visibility, language: Language) -> dict[str, Any]:
-    found: dict[str, Any] = {"name": title(item)}
+    fields: dict[str, Any] = {"name": title(item)}
     if item.score is not None:
-        found["score"] = item.score
-        found["max_score"] = item.max_score
-        found["status"] = "passed" if item.status == "right" else "failed"
+        fields["score"] = item.score
+        fields["max_score"] = item.max_score
+        fields["status"] = "passed" if item.status == "right" else "failed"
     output = remark(item, language)
     if item.score is None:
         output = f"{output}\n{points(item, language)}."
     return {
-        **found,
+        **fields,
         "output": output,
         "output_format": "text",
         "tags": [line(code) for code in item.codes],
@@ -101,8 +101,8 @@ def _test(item: Item, visibility: Visibility, language: Language) -> dict[str, A
 def write(results: Iterator[Result], prepared: Prepared, target: Target, roster: Roster | None = None) -> None:
     """Write one ``results.json`` per student."""
     del roster
-    shown = visibility_of(prepared)
-    write_documents(results, target, lambda result: document(result, shown, prepared.assignment.language))
+    visibility = visibility_of(prepared)
+    write_documents(results, target, lambda result: document(result, visibility, prepared.assignment.language))
 
 
 GRADESCOPE = Format("gradescope", write)

@@ -43,7 +43,7 @@ class Submitted(NamedTuple):
 class Question(NamedTuple):
     """How one question went: ``counts`` of its statuses, and ``mean`` of what was decided, in points.
 
-    ``unread`` of so many ``given`` answers could not be read, the commonest of which are ``unread_texts``; ``right``:
+    ``unread`` of so many ``answered`` ones could not be read, the commonest of which are ``unread_texts``; ``right``:
     the share of the graded answers with full points; ``errors``: the commonest errors.
     """
 
@@ -53,22 +53,22 @@ class Question(NamedTuple):
     mean: float | None
     most: float
     unread: int
-    given: int
+    answered: int
     right: float | None
     errors: list[tuple[int, str]]
     unread_texts: list[tuple[int, str]]
 
     @property
     def doubt(self) -> str:
-        """What to ask of a question whose answers often could not be read; empty where they could."""
-        if self.unread < FEWEST_UNREAD or self.unread < LEAST_UNREAD * self.given:
+        """Return what to ask of a question whose answers often could not be read, else nothing."""
+        if self.unread < FEWEST_UNREAD or self.unread < LEAST_UNREAD * self.answered:
             return ""
-        return f"{self.unread} of {self.given} answers could not be read: is the question clear?"
+        return f"{self.unread} of {self.answered} answers could not be read: is the question clear?"
 
 
 def overview(submitted: Sequence[Submitted], prepared: Prepared, roster: Roster | None = None) -> dict[str, Any]:
     """Return what the lecturer's page shows; a ``roster`` tells who did not submit."""
-    graded = [one.result for one in submitted if one.result.error is None]
+    graded = [submission.result for submission in submitted if submission.result.error is None]
     final = [result for result in graded if not result.needs_review and result.doubt is None]
     scores = [result.score or 0.0 for result in final]
     answers: defaultdict[tuple[str, str], list[Item]] = defaultdict(list)
@@ -78,8 +78,10 @@ def overview(submitted: Sequence[Submitted], prepared: Prepared, roster: Roster 
     asked = [item for place in prepared.most_points() for item in answers[place]]
     codes = Counter(code for item in asked for code in set(item.codes))
     most = float(sum(prepared.most_points().values()))
-    queue = queue_of(graded, prepared, [one.link for one in submitted if one.result.error is None]).open_answers()
-    present = {one.name for one in submitted}
+    queue = queue_of(
+        graded, prepared, [submission.link for submission in submitted if submission.result.error is None]
+    ).open_answers()
+    present = {submission.name for submission in submitted}
     return {
         "title": prepared.assignment.title,
         "most": most,
@@ -89,12 +91,12 @@ def overview(submitted: Sequence[Submitted], prepared: Prepared, roster: Roster 
         "median": median(scores) if scores else None,
         "bars": _bars(scores, most),
         "questions": questions,
-        "unclear": max((q for q in questions if q.doubt), key=lambda q: q.unread / q.given, default=None),
+        "unclear": max((q for q in questions if q.doubt), key=lambda q: q.unread / q.answered, default=None),
         "codes": [(code, count, CODES.get(code, "")) for code, count in codes.most_common()],
         "reviews": queue,
         "open_count": sum(queued.count for queued in queue),
-        "errors": [one for one in submitted if one.result.error is not None],
-        "doubts": [one for one in submitted if one.result.doubt is not None],
+        "errors": [submission for submission in submitted if submission.result.error is not None],
+        "doubts": [submission for submission in submitted if submission.result.doubt is not None],
         "students": submitted,
         "missing": [] if roster is None else [m.student for m in roster.members if m.student not in present],
     }
@@ -142,7 +144,7 @@ def write(results: Iterator[Result], prepared: Prepared, target: Target, roster:
         submitted.append(Submitted(result.student, link, result))
     page = overview(submitted, prepared, roster)
     if page["reviews"]:
-        queue = queue_of([one.result for one in submitted], prepared)
+        queue = queue_of([submission.result for submission in submitted], prepared)
         write_page(queue, [], prepared, target / "review.html", "review.csv")
     (target / "index.html").write_text(rendered("overview.html", page=page), encoding="utf-8")
 

@@ -46,18 +46,18 @@ def percent(score: float | None, most: float) -> float:
 
 def student_page(result: Result, prepared: Prepared) -> dict[str, Any]:
     """Return what the page of one submission shows: its answers by problem, those to nothing that was asked last."""
-    found = {(item.problem, item.question): item for item in result.items}
+    by_question = {(item.problem, item.question): item for item in result.items}
     language, sections = prepared.assignment.language, list[dict[str, Any]]()
     for problem in prepared.assignment.problems:
         rows = [
-            _answer_row(found.pop((problem.id, q.id)), plain(q.asked(", ".join(q.about)).told(language)))
+            _answer_row(by_question.pop((problem.id, q.id)), plain(q.asked(", ".join(q.about)).translated(language)))
             for q in problem.questions
-            if (problem.id, q.id) in found
+            if (problem.id, q.id) in by_question
         ]
         if rows:
             sections.append({"title": problem_title(problem), "rows": rows})
-    if found:
-        rows = [_answer_row(item, "") for item in found.values()]
+    if by_question:
+        rows = [_answer_row(item, "") for item in by_question.values()]
         sections.append({"title": in_language(language, "Answers to questions that were not asked"), "rows": rows})
     return {
         "title": prepared.assignment.title,
@@ -77,17 +77,17 @@ def _answer_row(item: Item, asked: str) -> dict[str, Any]:
 
 
 def problem_title(problem: Problem) -> str:
-    """What a problem is called."""
+    """Return the heading of a problem."""
     return problem.id if problem.title is None else f"{problem.id}: {problem.title}"
 
 
 def question_text(question: QuestionBase) -> str:
-    """What a question asks for, in words."""
-    told = type(question).model_fields["ask"].description or question.kind()
+    """Return what a question asks for, in words."""
+    text = type(question).model_fields["ask"].description or question.kind()
     about = getattr(question, "constraint", None) or getattr(question, "coordinate", None)
     if about:
-        told += f" ({about if isinstance(about, str) else ', '.join(about)})"
-    return plain(told)
+        text += f" ({about if isinstance(about, str) else ', '.join(about)})"
+    return plain(text)
 
 
 def rendered(template: str, **values: Any) -> str:
@@ -118,6 +118,6 @@ def _pieces(text: str) -> list[str]:
 
 def _formulas(text: str) -> list[tuple[str, str]]:
     """Return the parts of how an answer was read, each with its MathML if it is a relation in the grammar of scenes."""
-    parts = re.split("(; | or )", plain(text))
-    formulas = [typeset(part) if re.search("[=<>]", part) else None for part in parts]
-    return [("" if latex is None else mathml(latex), part) for latex, part in zip(formulas, parts, strict=True)]
+    segments = re.split("(; | or )", plain(text))
+    formulas = [typeset(part) if re.search("[=<>]", part) else None for part in segments]
+    return [("" if latex is None else mathml(latex), part) for latex, part in zip(formulas, segments, strict=True)]

@@ -28,15 +28,15 @@ UNGRADED = (
 
 
 def document(result: Result, language: Language = "en") -> dict[str, Any]:
-    """What ``results.json`` says of a submission, in less than a megabyte."""
-    found = _document(result, language)
+    """Return the ``results.json`` of a submission, in less than a megabyte."""
+    fields = _document(result, language)
     for most in (MOST_CHARACTERS, MOST_CHARACTERS // 10):
-        found = found if len(text(found)) <= MOST_BYTES else _cut(found, most)
-    if len(text(found)) > MOST_BYTES:
+        fields = fields if len(text(fields)) <= MOST_BYTES else _cut(fields, most)
+    if len(text(fields)) > MOST_BYTES:
         too_many = in_language(language, "There are too many answers to be listed one by one.")
-        errors = {"format_errors": found["format_errors"][:50]} if "format_errors" in found else {}
-        found = {**found, **errors, "tests": [], "message": f"{found['message']}\n{too_many}"}
-    return found
+        errors = {"format_errors": fields["format_errors"][:50]} if "format_errors" in fields else {}
+        fields = {**fields, **errors, "tests": [], "message": f"{fields['message']}\n{too_many}"}
+    return fields
 
 
 def _document(result: Result, language: Language) -> dict[str, Any]:
@@ -75,11 +75,11 @@ def _error(item: Item, language: Language) -> str:
     return f"{title(item)}{where}: {line(item.feedback) or in_language(language, 'not readable')}"
 
 
-def _cut(found: dict[str, Any], most: int) -> dict[str, Any]:
-    tests = [{k: shortened(v, most) if isinstance(v, str) else v for k, v in test.items()} for test in found["tests"]]
-    cut = {**found, "tests": tests, "message": shortened(found["message"], most)}
-    if "format_errors" in found:
-        cut["format_errors"] = [shortened(error, most) for error in found["format_errors"]]
+def _cut(fields: dict[str, Any], most: int) -> dict[str, Any]:
+    tests = [{k: shortened(v, most) if isinstance(v, str) else v for k, v in test.items()} for test in fields["tests"]]
+    cut = {**fields, "tests": tests, "message": shortened(fields["message"], most)}
+    if "format_errors" in fields:
+        cut["format_errors"] = [shortened(error, most) for error in fields["format_errors"]]
     return cut
 
 

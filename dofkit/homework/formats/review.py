@@ -35,18 +35,18 @@ _FILLED = frozenset({"remark", "decided_by"})
 def write_table(rows: Iterable[ReviewRow], prepared: Prepared, path: Path, delimiter: str | None) -> None:
     """Write the table whole: it never stands there in part. ``delimiter``: the one it had before. Raises OSError."""
     chosen = delimiter or (";" if prepared.assignment.language in _SEMICOLONS else ",")
-    beside = path.with_name(f".{path.name}.new")
-    with beside.open("w", encoding="utf-8-sig", newline="") as stream:
+    temporary = path.with_name(f".{path.name}.new")
+    with temporary.open("w", encoding="utf-8-sig", newline="") as stream:
         writer = csv.writer(stream, delimiter=chosen, lineterminator="\r\n")
         writer.writerow(COLUMNS)
         for row in rows:
             writer.writerow(_cells(row.cells, chosen))
-    os.replace(beside, path)
+    os.replace(temporary, path)
 
 
 def _cells(cells: Mapping[str, str], delimiter: str) -> list[str]:
     """The cells of a row; what a person wrote stays as it is."""
-    found = []
+    texts = []
     for name in COLUMNS:
         text = cells.get(name, "")
         if name in _ANSWERS:
@@ -55,8 +55,8 @@ def _cells(cells: Mapping[str, str], delimiter: str) -> list[str]:
             text = text.replace(".", ",")
         elif name != "points":
             text = cell(text if name in _FILLED else unmarked(text))
-        found.append(text)
-    return found
+        texts.append(text)
+    return texts
 
 
 def write_page(queue: Queue, rows: Iterable[ReviewRow], prepared: Prepared, path: Path, table: str) -> None:
@@ -71,15 +71,17 @@ def write_page(queue: Queue, rows: Iterable[ReviewRow], prepared: Prepared, path
         "table": table,
         "nonce": secrets.token_urlsafe(16),
     }
-    beside = path.with_name(f".{path.name}.new")
-    beside.write_text(rendered("review.html", page=page), encoding="utf-8")
-    os.replace(beside, path)
+    temporary = path.with_name(f".{path.name}.new")
+    temporary.write_text(rendered("review.html", page=page), encoding="utf-8")
+    os.replace(temporary, path)
 
 
 def _questions(waiting: Sequence[QueuedAnswer], prepared: Prepared) -> Iterator[dict[str, Any]]:
     """Yield the open answers to each question."""
     for problem, question in prepared.questions():
-        answers = [one for one in waiting if (one.item.problem, one.item.question) == (problem.id, question.id)]
+        answers = [
+            queued for queued in waiting if (queued.item.problem, queued.item.question) == (problem.id, question.id)
+        ]
         if answers:
             name = f"{problem.id}.{question.id}"
             yield {"name": name, "asked": question_text(question), "most": float(question.points), "answers": answers}
@@ -94,7 +96,7 @@ class ReviewPaths:
     shared: bool
 
     @classmethod
-    def beside(cls, out: Path, folder: bool) -> ReviewPaths:
+    def of_output(cls, out: Path, folder: bool) -> ReviewPaths:
         """Return the paths in a folder of results, or beside a file of results and named after it."""
         if folder:
             return cls(out / TABLE, out / PAGE, False)
@@ -113,17 +115,17 @@ class RunReview:
     def read(cls, prepared: Prepared, reviewed: Path | None, paths: ReviewPaths | None) -> RunReview:
         """Return the rows of both tables. Raises ReviewError and OSError."""
         asked = prepared.most_points()
-        beside, named = FilledTable(), FilledTable()
+        earlier, named = FilledTable(), FilledTable()
         if paths is not None and paths.table.exists():
-            beside = read_table(paths.table, asked)
+            earlier = read_table(paths.table, asked)
         if reviewed is not None:
             named = read_table(reviewed, asked)
-        rows = dict(beside.rows)
+        rows = dict(earlier.rows)
         for identity, row in named.rows.items():
             if row.filled or identity not in rows:
                 cells = rows[identity].cells if identity in rows else {}
                 rows[identity] = replace(row, cells={**cells, **row.cells})
-        return cls(paths, rows, beside.delimiter or named.delimiter)
+        return cls(paths, rows, earlier.delimiter or named.delimiter)
 
     def applied(self, prepared: Prepared) -> Prepared:
         """Return the assignment with the decisions."""
@@ -145,12 +147,6 @@ class RunReview:
             different = "1 answer awaits" if waiting == 1 else f"{waiting} different answers await"
             again = f"fill in points, then grade again with --reviewed {self.paths.table}"
             print(f"{different} review in {self.paths.table}: {again}", file=sys.stderr)
-
-    def write_page(self, results: Sequence[Result], prepared: Prepared) -> None:
-        """Write the page alone, of results whose table is elsewhere. Raises OSError."""
-        if self.paths is not None:
-            queue = queue_of(results, prepared)
-            write_page(queue, queue.rows(self.rows), prepared, self.paths.page, str(self.paths.table))
 
 
 def queue_of(results: Sequence[Result], prepared: Prepared, links: Sequence[str] = ()) -> Queue:

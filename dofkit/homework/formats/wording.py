@@ -60,8 +60,8 @@ def identity(student: str) -> str:
     >>> identity("Ada B"), identity("ada\u200e"), identity(" ada\\n")
     ('Ada B', 'ada�', '�ada�')
     """
-    shown = _OTHER_SPACE.sub("�", _UNPRINTABLE.sub("�", _TURNING.sub("�", student)))
-    return _AROUND.sub(lambda found: "�" * len(found[0]), shown)
+    visible = _OTHER_SPACE.sub("�", _UNPRINTABLE.sub("�", _TURNING.sub("�", student)))
+    return _AROUND.sub(lambda blanks: "�" * len(blanks[0]), visible)
 
 
 def number(value: float) -> str:
@@ -86,8 +86,8 @@ def open_points(result: Result) -> float:
 
 def decided(result: Result) -> bool:
     """Whether every answer has its points, so that the score is final."""
-    known = result.error is None and result.doubt is None and result.score is not None
-    return known and not result.needs_review
+    gradable = result.error is None and result.doubt is None and result.score is not None
+    return gradable and not result.needs_review
 
 
 def standing(result: Result, language: Language = "en") -> str:
@@ -97,14 +97,14 @@ def standing(result: Result, language: Language = "en") -> str:
     if result.doubt is not None:
         doubt = in_language(language, "This result is not final: {fault}.", fault=plain(result.doubt))
         return f"{doubt}\n{standing(result.model_copy(update={'doubt': None}), language)}"
-    given = {"score": number(result.score or 0.0), "most": number(result.max_score)}
+    points_text = {"score": number(result.score or 0.0), "most": number(result.max_score)}
     if not result.needs_review:
-        return in_language(language, "Points: {score} of {most}.", **given)
+        return in_language(language, "Points: {score} of {most}.", **points_text)
     return in_language(
         language,
         "Points so far: {score} of {most}. This is not final: a person will review the answers that could not be "
         "graded automatically (points: {open}).",
-        **given,
+        **points_text,
         open=number(open_points(result)),
     )
 
@@ -142,7 +142,7 @@ class ReadingStop(NamedTuple):
 
 
 def stop_of(item: Item) -> ReadingStop | None:
-    """Where reading of an answer stopped, at most so many characters before and after; None where it did not."""
+    """Return where reading of an answer stopped, with the characters around, or None if it did not."""
     if item.answer is None or item.column is None:
         return None
     place = min(item.column - 1, len(item.answer))

@@ -74,20 +74,20 @@ def _earlier(out: Path, value: Mapping[str, Any]) -> tuple[StudentVariant, ...]:
     path = out / ASSIGNMENT
     if not path.exists():
         return ()
-    found = read_document(path.read_bytes(), str(path)).value
+    document = read_document(path.read_bytes(), str(path)).value
     try:
-        known = Assignment.model_validate(found)
-        same = known.variants is not None and known.model_copy(update={"variants": None}) == Assignment.model_validate(
-            value
-        )
+        assignment = Assignment.model_validate(document)
+        same = assignment.variants is not None and assignment.model_copy(
+            update={"variants": None}
+        ) == Assignment.model_validate(value)
     except ValidationError:
         same = False
-    if not same or known.variants is None:
+    if not same or assignment.variants is None:
         raise VaryError(
             f"{out} contains the sheets of another assignment, and students may have them: name another folder, or "
             "replace all variants with --anew"
         )
-    return known.variants.students
+    return assignment.variants.students
 
 
 def standing_alone(prepared: Prepared, out: Path) -> dict[str, Any]:
@@ -140,6 +140,6 @@ def write_class(made: ClassSheets, form: str, draw: Draw, out: Path) -> None:
         for student, problem, variant, right in rows:
             table.writerow(map(cell, (student, problem, variant, str(counts[problem, variant]), right)))
     names = FileNames()
-    for one in made.variants.students:
-        told = written_sheet(picked(made.prepared, one.picks), draw, one.student)
-        write_sheet(told, form, out / SHEETS / f"{names.of(one.student)}.{form}")
+    for member in made.variants.students:
+        sheet = written_sheet(picked(made.prepared, member.picks), draw, member.student)
+        write_sheet(sheet, form, out / SHEETS / f"{names.of(member.student)}.{form}")

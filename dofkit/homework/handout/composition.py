@@ -15,7 +15,7 @@ from dofkit.homework.formats.wording import number
 from dofkit.homework.grading import Grader
 from dofkit.homework.handout.markup import SheetFigure
 from dofkit.homework.key.key import Key
-from dofkit.homework.problem import ALL, Problem, filled, marked, places, shown
+from dofkit.homework.problem import ALL, Problem, constraint_text, filled, marked, places
 from dofkit.homework.questions import QuestionBase
 from dofkit.homework.questions.equations import EquationQuestion
 from dofkit.homework.sentences import Language, described, say
@@ -44,23 +44,23 @@ class SheetComposer:
 
     @property
     def language(self) -> Language:
-        """What it is written in."""
+        """Return the language of the sheet."""
         return self.prepared.assignment.language
 
-    def told(self, sentence: str, **values: object) -> str:
+    def _text(self, sentence: str, **values: object) -> str:
         """A sentence in the sheet's language."""
-        return say(sentence, **values).told(self.language)
+        return say(sentence, **values).translated(self.language)
 
     def markdown(self) -> str:
         """The whole sheet."""
         assignment = self.prepared.assignment
         blocks = [f"# {marked(assignment.title)}"]
         if self.whose is not None:
-            whose = self.told("Assignment for {student}", student=marked(self.whose))
+            whose = self._text("Assignment for {student}", student=marked(self.whose))
             blocks.append(f"**{whose}**")
         for n, problem in enumerate(assignment.problems, 1):
             blocks += self._problem(n, problem)
-        heading = self.told("How to write answers")
+        heading = self._text("How to write answers")
         blocks += [f"## {heading}", "\n".join(f"- {way}" for way in self._ways())]
         return "\n\n".join(blocks) + "\n"
 
@@ -72,11 +72,11 @@ class SheetComposer:
             yield filled(problem.text, key.scene, asked_equations(problem), self.language).strip()
         figure = self.figures.get(problem.id)
         if figure is not None:
-            caption = self.told("Figure {number}", number=n)
+            caption = self._text("Figure {number}", number=n)
             yield f"![{caption}]({figure.path})"
         names = list(self._names(problem, key))
         if names:
-            yield "\n".join(f"- {one}" for one in names)
+            yield "\n".join(f"- {entry}" for entry in names)
         yield "\n".join(
             f"{i}. {self._asked(q)} ({self._points(q.points)}) `{problem.id}.{q.id}`"
             for i, q in enumerate(problem.questions, 1)
@@ -84,29 +84,29 @@ class SheetComposer:
 
     def _points(self, points: Fraction) -> str:
         sentence = "{number} point" if points == 1 else "{number} points"
-        return self.told(sentence, number=number(float(points)))
+        return self._text(sentence, number=number(float(points)))
 
     def _asked(self, question: QuestionBase) -> str:
         constraint = getattr(question, "constraint", None) is not None
         about = ", ".join(f"`{name}`" if constraint else f"${name}$" for name in question.about)
-        return question.asked(about).told(self.language)
+        return question.asked(about).translated(self.language)
 
     def _names(self, problem: Problem, key: Key) -> Iterator[str]:
-        """What everything is called, and what holds it."""
+        """Yield the names of the problem, and its constraints."""
         table = coordinate_table(key.scene)
         for owner, group in groupby(table.coordinates, key=lambda c: c.owner):
             symbols = ", ".join(f"${c.name}$" for c in group)
             if owner is None:
-                yield self.told("{names}: coordinates.", names=symbols)
+                yield self._text("{names}: coordinates.", names=symbols)
             elif owner in table.bodies and key.scene.dimension > 1:
-                yield self.told("{names}: position and orientation of the body {owner}.", names=symbols, owner=owner)
+                yield self._text("{names}: position and orientation of the body {owner}.", names=symbols, owner=owner)
             else:
-                yield self.told("{names}: position of {owner}.", names=symbols, owner=owner)
+                yield self._text("{names}: position of {owner}.", names=symbols, owner=owner)
         for name, value in key.scene.parameters.items():
             sign = _SIGNED.get(str(value))
-            yield self.told(sign, names=f"${name}$") if sign else f"${name} = {as_written(value)}$"
+            yield self._text(sign, names=f"${name}$") if sign else f"${name} = {as_written(value)}$"
         for name, arguments in key.scene.functions.items():
-            yield self.told("{names}: unknown smooth function.", names=f"${name}({', '.join(arguments)})$")
+            yield self._text("{names}: unknown smooth function.", names=f"${name}({', '.join(arguments)})$")
         if (ALL, None) not in places(problem.text or ""):
             yield from self._constraints(key, asked_equations(problem))
             yield from map(self._force, key.scene.forces)
@@ -115,48 +115,48 @@ class SheetComposer:
     def _constraints(self, key: Key, hidden: set[str]) -> Iterator[str]:
         for constraint, name in zip(key.scene.constraints, key.constraints, strict=True):
             if constraint.facts.written and name in hidden:
-                yield self.told("{names}: constraint.", names=f"`{name}`")
+                yield self._text("{names}: constraint.", names=f"`{name}`")
             else:
-                yield f"`{name}`: {shown(constraint, self.language)}"
+                yield f"`{name}`: {constraint_text(constraint, self.language)}"
 
     def _force(self, force: Force) -> str:
         if force.type == "gravity" and isinstance(force.acceleration, str):
-            return self.told(
+            return self._text(
                 "Gravity acts on all masses, with the acceleration {value}.", value=f"${force.acceleration}$"
             )
         if force.type == "gravity":
-            return self.told("Gravity acts on all masses.")
+            return self._text("Gravity acts on all masses.")
         ends = [*(force.between or ()), *([] if force.point is None else [force.point])]
         where = "-".join(show_point(end) for end in ends) or force.body or ""
         sizes = {"stiffness": force.stiffness, "rest length": force.rest_length, "damping": force.damping}
-        known = "".join(f", {word} {as_written(value)}" for word, value in sizes.items() if value is not None)
-        return marked(described(f"{force.type} {where}{known}".strip(), self.language))
+        measures = "".join(f", {word} {as_written(value)}" for word, value in sizes.items() if value is not None)
+        return marked(described(f"{force.type} {where}{measures}".strip(), self.language))
 
     def _further(self, problem: Problem, key: Key) -> Iterator[str]:
         for name, text in problem.also.items():
-            yield self.told("You may also use {names}.", names=f"${name} = {text}$")
+            yield self._text("You may also use {names}.", names=f"${name} = {text}$")
         for name, others in problem.names.items():
             listed = ", ".join(f"`{other}`" for other in others)
-            yield self.told("{name} may also be written as {names}.", name=f"`{name}`", names=listed)
+            yield self._text("{name} may also be written as {names}.", name=f"`{name}`", names=listed)
 
     def _ways(self) -> Iterator[str]:
-        """How answers are written: of every kind of question that the sheet has."""
+        """Yield how answers are written, for every kind of question on the sheet."""
         asked = [question for _, question in self.prepared.questions()]
         kinds = {question.kind(): type(question) for question in asked}
         if {"dof", "k"} & set(kinds):
-            yield self.told(_FREEDOM[self.prepared.assignment.convention])
+            yield self._text(_FREEDOM[self.prepared.assignment.convention])
         (first, question), *_ = self.prepared.columns().values()
-        yield self.told(
+        yield self._text(
             "Submit a file such as answers.yaml with a line for each answer, as in {line}, or a filled-in template.",
             line=f"`{first}.{question}: ...`",
         )
         for cls in kinds.values():
             example = safe_example(self.prepared, cls)
-            lead = self.told("Example (for a different system):")
-            shown = "" if example is None else f" {lead} `{self.told('{text}', text=example)}`"
-            yield self.told(cls.how) + shown
-        yield self.told("Greek letters may be typed directly or as words such as theta and omega. LaTeX is accepted.")
-        yield self.told(
+            lead = self._text("Example (for a different system):")
+            sample = "" if example is None else f" {lead} `{self._text('{text}', text=example)}`"
+            yield self._text(cls.how) + sample
+        yield self._text("Greek letters may be typed directly or as words such as theta and omega. LaTeX is accepted.")
+        yield self._text(
             "Decimals are written with a point or a comma; exact numbers such as 1/3 or sqrt(2) are preferred."
         )
 

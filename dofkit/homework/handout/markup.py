@@ -104,8 +104,8 @@ def _within(tokens: Sequence[Token]) -> Iterator[Token]:
 
 def unset_formulas(markdown: str) -> list[str]:
     """Return the formulas of a text that cannot be set."""
-    found = [t.content.strip() for t in _within(reader().parse(markdown)) if t.type.startswith("math_")]
-    return [text for text in found if formula(text).mathml is None]
+    formulas = [t.content.strip() for t in _within(reader().parse(markdown)) if t.type.startswith("math_")]
+    return [text for text in formulas if formula(text).mathml is None]
 
 
 def pictures_of(markdown: str) -> list[str]:
@@ -125,8 +125,8 @@ def with_latex(markdown: str) -> str:
 def page_of(markdown: str, title: str, language: str, figures: Mapping[str, SheetFigure]) -> str:
     """Return the page of a text; ``figures`` by their paths in it."""
     page = _TEMPLATE.read_text(encoding="utf-8")
-    parts = {"language": language, "title": escape(line(title)), "body": reader().render(markdown, dict(figures))}
-    return re.sub(r"\{\{(language|title|body)\}\}", lambda found: parts[found[1]], page)
+    fields = {"language": language, "title": escape(line(title)), "body": reader().render(markdown, dict(figures))}
+    return re.sub(r"\{\{(language|title|body)\}\}", lambda place: fields[place[1]], page)
 
 
 #: Draws a scene, under a title, as SVG; None for a scene that has no places. Its report is known.
@@ -149,7 +149,7 @@ class SheetFigure(NamedTuple):
 
     @property
     def kind(self) -> str:
-        """What a page calls it."""
+        """Return its media type."""
         return KINDS[Path(self.path).suffix.lower()]
 
 
@@ -161,8 +161,8 @@ def figure_of(problem: Problem, drawn: Callable[[], str | None], base: Path, nam
     if problem.figure == UNDRAWN:
         return None
     if problem.figure in (None, DRAWN):
-        found = drawn()
-        return None if found is None else SheetFigure(f"{name}.svg", found.encode())
+        svg = drawn()
+        return None if svg is None else SheetFigure(f"{name}.svg", svg.encode())
     return file_of(str(problem.figure), base, name)
 
 

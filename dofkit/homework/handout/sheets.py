@@ -60,7 +60,7 @@ def _figure(problem: Problem, prepared: Prepared, draw: Draw, whose: str | None)
 
 
 def _path(problem: Problem, whose: str | None) -> str:
-    """Where the picture of a problem stands in the sheet's folder, without its ending; each student has another."""
+    """Return the path of a problem's picture in the sheet's folder, without its ending; each student has another."""
     return "/".join(["figures", *([] if whose is None else [stem(whose)]), stem(problem.id)])
 
 
@@ -71,10 +71,10 @@ def _html(sheet: WrittenSheet, out: Path) -> None:
 def _markdown(sheet: WrittenSheet, out: Path) -> None:
     out.write_text(with_latex(sheet.markdown), encoding="utf-8")
     for path, figure in sheet.figures.items():
-        _beside(out, path, figure.data)
+        _write_figure(out, path, figure.data)
 
 
-def _beside(out: Path, path: str, data: bytes) -> None:
+def _write_figure(out: Path, path: str, data: bytes) -> None:
     target = out.parent / path
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_bytes(data)
@@ -96,7 +96,7 @@ def write_sheet(sheet: WrittenSheet, form: str, out: Path) -> None:
 
 
 def remarks(prepared: Prepared) -> Iterator[str]:
-    """What a lecturer should know of a sheet before it is handed out."""
+    """Yield what a lecturer should know about a sheet before it is handed out."""
     for problem in prepared.assignment.problems:
         for text in unset_formulas(problem.text or ""):
             yield f"problem '{problem.id}': the formula ${text}$ cannot be typeset, and is shown as typed"

@@ -58,11 +58,11 @@ class PosedAnswer(NamedTuple):
     """A scene's mathematics with an answer in it, and the numbers of the answer's constraints."""
 
     system: System
-    own: range
+    numbers: range
 
 
 def with_answer(key: Key, read: Read, question: Callable[[PosedAnswer], Found]) -> Found:
-    """What is found of the scene with the answer. Raises TextError where the scene cannot hold it."""
+    """Return what a question finds in the scene with the answer. Raises TextError if the scene cannot contain it."""
     try:
         system = lower(with_equations(key.scene, read, ANSWER)).in_coordinates
         return question(PosedAnswer(system, range(len(key.scene.constraints), len(system.constraints))))
@@ -80,82 +80,82 @@ class EquationComparison:
 
     def judgement(self, way: AnswerReading) -> Judgement:
         """Return what one reading of an answer is worth; names that nothing explains leave it open."""
-        found = self._found(way)
-        if found.status == "wrong" and any(map(_is_rounded, way.relations)):
-            return needs_review(way.shown, "it contains rounded numbers.")
-        if found.codes == (Sameness.EMPTY.value,) and len(way.relations) > 1 and not way.derived:
-            return self._contradictory(way) or found
-        if way.derived and found.status != "right":
-            last = self._found(way.claim)
+        verdict = self._compared_reading(way)
+        if verdict.status == "wrong" and any(map(_is_rounded, way.relations)):
+            return needs_review(way.text, "it contains rounded numbers.")
+        if verdict.codes == (Sameness.EMPTY.value,) and len(way.relations) > 1 and not way.derived:
+            return self._contradictory(way) or verdict
+        if way.derived and verdict.status != "right":
+            last = self._compared_reading(way.claim)
             if last.status == "right":
                 return last
-            return needs_review(way.shown, "it is not clear whether only the last equation is meant.")
-        return found
+            return needs_review(way.text, "it is not clear whether only the last equation is meant.")
+        return verdict
 
     def _contradictory(self, way: AnswerReading) -> Judgement | None:
         """Of equations that exclude each other some are right: a person has to look. None where none is."""
         ways = []
         for relation, bare in zip(way.relations, way.bare, strict=True):
-            one = way._replace(relations=(relation,), bare=(bare,))
+            single = way._replace(relations=(relation,), bare=(bare,))
             with suppress(TextError):
-                found = self._found(one)
-                ways.append(JudgedReading(found.read_as, found.share))
+                verdict = self._compared_reading(single)
+                ways.append(JudgedReading(verdict.read_as, verdict.share))
         if all(share == NOTHING for _, share in ways):
             return None
-        return replace(needs_review(way.shown, "the answer contradicts itself."), ways=tuple(ways))
+        return replace(needs_review(way.text, "the answer contradicts itself."), ways=tuple(ways))
 
-    def _found(self, way: AnswerReading) -> Judgement:
-        if not way.own:
+    def _compared_reading(self, way: AnswerReading) -> Judgement:
+        if not way.undeclared:
             return self._declared(way)
         if not way.on_coordinates:
             return self._undecided(way)
         forms = any(self.key.constraints[name].form == "pfaffian" for name in self.names)
         if forms and not way.moving and not way.read().moving:
-            found = self._told(way.read(frozenset(way.own)), way.shown)
-            if found.status in ("right", "partly") or all(map(is_constant_name, way.own)):
-                return found
+            verdict = self._verdict(way.read(frozenset(way.undeclared)), way.text)
+            if verdict.status in ("right", "partly") or all(map(is_constant_name, way.undeclared)):
+                return verdict
         gone = without_own(way, self.key.scene)
         if gone is not None:
-            return self._declared(gone, way.shown)
+            return self._declared(gone, way.text)
         for other, names in renamed(way, self.key.scene, self.key.declared.constants):
-            found = self._declared(other)
-            if found.status == "right":
-                told = ", ".join(f"{own} = {name}" for own, name in names.items())
-                return right(other.shown, say("The names were matched to those of the problem: {names}.", names=told))
+            verdict = self._declared(other)
+            if verdict.status == "right":
+                listing = ", ".join(f"{undeclared_name} = {name}" for undeclared_name, name in names.items())
+                return right(other.text, say("The names were matched to those of the problem: {names}.", names=listing))
         return self._undecided(way)
 
     def _undecided(self, way: AnswerReading) -> Judgement:
         """Return that an equation needs a review: in coordinates that the assignment offers, or in unknown names."""
-        strange = [name for name in way.own if name not in self.key.also]
-        return needs_review(way.shown, undeclared(strange[0]) if strange else _UNDECIDED)
+        strange = [name for name in way.undeclared if name not in self.key.also]
+        return needs_review(way.text, undeclared(strange[0]) if strange else _UNDECIDED)
 
-    def _declared(self, way: AnswerReading, shown: str = "") -> Judgement:
+    def _declared(self, way: AnswerReading, text: str = "") -> Judgement:
         if not way.on_coordinates and any(e.symbols for c in way.relations for e in (c.left, c.right)):
             raise TextError("the answer contains no coordinates", 1, "write an equation between the coordinates")
         if any(s.args[0] == "acceleration" for c in way.relations for e in (c.left, c.right) for s in e.symbols):
-            return needs_review(way.shown, "it contains accelerations.")
-        found = self._told(way.read(), shown or way.shown)
-        if found.status == "right":
-            return found
+            return needs_review(way.text, "it contains accelerations.")
+        verdict = self._verdict(way.read(), text or way.text)
+        if verdict.status == "right":
+            return verdict
         region = self._region(way)
-        if region is not None or found.share != NOTHING:
-            return region or found
-        return self._with_counterexample(found, way)
+        if region is not None or verdict.share != NOTHING:
+            return region or verdict
+        return self._with_counterexample(verdict, way)
 
-    def _with_counterexample(self, found: Judgement, way: AnswerReading) -> Judgement:
+    def _with_counterexample(self, verdict: Judgement, way: AnswerReading) -> Judgement:
         """Return a judgement with a configuration, if one is known, that the answer allows wrongly."""
         system = lower(self.key.scene)
         asked = [r.expr for i in system.numbers_of(*self.names) for r in system.constraints[i].relations]
         symbols = {s for c in way.relations for e in (c.left, c.right, *asked) for s in e.symbols}
         finite = all(s.args[0] in ("coordinate", "parameter") for s in symbols)
         equations = all(c.relation == "=" for c in way.relations)
-        if len(asked) != 1 or not finite or not equations or found.codes == (Sameness.EMPTY.value,):
-            return found
+        if len(asked) != 1 or not finite or not equations or verdict.codes == (Sameness.EMPTY.value,):
+            return verdict
         point = counterexample(self._others(), way.relations, asked[0])
         return (
-            found.saying(say("Your equation allows {point}, which the constraint forbids.", point=point))
+            verdict.saying(say("Your equation allows {point}, which the constraint forbids.", point=point))
             if point
-            else found
+            else verdict
         )
 
     def _region(self, way: AnswerReading) -> Judgement | None:
@@ -166,27 +166,27 @@ class EquationComparison:
         if answer is None or any(r.sense == "=" for r in asked):
             return None
         wanted = [Condition(r.expr, r.sense == ">") for r in asked]
-        found = compared_regions(self._others(), wanted, answer)
-        if not found.beyond and not found.lacking:
-            same = None not in (found.beyond, found.lacking)
-            return right(way.shown) if same else needs_review(way.shown, _UNDECIDED)
+        comparison = compared_regions(self._others(), wanted, answer)
+        if not comparison.beyond and not comparison.lacking:
+            same = None not in (comparison.beyond, comparison.lacking)
+            return right(way.text) if same else needs_review(way.text, _UNDECIDED)
         allows = "Your inequality allows {point}, which the constraint forbids."
         forbids = "Your inequality forbids {point}, which the constraint allows."
-        told = say(allows if found.beyond else forbids, point=found.point) if found.point else ""
-        both = found.beyond and found.lacking
-        sameness = Sameness.DIFFERENT if both else Sameness.WEAKER if found.beyond else Sameness.STRONGER
-        return wrong(way.shown, told, sameness.value)
+        hint = say(allows if comparison.beyond else forbids, point=comparison.point) if comparison.point else ""
+        both = comparison.beyond and comparison.lacking
+        sameness = Sameness.DIFFERENT if both else Sameness.WEAKER if comparison.beyond else Sameness.STRONGER
+        return wrong(way.text, hint, sameness.value)
 
-    def _told(self, read: Read, shown: str) -> Judgement:
-        found = self.key.once((self.names, read.texts, read.constants), lambda: self._compared(read))
-        if found.sameness is Sameness.UNDECIDED:
-            return needs_review(shown, _UNDECIDED)
-        told, code = _FEEDBACK[found.sameness], found.sameness.value
-        if found.sameness in _RIGHT:
-            return right(shown, told)
-        if found.sameness in _HALVES:
-            return partly(HALF, shown, told, code)
-        return self._in_part(found, read, shown, told, code)
+    def _verdict(self, read: Read, text: str) -> Judgement:
+        comparison = self.key.once((self.names, read.texts, read.constants), lambda: self._compared(read))
+        if comparison.sameness is Sameness.UNDECIDED:
+            return needs_review(text, _UNDECIDED)
+        hint, code = _FEEDBACK[comparison.sameness], comparison.sameness.value
+        if comparison.sameness in _RIGHT:
+            return right(text, hint)
+        if comparison.sameness in _HALVES:
+            return partly(HALF, text, hint, code)
+        return self._in_part(comparison, read, text, hint, code)
 
     def _others(self) -> Scene:
         """Return the scene without the constraints that are asked for."""
@@ -200,44 +200,46 @@ class EquationComparison:
         e = c.left - c.right if not c.right.is_zero else c.left
         return e.op == "mul" and sum(any(s.args[0] != "parameter" for s in f.symbols) for f in e.args) > 1
 
-    def _by_rank(self, read: Read, shown: str, told: str, code: str) -> Judgement:
+    def _by_rank(self, read: Read, text: str, hint: str, code: str) -> Judgement:
         """Return what implied equations are worth, by the number of velocities that they leave free."""
         scene = self._others()
         free = classify(scene).velocity_dof
         yours, system = classify(with_equations(scene, read, ANSWER)).velocity_dof, self.key.report.velocity_dof
         if free is None or yours is None or system is None:
-            return needs_review(shown, _UNDECIDED)
+            return needs_review(text, _UNDECIDED)
         if free - system < 2 or not system < yours < free or any(map(self._is_product, read.texts)):
-            return wrong(shown, told, code)
+            return wrong(text, hint, code)
         more = "Your equations leave {yours} independent velocities; the system has {system}: equations are missing."
         count = say(more, yours=yours, system=system)
-        return partly(Fraction(free - yours, free - system), shown, count, code)
+        return partly(Fraction(free - yours, free - system), text, count, code)
 
     def _compared(self, read: Read) -> Compared:
         return with_answer(
             self.key,
             read,
-            lambda posed: compare(posed.system, posed.system.numbers_of(*self.names), posed.own, read.constants),
+            lambda posed: compare(posed.system, posed.system.numbers_of(*self.names), posed.numbers, read.constants),
         )
 
-    def _in_part(self, found: Compared, read: Read, shown: str, told: str, code: str) -> Judgement:
+    def _in_part(self, comparison: Compared, read: Read, text: str, hint: str, code: str) -> Judgement:
         """Return points in proportion to the constraints that are implied, or to the rank of what is."""
-        share = Fraction(sum(found.met), len(found.met)) if len(self.names) > 1 and found.met else NOTHING
-        if found.sameness is Sameness.WEAKER and share == NOTHING and len(self.names) > 1:
-            return self._by_rank(read, shown, told, code)
+        share = (
+            Fraction(sum(comparison.met), len(comparison.met)) if len(self.names) > 1 and comparison.met else NOTHING
+        )
+        if comparison.sameness is Sameness.WEAKER and share == NOTHING and len(self.names) > 1:
+            return self._by_rank(read, text, hint, code)
         if not 0 < share < 1:
-            return wrong(shown, told, code)
-        missing = [n for n, met in zip(self.names, found.met, strict=True) if not met]
+            return wrong(text, hint, code)
+        missing = [n for n, met in zip(self.names, comparison.met, strict=True) if not met]
         met = len(self.names) - len(missing)
         count = say("It implies {number} of the {all} constraints.", number=met, all=len(self.names))
-        return partly(share, shown, told, code).saying(count)
+        return partly(share, text, hint, code).saying(count)
 
 
 def _is_rounded(c: Comparison) -> bool:
     """Return whether a relation has decimals, or the sine, cosine or tangent of an angle in degrees with decimals."""
-    parts = [n for e in (c.left, c.right) for n in ex.nodes(e)]
-    angles = [ex.num(180) * n.args[1] / ex.PI for n in parts if n.op == "fn" and n.args[0] in _TURNING]
-    decimals = [n for n in parts if n.op == "num" and n.args[0].denominator > 10 and 10**6 % n.args[0].denominator == 0]
+    terms = [n for e in (c.left, c.right) for n in ex.nodes(e)]
+    angles = [ex.num(180) * n.args[1] / ex.PI for n in terms if n.op == "fn" and n.args[0] in _TURNING]
+    decimals = [n for n in terms if n.op == "num" and n.args[0].denominator > 10 and 10**6 % n.args[0].denominator == 0]
     return bool(decimals) or any(d.op == "num" and d.args[0].denominator > 1 for d in angles)
 
 
@@ -264,8 +266,8 @@ def _equations(key: Key, name: str) -> str:
 
 
 def _sayable(key: Key, expr: Expr) -> bool:
-    """Are all names in it declared, lengths without a name apart?"""
-    known = {*key.names.coordinates, *key.names.parameters}
+    """Return whether all names in it are declared, except lengths without a name."""
+    declared = {*key.names.coordinates, *key.names.parameters}
     return all(
-        s.args[0] == "time" or str(s.args[-1]) in known or _UNNAMED.fullmatch(str(s.args[-1])) for s in expr.symbols
+        s.args[0] == "time" or str(s.args[-1]) in declared or _UNNAMED.fullmatch(str(s.args[-1])) for s in expr.symbols
     )

@@ -27,35 +27,37 @@ _LEFT_OUT = "The constant of integration is missing: `... = C`."
 
 
 def integral_judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
-    """What one reading of an answer is worth as the integral of the constraint of this name."""
+    """Return what one reading of an answer is worth as the integral of the constraint of this name."""
     way = way.claim if way.derived else way
-    if len(way.relations) > 1 and way.own:
+    if len(way.relations) > 1 and way.undeclared:
         return _in_parameters(way, key, name)
     return _judgement(way, key, name)
 
 
 def _in_parameters(way: AnswerReading, key: Key, name: str) -> Judgement:
     """`x = r cos(a), y = r sin(a)`: one of its names is the parameter of a curve, the others are constants."""
-    for parameter_name in way.own:
-        gone = without_own(way._replace(own=(parameter_name,)), key.scene)
+    for parameter_name in way.undeclared:
+        gone = without_own(way._replace(undeclared=(parameter_name,)), key.scene)
         if gone is None:
             continue
-        own = tuple(n for n in way.own if n != parameter_name)
-        found = _judgement(gone._replace(own=own), key, name)
-        if found.status == "right":
-            return replace(found, read_as=way.shown)
-    return needs_review(way.shown, "it could not be decided in the time available whether this is an integral.")
+        constants = tuple(n for n in way.undeclared if n != parameter_name)
+        verdict = _judgement(gone._replace(undeclared=constants), key, name)
+        if verdict.status == "right":
+            return replace(verdict, read_as=way.text)
+    return needs_review(way.text, "it could not be decided in the time available whether this is an integral.")
 
 
 def _judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
     """The same of one reading, all names of its own constants."""
     read = _with_constants(way, key)
     if read.moving:
-        told = "This still contains velocities; the integral, a relation between the coordinates, is asked for."
-        return wrong(read.shown, told, "NOT_INTEGRATED")
+        hint = "This still contains velocities; the integral, a relation between the coordinates, is asked for."
+        return wrong(read.shown, hint, "NOT_INTEGRATED")
     remark = "" if read.constants else _LEFT_OUT
-    found = with_answer(key, read, lambda posed: is_integral(posed.system, posed.system.numbers_of(name), posed.own))
-    if found:
+    integral = with_answer(
+        key, read, lambda posed: is_integral(posed.system, posed.system.numbers_of(name), posed.numbers)
+    )
+    if integral:
         return right(read.shown, remark)
     family = _leaves(key, read, name)
     if family is Leaves.ALL or (family is Leaves.ONE and not read.constants):
@@ -71,23 +73,23 @@ def _judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
 
 def _with_constants(way: AnswerReading, key: Key) -> Read:
     """A bare expression is constant: `x y` is x y = C."""
-    own = set(way.own)
+    constants = set(way.undeclared)
     relations = []
     for c, bare in zip(way.relations, way.bare, strict=True):
-        if bare and not own:
+        if bare and not constants:
             fresh = next(n for n in _FRESH if key.names.lookup.meaning(n) is None)
-            own.add(fresh)
+            constants.add(fresh)
             c = Comparison(c.left, "=", parameter(fresh), c.column)
         relations.append(c)
-    return way._replace(relations=tuple(relations)).read(frozenset(own))
+    return way._replace(relations=tuple(relations)).read(frozenset(constants))
 
 
 def _leaves(key: Key, read: Read, name: str) -> Leaves:
-    """Is the answer a family of curves or surfaces on which the constraint holds?"""
+    """Return whether the answer is a family of curves or surfaces on which the constraint is satisfied."""
     scene = key.scene
     system = lower(_with_still(scene, read))
-    own = range(len(scene.constraints), len(scene.constraints) + len(read.texts))
-    return leaves(system, system.numbers_of(name), own, read.constants)
+    answer_numbers = range(len(scene.constraints), len(scene.constraints) + len(read.texts))
+    return leaves(system, system.numbers_of(name), answer_numbers, read.constants)
 
 
 def _with_still(scene: Scene, read: Read) -> Scene:

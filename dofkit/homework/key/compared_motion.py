@@ -31,7 +31,7 @@ def euler(e: Expr, name: str) -> Expr:
     return by_time(diff(e, ex.velocity(name))) - diff(e, ex.coordinate(name))
 
 
-def same_lagrangian(answer: Expr, right: Expr, known: RightMotion) -> bool | None:
+def same_lagrangian(answer: Expr, right: Expr, motion: RightMotion) -> bool | None:
     """Is the difference a total derivative by time? Euler's equation of it is then 0 identically, and only then.
 
     Beside finite relations it is enough that it gives no other force than the relations do, where they hold.
@@ -39,34 +39,34 @@ def same_lagrangian(answer: Expr, right: Expr, known: RightMotion) -> bool | Non
     gap = answer - right
     if any(s.args[0] == "acceleration" for s in gap.symbols):
         return None
-    forces = [euler(gap, n) for n in known.names]
-    told = [is_zero(e, known.positive) for e in forces]
-    if False in told and known.relations:
-        return _spanned(forces, known)
-    return False if False in told else None if None in told else True
+    forces = [euler(gap, n) for n in motion.names]
+    zeros = [is_zero(e, motion.positive) for e in forces]
+    if False in zeros and motion.relations:
+        return _spanned(forces, motion)
+    return False if False in zeros else None if None in zeros else True
 
 
-def _spanned(forces: Sequence[Expr], known: RightMotion) -> bool | None:
-    """Are forces sums of those of the constraints, at every state and acceleration that these allow?"""
-    columns = [ex.sym("acceleration", n) for n in known.names]
-    lines = [linear(known.on_constraints(e), columns) for e in forces]
-    held = [linear(known.on_constraints(e), columns) for e in known.rows]
+def _spanned(forces: Sequence[Expr], motion: RightMotion) -> bool | None:
+    """Return whether forces are sums of those of the constraints, at every state and acceleration that these allow."""
+    columns = [ex.sym("acceleration", n) for n in motion.names]
+    lines = [linear(motion.on_constraints(e), columns) for e in forces]
+    held = [linear(motion.on_constraints(e), columns) for e in motion.rows]
     if None in lines or None in held:
         return None
-    ring = Ring([e for row in (*lines, *held) for e in row or ()] + [*known.relations], known.positive)
+    ring = Ring([e for row in (*lines, *held) for e in row or ()] + [*motion.relations], motion.positive)
     nodes = [[[ring.node(e) for e in row or ()] for row in rows] for rows in (lines, held)]
-    told = []
-    for p, at in points(ring, known.relations):
-        own, rows = ([[int(at[i]) for i in row] for row in part] for part in nodes)
+    agreements = []
+    for p, at in points(ring, motion.relations):
+        force_rows, rows = ([[int(at[i]) for i in row] for row in part] for part in nodes)
         moving = _accelerations(rows, p)
         if moving is None:
             continue
-        force = [(_dot(row[:-1], moving) + row[-1]) % p for row in own]
+        force = [(_dot(row[:-1], moving) + row[-1]) % p for row in force_rows]
         gradients = [row[:-1] for row in rows]
-        told.append(rank_of([*gradients, force], p) == rank_of(gradients, p))
-    if len(told) < POINTS:
+        agreements.append(rank_of([*gradients, force], p) == rank_of(gradients, p))
+    if len(agreements) < POINTS:
         return None
-    return all(told) if all(told) or independent_generators(ring) else None
+    return all(agreements) if all(agreements) or independent_generators(ring) else None
 
 
 def _accelerations(rows: Sequence[Sequence[int]], p: int) -> list[int] | None:
@@ -96,52 +96,52 @@ class Followed(NamedTuple):
     while no accelerations satisfy all of them.
     """
 
-    told: list[MotionSameness]
+    sameness: list[MotionSameness]
     rank: int
     contradictory: bool
 
 
 @dataclass(frozen=True)
 class AnsweredMotion:
-    """Equations of an answer (each is 0) beside those that are right; ``own``: the answer's names for multipliers."""
+    """Equations of an answer (each is 0) beside those that are right; ``multipliers``: the answer's names for them."""
 
-    known: RightMotion
+    motion: RightMotion
     equations: tuple[Expr, ...]
-    own: tuple[Expr, ...] = ()
+    multipliers: tuple[Expr, ...] = ()
 
     @cached_property
     def columns(self) -> list[Expr]:
         """The accelerations of the coordinates kept."""
-        return [ex.sym("acceleration", n) for n in self.known.names]
+        return [ex.sym("acceleration", n) for n in self.motion.names]
 
     @cached_property
     def rows(self) -> list[list[Expr]] | None:
         """Coefficients of accelerations and own multipliers, and the rest; None where the equations are not linear."""
-        found = []
-        unknown = [*self.columns, *self.own]
+        linear_rows = []
+        unknown = [*self.columns, *self.multipliers]
         for e in self.equations:
-            e = self.known.on_constraints(self.known.in_kept(in_time(e)))
+            e = self.motion.on_constraints(self.motion.in_kept(in_time(e)))
             row = linear(e, unknown)
             if row is None:
                 return None
-            found.append(row)
-        return found
+            linear_rows.append(row)
+        return linear_rows
 
     @cached_property
     def right(self) -> list[list[Expr]]:
         """The same of the scene's equations with their multipliers, and the constraints' accelerations."""
-        unknown = [*self.columns, *self.known.multipliers]
-        given = [*self.known.equations.values(), *self.known.rows]
-        return [row for e in given if (row := linear(self.known.on_constraints(e), unknown)) is not None]
+        unknown = [*self.columns, *self.motion.multipliers]
+        expressions = [*self.motion.equations.values(), *self.motion.rows]
+        return [row for e in expressions if (row := linear(self.motion.on_constraints(e), unknown)) is not None]
 
     @property
     def decidable(self) -> bool:
-        """Can it be decided at points: is everything linear?"""
-        whole = len(self.known.names) + len(self.known.multipliers)
+        """Return whether it can be decided at points, because everything is linear."""
+        whole = len(self.motion.names) + len(self.motion.multipliers)
         return self.rows is not None and len(self.right) == whole
 
     def follow(self) -> Followed | None:
-        """How each equation compares with those that are right; None where it is open.
+        """Return how each equation compares with those that are right, or None if undecided.
 
         Multipliers of the answer's own may have any value: an equation follows where there is one at which the
         scene's accelerations satisfy all that hold it.
@@ -149,20 +149,20 @@ class AnsweredMotion:
         rows = self.rows
         if rows is None or not self.decidable:
             return None
-        ring = Ring([*(e for row in (*rows, *self.right) for e in row), *self.known.relations], self.known.positive)
-        given = [[ring.node(e) for e in row] for row in rows]
+        ring = Ring([*(e for row in (*rows, *self.right) for e in row), *self.motion.relations], self.motion.positive)
+        nodes = [[ring.node(e) for e in row] for row in rows]
         right = [[ring.node(e) for e in row] for row in self.right]
-        told = list(_at_points(ring, right, given, len(self.columns), self.known))
-        if not told:
+        findings = list(_at_points(ring, right, nodes, len(self.columns), self.motion))
+        if not findings:
             return None
-        sound = [all(t.sound[i] for t in told) for i in range(len(rows))]
+        sound = [all(t.sound[i] for t in findings) for i in range(len(rows))]
         if not all(sound) and not independent_generators(ring):
             return None
         n = len(self.columns)
-        rank = max(t.rank if all(sound) else t.sound_rank(sound, n) for t in told)
-        still = [not any(v for t in told for v in t.rows[i][:n]) for i in range(len(rows))]
+        rank = max(t.rank if all(sound) else t.sound_rank(sound, n) for t in findings)
+        still = [not any(v for t in findings for v in t.rows[i][:n]) for i in range(len(rows))]
         verdicts = [_verdict(s, z) for s, z in zip(sound, still, strict=True)]
-        return Followed(verdicts, rank, any(sound) and all(t.contradictory(n) for t in told))
+        return Followed(verdicts, rank, any(sound) and all(t.contradictory(n) for t in findings))
 
 
 def _verdict(sound: bool, still: bool) -> MotionSameness:
@@ -184,30 +184,30 @@ class PointFindings(NamedTuple):
         return rank_of([row[:n] for row, s in zip(self.rows, sound, strict=True) if s and not any(row[n:-1])], self.p)
 
     def contradictory(self, n: int) -> bool:
-        """Do rows that hold accelerations exclude each other?"""
+        """Return whether rows that contain accelerations exclude each other."""
         moving = [row for row in self.rows if any(row[:n])]
         return rank_of(moving, self.p) > rank_of([row[:-1] for row in moving], self.p)
 
 
 def _at_points(
-    ring: Ring, right: Sequence[Sequence[int]], given: Sequence[Sequence[int]], n: int, known: RightMotion
+    ring: Ring, right: Sequence[Sequence[int]], nodes: Sequence[Sequence[int]], n: int, motion: RightMotion
 ) -> Iterator[PointFindings]:
     """At random points: which rows hold with the right accelerations, and the rank of all."""
-    constraints = len(known.rows)
-    for p, at in points(ring, known.relations):
+    constraints = len(motion.rows)
+    for p, at in points(ring, motion.relations):
         rows = [[int(at[i]) for i in row] for row in right]
         try:
             solution = _solve(rows, p)
         except NoValueError:
             continue
-        own = [[int(at[i]) for i in row] for row in given]
-        inserted = [[*row[n:-1], (row[-1] + _dot(row[:n], solution[:n])) % p] for row in own]
+        answer_rows = [[int(at[i]) for i in row] for row in nodes]
+        inserted = [[*row[n:-1], (row[-1] + _dot(row[:n], solution[:n])) % p] for row in answer_rows]
         sound = _consistent(inserted, p)
         held = rows[len(rows) - constraints :] if constraints else []
-        width = len(own[0]) - 1 - n if own else 0
-        every = [row[:-1] for row in own] + [[*row[:n], *([0] * width)] for row in held]
-        rank = rank_of(every, p) - rank_of([row[n:-1] for row in own], p) if own else 0
-        yield PointFindings(sound, rank - (rank_of([row[:n] for row in held], p) if held else 0), own, p)
+        width = len(answer_rows[0]) - 1 - n if answer_rows else 0
+        every = [row[:-1] for row in answer_rows] + [[*row[:n], *([0] * width)] for row in held]
+        rank = rank_of(every, p) - rank_of([row[n:-1] for row in answer_rows], p) if answer_rows else 0
+        yield PointFindings(sound, rank - (rank_of([row[:n] for row in held], p) if held else 0), answer_rows, p)
 
 
 def _dot(a: Sequence[int], b: Sequence[int]) -> int:
@@ -221,21 +221,21 @@ def _solve(rows: list[list[int]], p: int) -> list[int]:
         return []
     matrix = nmod_mat([row[:-1] for row in rows], p)
     column = nmod_mat([[-row[-1] % p] for row in rows], p)
-    found = matrix.solve(column)
-    return [int(found[i, 0]) for i in range(len(rows))]
+    solution = matrix.solve(column)
+    return [int(solution[i, 0]) for i in range(len(rows))]
 
 
 def _consistent(rows: list[list[int]], p: int) -> list[bool]:
     """For each row (own multipliers, constant): can it hold together with the rows before it that can?"""
     kept: list[list[int]] = []
-    told = []
+    verdicts = []
     for row in rows:
         tried = [*kept, row]
         holds = rank_of(tried, p) == rank_of([r[:-1] for r in tried], p)
-        told.append(holds)
+        verdicts.append(holds)
         if holds:
             kept = tried
-    return told
+    return verdicts
 
 
 def in_time(e: Expr) -> Expr:
@@ -250,7 +250,7 @@ def linear(e: Expr, unknown: Sequence[Expr]) -> list[Expr] | None:
     moving = {*unknown}
     if any(c.symbols & moving or any(s.args[0] == "acceleration" for s in c.symbols) for c in row):
         return None
-    rest = substitute(e, dict.fromkeys(unknown, ZERO))
-    if any(s.args[0] in ("acceleration", "differential", "dt") for s in rest.symbols):
+    remainder = substitute(e, dict.fromkeys(unknown, ZERO))
+    if any(s.args[0] in ("acceleration", "differential", "dt") for s in remainder.symbols):
         return None
-    return [*row, rest]
+    return [*row, remainder]

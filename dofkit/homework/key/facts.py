@@ -161,5 +161,5 @@ def _held(entry: ConstraintEntry, constraint: Constraint) -> list[str]:
 
 
 def _powers(e: Expr) -> bool:
-    parts = e.args if e.op == "add" else (e,)
-    return any(p.op in ("pow", "fn") or (p.op == "mul" and any(f.op in ("pow", "fn") for f in p.args)) for p in parts)
+    terms = e.args if e.op == "add" else (e,)
+    return any(p.op in ("pow", "fn") or (p.op == "mul" and any(f.op in ("pow", "fn") for f in p.args)) for p in terms)

@@ -259,22 +259,22 @@ ERRORS: tuple[Misconception, ...] = (
 )
 
 
-def explain(given: Fraction, ask: str, key: Key) -> tuple[tuple[str, ...], str]:
+def explain(number: Fraction, ask: str, key: Key) -> tuple[tuple[str, ...], str]:
     """(codes of the errors that give this number, the most likely first; what to say about the likeliest)."""
     report = key.report
     if report.dof is None:
         return (), ""
     facts = scene_counts(key)
     right = report.dof
-    wanted = len(key.coordinates) - given if ask == "k" else given
+    wanted = len(key.coordinates) - number if ask == "k" else number
     by_velocities = ask == "velocity_dof" or (ask == "dof" and key.convention == "velocity")
     if by_velocities:
         wanted += facts.nonholonomic
-    if wanted == right or (ask == "k" and given < 0):
+    if wanted == right or (ask == "k" and number < 0):
         return (), ""
-    every = [m for m in ERRORS if (given if m.anyway and ask != "k" else wanted) in set(m.predicts(facts))]
-    found = [m for m in every if not m.alone] or every
-    return tuple(m.code for m in found), found[0].hint if found else ""
+    every = [m for m in ERRORS if (number if m.anyway and ask != "k" else wanted) in set(m.predicts(facts))]
+    likely = [m for m in every if not m.alone] or every
+    return tuple(m.code for m in likely), likely[0].hint if likely else ""
 
 
 def explain_label(part: str, entry: ConstraintEntry, key: Key) -> tuple[str, str | Said]:

@@ -33,7 +33,7 @@ class ChosenCoordinates(NamedTuple):
     """The coordinates that an answer names, and those of its own that it defines by relations."""
 
     names: tuple[str, ...]
-    own: tuple[str, ...] = ()
+    undeclared: tuple[str, ...] = ()
     relations: tuple[Comparison, ...] = ()
 
 
@@ -56,28 +56,28 @@ def _defined(answer: str, names: DeclaredNames) -> ChosenCoordinates | None:
     cut = _BEGINS[0].search(answer) or _BEGINS[1].search(answer)
     if "=" not in answer or cut is None or "=" in answer[: cut.start()]:
         return None
-    rest = answer[cut.end() :].rstrip().removesuffix(")") if cut[0][0] == "(" else answer[cut.end() :]
-    way = readings_of(rest, AnswerNames(names.names))[0]
-    if way.moving or not way.own or any(way.bare):
+    definitions = answer[cut.end() :].rstrip().removesuffix(")") if cut[0][0] == "(" else answer[cut.end() :]
+    way = readings_of(definitions, AnswerNames(names.names))[0]
+    if way.moving or not way.undeclared or any(way.bare):
         return None
-    chosen = names_of(answer[: cut.start()], [*names.coordinates, *way.own], "coordinate", names.others)
-    return ChosenCoordinates(tuple(chosen), way.own, way.relations)
+    chosen = names_of(answer[: cut.start()], [*names.coordinates, *way.undeclared], "coordinate", names.others)
+    return ChosenCoordinates(tuple(chosen), way.undeclared, way.relations)
 
 
 def with_chosen(key: Key, chosen: ChosenCoordinates) -> Key:
     """Return the key with the coordinates that an answer defines, or that the assignment offers and it names."""
-    if chosen.own:
-        return extended(key, chosen.own, chosen.relations)
+    if chosen.undeclared:
+        return extended(key, chosen.undeclared, chosen.relations)
     offers = [name for name in chosen.names if name in key.also]
     return offered(key, offers) if offers else key
 
 
-def extended(key: Key, own: Sequence[str], relations: Sequence[Comparison]) -> Key:
+def extended(key: Key, names: Sequence[str], relations: Sequence[Comparison]) -> Key:
     """The key with coordinates that an answer defines. Raises DoubtError where they may leave configurations out."""
-    left = restrictions(relations, own, key.scene)
-    if left is None or not all(implied(key, f"{to_text(e)} = 0") for e in left):
+    consequences = restrictions(relations, names, key.scene)
+    if consequences is None or not all(implied(key, f"{to_text(e)} = 0") for e in consequences):
         raise DoubtError("the coordinates defined in the answer may not cover all configurations.", 1, None)
-    return key.with_own(tuple(own), tuple(as_text(c) for c in relations))
+    return key.with_own(tuple(names), tuple(as_text(c) for c in relations))
 
 
 def offered(key: Key, names: Sequence[str]) -> Key:
@@ -107,13 +107,13 @@ def implied(key: Key, text: str) -> bool:
 def _follows(key: Key, text: str) -> bool:
     posed = with_equations(key.scene, Read((text,), frozenset(), text, False), "offered")
     reduced, setting = prepared(lower(posed))
-    *others, own = reduced
-    given = [n for r in others for n in r.normals]
-    return all(follows(n, given, setting) is True for n in own.normals)
+    *others, answer_relation = reduced
+    conditions = [n for r in others for n in r.normals]
+    return all(follows(n, conditions, setting) is True for n in answer_relation.normals)
 
 
 def faults_of_own(key: Key) -> Iterator[Fault]:
-    """What is wrong with the coordinates that an assignment offers."""
+    """Yield the faults of the coordinates that an assignment offers."""
     for name, text in key.also.items():
         odd = valid_name(name)
         if odd is not None:
@@ -143,7 +143,7 @@ def polar_angles(key: Key) -> dict[str, str]:
         return {}
     places = {name: tuple(map(coordinate, names)) for name, names in particles.items()}
     taken = {*key.coordinates, *key.names.parameters, *key.names.functions}
-    found: dict[str, str] = {}
+    definitions: dict[str, str] = {}
     centre_of: dict[str, Place] = {}
     for name, place in places.items():
         others = [p for n, p in places.items() if n != name and centre_of.get(n) != place]
@@ -152,16 +152,16 @@ def polar_angles(key: Key) -> dict[str, str]:
             if angles:
                 centre_of[name] = centre
                 alone = len(places) == 1 and not angles.keys() & taken
-                found |= {angle if alone else f"{angle}_{name}": text for angle, text in angles.items()}
+                definitions |= {angle if alone else f"{angle}_{name}": text for angle, text in angles.items()}
                 break
-    return {angle: text for angle, text in found.items() if angle not in taken}
+    return {angle: text for angle, text in definitions.items() if angle not in taken}
 
 
 def _fixed_points(key: Key) -> list[Place]:
     """The origin, and the fixed points that links begin at."""
     ends = [end for c in key.scene.constraints if isinstance(c, Link) for end in c.between if isinstance(end, tuple)]
-    told = [tuple(parse_expression(as_written(v), key.names) for v in end) for end in ends]
-    return list(dict.fromkeys([tuple([num(0)] * key.scene.dimension), *told]))
+    points = [tuple(parse_expression(as_written(v), key.names) for v in end) for end in ends]
+    return list(dict.fromkeys([tuple([num(0)] * key.scene.dimension), *points]))
 
 
 def _radii(key: Key) -> list[str]:
@@ -198,5 +198,5 @@ def _vertical(key: Key, place: Place) -> int:
     """The index of the coordinate along which gravity acts: the one in the potential energy, else the last."""
     potential = None if key.scene.energies is None else key.scene.energies.potential
     mentioned = set() if potential is None else parse_expression(potential, key.names).symbols
-    found = [n for n, symbol in enumerate(place) if symbol in mentioned]
-    return found[0] if len(found) == 1 else len(place) - 1
+    indices = [n for n, symbol in enumerate(place) if symbol in mentioned]
+    return indices[0] if len(indices) == 1 else len(place) - 1

@@ -22,15 +22,15 @@ _TWO = 2
 _SINE, _COSINE = ex.parameter("own sine"), ex.parameter("own cosine")
 
 
-def restrictions(relations: Sequence[Comparison], own: Sequence[str], scene: Scene) -> list[Expr] | None:
-    """What relations that define names of an answer's own say of the coordinates; None where that is not known."""
+def restrictions(relations: Sequence[Comparison], names: Sequence[str], scene: Scene) -> list[Expr] | None:
+    """Return what relations that define names of an answer's own imply for the coordinates, or None if undecided."""
     sums: list[Expr] = [c.left - c.right for c in relations]
-    for name in own:
-        found = _eliminated([substitute(e, {ex.coordinate(name): ex.parameter(name)}) for e in sums],
+    for name in names:
+        remaining = _eliminated([substitute(e, {ex.coordinate(name): ex.parameter(name)}) for e in sums],
                             ex.parameter(name), scene)  # fmt: skip
-        if found is None:
+        if remaining is None:
             return None
-        sums = found
+        sums = remaining
     return sums
 
 
@@ -39,28 +39,28 @@ def without_own(reading: AnswerReading, scene: Scene) -> AnswerReading | None:
     if any(c.relation != "=" for c in reading.relations):
         return None
     sums = [c.left - c.right for c in reading.relations]
-    if any(sum(_mentions(e, name) for e in sums) < 2 for name in reading.own):
+    if any(sum(_mentions(e, name) for e in sums) < 2 for name in reading.undeclared):
         return None
-    for name in reading.own:
+    for name in reading.undeclared:
         symbol = ex.coordinate(name) if name in reading.moving else ex.parameter(name)
-        found = _eliminated(sums, symbol, scene)
-        if found is None:
+        remaining = _eliminated(sums, symbol, scene)
+        if remaining is None:
             return None
-        sums = found
-    own = set(reading.own)
-    if not sums or any(s.args[1] in own for e in sums for s in e.symbols if len(s.args) > 1):
+        sums = remaining
+    names = set(reading.undeclared)
+    if not sums or any(s.args[1] in names for e in sums for s in e.symbols if len(s.args) > 1):
         return None
     relations = tuple(Comparison(e, "=", ZERO, 1) for e in sums)
     return AnswerReading(relations, (False,) * len(relations), meant=reading.meant)
 
 
-def with_constants(relations: Sequence[Comparison], own: Sequence[str], scene: Scene) -> list[Comparison]:
+def with_constants(relations: Sequence[Comparison], names: Sequence[str], scene: Scene) -> list[Comparison]:
     """Relations without constants of an answer's own that it defines by declared ones: `omega^2 = g/l`."""
     kept = list(relations)
-    for name in own:
+    for name in names:
         symbol = ex.parameter(name)
         for c in kept:
-            value = _defined(c, symbol, own, scene)
+            value = _defined(c, symbol, names, scene)
             if value is not None:
                 table = {symbol: value}
                 kept = [
@@ -72,20 +72,20 @@ def with_constants(relations: Sequence[Comparison], own: Sequence[str], scene: S
     return kept
 
 
-def _defined(c: Comparison, symbol: Expr, own: Sequence[str], scene: Scene) -> Expr | None:
-    """What a constant is by a relation of constants that says it, or its square; None for any other relation."""
+def _defined(c: Comparison, symbol: Expr, names: Sequence[str], scene: Scene) -> Expr | None:
+    """Return a constant's value by a relation of constants that states it, or its square, else None."""
     e = c.left - c.right
     others = e.symbols - {symbol}
     if c.relation != "=" or symbol not in e.symbols or any(s.args[0] != "parameter" for s in others):
         return None
-    if any(s.args[1] in own for s in others):
+    if any(s.args[1] in names for s in others):
         return None
     squared = ex.parameter("square of a name")
     for named, root in ((e, False), (replace_nodes(e, {symbol**2: squared}), True)):
         unknown = squared if root else symbol
         slope = diff(named, unknown)
-        left = {symbol} & named.symbols if root else {symbol} & slope.symbols
-        if not left and unknown not in slope.symbols and never_zero(slope, scene):
+        occurrences = {symbol} & named.symbols if root else {symbol} & slope.symbols
+        if not occurrences and unknown not in slope.symbols and never_zero(slope, scene):
             value = -substitute(named, {unknown: ZERO}) / slope
             return ex.sqrt(value) if root else value
     return None
@@ -97,16 +97,16 @@ def _mentions(e: Expr, name: str) -> bool:
 
 def _eliminated(sums: Sequence[Expr], symbol: Expr, scene: Scene) -> list[Expr] | None:
     holding = [e for e in sums if symbol in e.symbols]
-    rest = [e for e in sums if symbol not in e.symbols]
+    untouched = [e for e in sums if symbol not in e.symbols]
     for e in holding:
         slope = diff(e, symbol)
         if symbol not in slope.symbols and never_zero(slope, scene):
             value = -substitute(e, {symbol: ZERO}) / slope
-            return rest + [substitute(other, {symbol: value}) for other in holding if other is not e]
+            return untouched + [substitute(other, {symbol: value}) for other in holding if other is not e]
     along = _without_length(holding, symbol, scene)
     if along is not None:
-        return [*rest, along]
-    return _without_angle(holding, rest, symbol, scene)
+        return [*untouched, along]
+    return _without_angle(holding, untouched, symbol, scene)
 
 
 def _without_length(holding: Sequence[Expr], symbol: Expr, scene: Scene) -> Expr | None:
@@ -114,13 +114,13 @@ def _without_length(holding: Sequence[Expr], symbol: Expr, scene: Scene) -> Expr
     if len(holding) != 2:
         return None
     slopes = [diff(e, symbol) for e in holding]
-    rest = [substitute(e, {symbol: ZERO}) for e in holding]
+    offsets = [substitute(e, {symbol: ZERO}) for e in holding]
     turns = [_turn(slope, scene) for slope in slopes]
     if None in turns or {t[0] for t in turns if t} != {"sin", "cos"} or len({t[1] for t in turns if t}) != 1:
         return None
     if any(symbol in e.symbols for e in slopes):
         return None
-    return rest[0] * slopes[1] - rest[1] * slopes[0]
+    return offsets[0] * slopes[1] - offsets[1] * slopes[0]
 
 
 def _turn(e: Expr, scene: Scene) -> tuple[str, Expr] | None:
@@ -133,7 +133,7 @@ def _turn(e: Expr, scene: Scene) -> tuple[str, Expr] | None:
     return turning[0].args[0], turning[0].args[1]
 
 
-def _without_angle(holding: Sequence[Expr], rest: list[Expr], symbol: Expr, scene: Scene) -> list[Expr] | None:
+def _without_angle(holding: Sequence[Expr], untouched: list[Expr], symbol: Expr, scene: Scene) -> list[Expr] | None:
     """Relations linear in the sine and cosine of an angle, solved for them: their squares add up to 1.
 
     a sin(A) = b cos(A) holds for some A whatever a and b are; a = r cos(A), b = r sin(A) where a^2 + b^2 = r^2.
@@ -150,14 +150,14 @@ def _without_angle(holding: Sequence[Expr], rest: list[Expr], symbol: Expr, scen
     if any(symbol in e.symbols for e in sums):
         return None
     if len(sums) < _TWO:
-        return rest if (row := _linear(sums[0])) is not None and row[2].is_zero else None
+        return untouched if (row := _linear(sums[0])) is not None and row[2].is_zero else None
     if len(sums) == _TWO and (circle := _circle(*sums)) is not None:
-        return [*rest, circle]
+        return [*untouched, circle]
     for first, second in permutations(sums, 2):
         solved = _solved(first, second, scene)
         if solved is not None:
             others = [substitute(e, solved) for e in sums if e is not first and e is not second]
-            return [*rest, *others, solved[_SINE] ** 2 + solved[_COSINE] ** 2 - ONE]
+            return [*untouched, *others, solved[_SINE] ** 2 + solved[_COSINE] ** 2 - ONE]
     return None
 
 
@@ -169,10 +169,10 @@ def _linear(e: Expr) -> tuple[Expr, Expr, Expr] | None:
 
 def _circle(first: Expr, second: Expr) -> Expr | None:
     """Of e = r sin(A) and f = r cos(A), with whatever signs, e^2 + f^2 - r^2; None where they are no such pair."""
-    one, other = _linear(first), _linear(second)
-    if one is None or other is None:
+    first_row, other = _linear(first), _linear(second)
+    if first_row is None or other is None:
         return None
-    (a, b, e), (c, d, f) = (one, other) if one[1].is_zero else (other, one)
+    (a, b, e), (c, d, f) = (first_row, other) if first_row[1].is_zero else (other, first_row)
     if not b.is_zero or not c.is_zero or not (a * a - d * d).is_zero:
         return None
     return e * e + f * f - a * a
@@ -180,10 +180,10 @@ def _circle(first: Expr, second: Expr) -> Expr | None:
 
 def _solved(first: Expr, second: Expr, scene: Scene) -> dict[Expr, Expr] | None:
     """The sine and cosine from two relations that are linear in them, by Cramer's rule."""
-    one, other = _linear(first), _linear(second)
-    if one is None or other is None:
+    first_row, other = _linear(first), _linear(second)
+    if first_row is None or other is None:
         return None
-    (a, b, e), (c, d, f) = one, other
+    (a, b, e), (c, d, f) = first_row, other
     whole = a * d - b * c
     if not never_zero(whole, scene):
         return None
@@ -191,7 +191,7 @@ def _solved(first: Expr, second: Expr, scene: Scene) -> dict[Expr, Expr] | None:
 
 
 def never_zero(e: Expr, scene: Scene) -> bool:
-    """Is it a number other than 0, or a product of such with parameters that are positive or not 0?"""
+    """Return whether it is a number other than 0, or a product of such with parameters that are positive or nonzero."""
     if e.op == "num":
         return not e.is_zero
     if e.op == "mul":
@@ -207,17 +207,17 @@ def renamed(
     reading: AnswerReading, scene: Scene, constants: Sequence[str]
 ) -> Iterator[tuple[AnswerReading, dict[str, str]]]:
     """The reading with names of its own taken for declared ``constants`` that it does not mention, in every way."""
-    if any(map(is_constant_name, reading.own)):
+    if any(map(is_constant_name, reading.undeclared)):
         return
-    if not reading.own or reading.moving or len(reading.own) > MOST_RENAMED:
+    if not reading.undeclared or reading.moving or len(reading.undeclared) > MOST_RENAMED:
         return
     used = {str(s.args[1]) for c in reading.relations for e in (c.left, c.right) for s in e.symbols if len(s.args) > 1}
     free = [name for name in constants if name not in used]
-    for chosen in permutations(free, len(reading.own)):
-        names = dict(zip(reading.own, chosen, strict=True))
-        table = {ex.parameter(own): ex.parameter(name) for own, name in names.items()}
+    for chosen in permutations(free, len(reading.undeclared)):
+        names = dict(zip(reading.undeclared, chosen, strict=True))
+        table = {ex.parameter(undeclared): ex.parameter(name) for undeclared, name in names.items()}
         relations = tuple(
             Comparison(substitute(c.left, table), c.relation, substitute(c.right, table), c.column)
             for c in reading.relations
         )
-        yield reading._replace(relations=relations, own=()), names
+        yield reading._replace(relations=relations, undeclared=()), names

@@ -68,19 +68,19 @@ def motion_readings(answer: Given, names: DeclaredNames, value: bool) -> list[Re
     for side in sides if value else ():
         if sum(side.bare) != 1:
             raise TextError("one expression is needed here", 1, "write the expression alone, such as L = ...")
-    sides = with_explained_names([s._replace(own=tuple(_strange(s, value))) for s in sides], names) and sides
+    sides = with_explained_names([s._replace(undeclared=tuple(_strange(s, value))) for s in sides], names) and sides
     return [Reading(side, _shown_reading(side, value), side.rank, not _strange(side, value)) for side in sides]
 
 
 def _strange(way: AnswerReading, value: bool) -> list[str]:
     """Return the names of a reading that are not declared and no multipliers."""
-    return [n for n in way.own if value or n in way.moving or not _MULTIPLIER.fullmatch(spelled(n))]
+    return [n for n in way.undeclared if value or n in way.moving or not _MULTIPLIER.fullmatch(spelled(n))]
 
 
 def _shown_reading(way: AnswerReading, value: bool) -> str:
     if value and len(way.relations) == 1:
         return to_text(way.relations[0].left)
-    return way.shown
+    return way.text
 
 
 def _sides(way: AnswerReading) -> list[AnswerReading]:
@@ -104,32 +104,32 @@ def posed_motion(way: AnswerReading, key: Key, value: bool) -> PosedMotion:
     """Return a reading beside the scene. Raises TextError if it defines coordinates that leave configurations out."""
     way = _defining_constants(way, key)
     strange = _strange(way, value)
-    multipliers = tuple(ex.parameter(n) for n in way.own if n not in strange)
+    multipliers = tuple(ex.parameter(n) for n in way.undeclared if n not in strange)
     used = {n for c in way.relations for n in _names(c)} & key.also.keys()
     other = (*strange, *sorted(used))
     defining = [c for c in way.relations if c.relation == "=" and _defines(c, other)]
-    rest = [c for c in way.relations if c not in defining]
+    claims = [c for c in way.relations if c not in defining]
     defined = {n for c in defining for n in other if n in _names(c)}
-    if value and len(rest) != 1:
+    if value and len(claims) != 1:
         raise TextError("one expression is needed here", 1, "write the expression alone, such as L = ...")
     if used - defined:
         key = offered(key, sorted(used - defined))
         other = tuple(name for name in other if name not in used - defined)
     if defined and defined == set(other):
         key = extended(key, other, defining)
-    if defined == set(other) and rest:
+    if defined == set(other) and claims:
         table = {ex.parameter(n): ex.coordinate(n) for n in other}
-        return PosedMotion(key, tuple(_substituted(c, table) for c in rest), multipliers)
+        return PosedMotion(key, tuple(_substituted(c, table) for c in claims), multipliers)
     guesses = tuple(
         PosedMotion(key, guess.relations, multipliers)
-        for guess, _ in renamed(way._replace(own=other), key.scene, key.declared.constants)
+        for guess, _ in renamed(way._replace(undeclared=other), key.scene, key.declared.constants)
     )
     return PosedMotion(key, way.relations, multipliers, guesses, other[0])
 
 
 def _defining_constants(way: AnswerReading, key: Key) -> AnswerReading:
     """Without constants of its own that it defines, `omega^2 = g/l`."""
-    still = [n for n in way.own if n not in way.moving]
+    still = [n for n in way.undeclared if n not in way.moving]
     whole = len(way.relations) > 1 and not any(map(_of_constants, way.relations, way.bare))
     kept = with_constants(way.relations, still, key.scene) if whole else list(way.relations)
     if len(kept) == len(way.relations):
@@ -139,12 +139,12 @@ def _defining_constants(way: AnswerReading, key: Key) -> AnswerReading:
     return way._replace(
         relations=tuple(kept),
         bare=tuple(bare + [False] * (len(kept) - len(bare))),
-        own=tuple(n for n in way.own if n in named),
+        undeclared=tuple(n for n in way.undeclared if n in named),
     )
 
 
 def _of_constants(c: Comparison, bare: bool) -> bool:
-    """Is it a value of constants alone, which defines none?"""
+    """Return whether it is a value of constants alone, which defines none."""
     return bare and all(s.args[0] == "parameter" for s in c.left.symbols)
 
 
@@ -152,23 +152,25 @@ def _named_value(way: AnswerReading) -> AnswerReading:
     """`l = m r^2 phidot`: a value under a name that nobody declared."""
     first = way.relations[0]
     name = str(first.left.args[1]) if first.left.op == "sym" and first.relation == "=" else ""
-    if len(way.relations) > 1 or name not in way.own or name in way.moving or first.left in first.right.symbols:
+    if len(way.relations) > 1 or name not in way.undeclared or name in way.moving or first.left in first.right.symbols:
         return way
-    own = tuple(n for n in way.own if n != name)
-    return way._replace(relations=(Comparison(first.right, "=", ZERO, first.column),), bare=(True,), own=own)
+    undeclared = tuple(n for n in way.undeclared if n != name)
+    return way._replace(
+        relations=(Comparison(first.right, "=", ZERO, first.column),), bare=(True,), undeclared=undeclared
+    )
 
 
 def _names(c: Comparison) -> set[str]:
     return {str(s.args[1]) for e in (c.left, c.right) for s in e.symbols if len(s.args) > 1}
 
 
-def _defines(c: Comparison, own: Sequence[str]) -> bool:
-    """Is it a relation between names of the answer's own and coordinates, without velocities?"""
+def _defines(c: Comparison, undeclared: Sequence[str]) -> bool:
+    """Return whether it relates names of the answer's own and coordinates, without velocities."""
     symbols = c.left.symbols | c.right.symbols
     return (
-        bool(_names(c) & set(own))
+        bool(_names(c) & set(undeclared))
         and all(s.args[0] in ("coordinate", "parameter", "time") for s in symbols)
-        and any(s.args[0] == "coordinate" and s.args[1] not in own for s in symbols)
+        and any(s.args[0] == "coordinate" and s.args[1] not in undeclared for s in symbols)
     )
 
 

@@ -44,13 +44,13 @@ class RegionComparison(NamedTuple):
 
 def conditions(relations: Sequence[Comparison]) -> list[Condition] | None:
     """Return inequalities as conditions, or None if there are equations among them."""
-    found = []
+    inequalities = []
     for c in relations:
         if c.relation not in ("<", "<=", ">", ">="):
             return None
         difference = c.right - c.left if c.relation[0] == "<" else c.left - c.right
-        found.append(Condition(difference, len(c.relation) == 1))
-    return found
+        inequalities.append(Condition(difference, len(c.relation) == 1))
+    return inequalities
 
 
 def compared_regions(scene: Scene, asked: Sequence[Condition], answer: Sequence[Condition]) -> RegionComparison:
@@ -102,8 +102,8 @@ def _point(scene: Scene) -> str:
     report = classify(scene.model_copy(update={"parameters": {**scene.parameters, **values}}))
     if not report.feasible or not report.witness:
         return ""
-    shown = [f"{name} = {_figure(text)}" for name, text in report.witness.items()]
-    return ", ".join([*shown, *(f"{name} = {value}" for name, value in values.items())])
+    coordinates = [f"{name} = {_figure(text)}" for name, text in report.witness.items()]
+    return ", ".join([*coordinates, *(f"{name} = {value}" for name, value in values.items())])
 
 
 def _figure(text: str) -> str:
@@ -139,14 +139,14 @@ def _cases(condition: Condition) -> list[list[Condition]]:
             ]
     for root in _roots(e):
         named = replace_nodes(e, {root: _ROOT})
-        slope, rest = diff(named, _ROOT), substitute(named, {_ROOT: ZERO})
-        if slope.op != "num" or any(_roots(rest)):
+        slope, remainder = diff(named, _ROOT), substitute(named, {_ROOT: ZERO})
+        if slope.op != "num" or any(_roots(remainder)):
             break
         square, domain = root.args[0] * slope * slope, Condition(root.args[0], False)
         if slope.args[0] < 0:
-            return [[domain, Condition(rest, False), Condition(rest * rest - square, strict)]]
-        above = [domain, Condition(-rest, False), Condition(square - rest * rest, strict)]
-        return [[domain, Condition(rest, strict)], above]
+            return [[domain, Condition(remainder, False), Condition(remainder * remainder - square, strict)]]
+        above = [domain, Condition(-remainder, False), Condition(square - remainder * remainder, strict)]
+        return [[domain, Condition(remainder, strict)], above]
     return [[condition]]
 
 

@@ -67,36 +67,37 @@ class RightMotion:
             return None
         kinds = (ex.coordinate, ex.velocity, lambda name: ex.sym("acceleration", name))
         moving = [kind(name) for kind in kinds for name in self.names]
-        rest = dict.fromkeys(moving, ZERO)
+        at_rest = dict.fromkeys(moving, ZERO)
         try:
-            forces = [substitute(e, rest) for e in self.equations.values()]
+            forces = [substitute(e, at_rest) for e in self.equations.values()]
             equations = {
-                name: ex.add(*(substitute(diff(e, s), rest) * s for s in moving)) for name, e in self.equations.items()
+                name: ex.add(*(substitute(diff(e, s), at_rest) * s for s in moving))
+                for name, e in self.equations.items()
             }
         except ArithmeticError:
             return None
         return replace(self, equations=equations) if all(is_zero(e, self.positive) for e in forces) else None
 
     def zero(self, e: Expr) -> bool | None:
-        """Is an expression 0 where the constraints hold? None where that was not decided."""
+        """Return whether an expression is 0 where the constraints are satisfied, or None if undecided."""
         moved = self.on_constraints(e)
-        found = is_zero(moved, self.positive)
-        return found if found is not False or not self.relations else self._zero_there(moved)
+        zero_everywhere = is_zero(moved, self.positive)
+        return zero_everywhere if zero_everywhere is not False or not self.relations else self._zero_there(moved)
 
     def _zero_there(self, e: Expr) -> bool | None:
         """At points where the finite relations hold."""
         ring = Ring([e, *self.relations], self.positive)
         node = ring.node(e)
-        told = [found[node] == 0 for _, found in points(ring, self.relations)]
-        if len(told) < POINTS:
+        zeros = [node_values[node] == 0 for _, node_values in points(ring, self.relations)]
+        if len(zeros) < POINTS:
             return None
-        return all(told) if all(told) or independent_generators(ring) else None
+        return all(zeros) if all(zeros) or independent_generators(ring) else None
 
 
 def points(ring: Ring, relations: Sequence[Expr]) -> Iterator[tuple[int, Any]]:
     """Random points over GF(p) where the relations hold, a few: the prime, and the values of the ring's nodes."""
     solver = TriangularSolver(ring, [ring.node(g) for g in relations], seed=3) if relations else None
-    found = 0
+    count = 0
     for seed in range(ATTEMPTS):
         point = field_point([ring], 500 + seed) if solver is None else solver.draw(500 + seed)
         if point is None:
@@ -106,13 +107,13 @@ def points(ring: Ring, relations: Sequence[Expr]) -> Iterator[tuple[int, Any]]:
         except NoValueError:
             continue
         yield point.p, at
-        found += 1
-        if found == POINTS:
+        count += 1
+        if count == POINTS:
             return
 
 
 def right_motion(scene: Scene, whole: bool = False) -> RightMotion:
-    """What is right of a scene; ``whole``: with nothing eliminated. Raises DofkitError without equations of motion."""
+    """Return the motion of a scene; ``whole``: with nothing eliminated. Raises DofkitError if there is none."""
     derived = derive(read(scene).model(ELIMINATIONS[-1])) if whole else derived_of(scene)
     model = derived.model
     rates: dict[Expr, Expr] = {}
@@ -120,12 +121,12 @@ def right_motion(scene: Scene, whole: bool = False) -> RightMotion:
         if isinstance(piece, (Pfaffian, Finite)):
             form = by_time(piece.expr) if isinstance(piece, Finite) else in_velocities(piece)
             _add_rate(form, rates, model.positive)
-    given = model.whole
+    whole_model = model.whole
     unreduced = {}
     for c in model.study.system.coordinates:
         v = ex.velocity(c.name)
-        force = diff(given.lagrangian, ex.coordinate(c.name)) - diff(given.dissipation, v)
-        pair = (diff(given.lagrangian, v), force + given.forces.get(c.name, ZERO))
+        force = diff(whole_model.lagrangian, ex.coordinate(c.name)) - diff(whole_model.dissipation, v)
+        pair = (diff(whole_model.lagrangian, v), force + whole_model.forces.get(c.name, ZERO))
         unreduced[c.name] = (substitute(pair[0], model.motions), substitute(pair[1], model.motions))
     rows = [by_time(by_time(p.expr)) if isinstance(p, Finite) else by_time(in_velocities(p)) for p in model.constraints]
     return RightMotion(
@@ -162,14 +163,14 @@ def is_zero(e: Expr, positive: frozenset[Expr]) -> bool | None:
     if sum(1 for _ in ex.nodes(e)) > MOST_NODES:
         return None
     try:
-        found, verdict = zero_and_verdict(e, positive)
+        zero, verdict = zero_and_verdict(e, positive)
     except ArithmeticError:
         return None
-    return None if found and verdict not in ("proved", "probable") else found
+    return None if zero and verdict not in ("proved", "probable") else zero
 
 
 def right_motion_or_why(scene: Scene, whole: bool = False) -> RightMotion | DofkitError:
-    """What is right of a scene, or why it is not known."""
+    """Return the motion of a scene, or why it is unknown."""
     try:
         return right_motion(scene, whole)
     except DofkitError as error:

@@ -24,7 +24,7 @@ from dofkit.system import System
 
 
 def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
-    """Does nothing move when these coordinates are held: is what is finite in the scene, with dq = 0 for them, rigid?
+    """Return whether nothing moves if these coordinates are fixed: with dq = 0 for them the system is rigid.
 
     ``report``: of the scene, or without its last constraints, which define coordinates. Time stands still, so what it
     prescribes does not move. None where that was not decided. Non-holonomic constraints are left out: they do not fix
@@ -36,15 +36,15 @@ def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None
     basis = report.integrable_part.basis if report.integrable_part is not None else []
     if basis is None:
         return None
-    own = [c.name for c in scene.constraints[len(report.constraints) :]]
-    given = [*(e.name for e in report.constraints), *own]
-    named = [c.model_copy(update={"name": name}) for c, name in zip(scene.constraints, given, strict=True)]
-    freedom = _outcome(scene, [*named, *_held({name: f"d{name} = 0" for name in names})], basis, given).dof
+    added = [c.name for c in scene.constraints[len(report.constraints) :]]
+    constraint_names = [*(e.name for e in report.constraints), *added]
+    named = [c.model_copy(update={"name": name}) for c, name in zip(scene.constraints, constraint_names, strict=True)]
+    freedom = _outcome(scene, [*named, *_held({name: f"d{name} = 0" for name in names})], basis, constraint_names).dof
     reference = lower(scene).reference
     if freedom is not None or reference is None or any(ex.coordinate(name) not in reference for name in names):
         return None if freedom is None else freedom == 0
     fixed = _held({name: f"{name} = {to_text(reference[ex.coordinate(name)])}" for name in names})
-    there = _outcome(scene, [*named, *fixed], basis, [*given, *(c.name for c in fixed)])
+    there = _outcome(scene, [*named, *fixed], basis, [*constraint_names, *(c.name for c in fixed)])
     rigid = there.consistent and not there.crossing and not there.untouched
     return True if rigid and all(a.instantaneous == 0 for a in there.answers) else None
 
@@ -54,7 +54,7 @@ def _held(equations: Mapping[str, str]) -> list[Equation]:
 
 
 def _outcome(
-    scene: Scene, constraints: Sequence[object], basis: Sequence[str], given: Collection[str | None]
+    scene: Scene, constraints: Sequence[object], basis: Sequence[str], constraint_names: Collection[str | None]
 ) -> Outcome:
     """The answer for these constraints and of the relations of ``basis``; of those named only what is finite."""
     whole = _with(scene, constraints)
@@ -62,7 +62,7 @@ def _outcome(
         whole = with_equations(whole, read_equations(basis, vocabulary_of(scene).names, constants=True), "integral")
     system = _at_one_time(lower(whole))
     reduced, setting = prepared(system)
-    finite = [r._replace(normals=_finite(r.normals)) if r.constraint.name in given else r for r in reduced]
+    finite = [r._replace(normals=_finite(r.normals)) if r.constraint.name in constraint_names else r for r in reduced]
     return solve(system, finite, setting)
 
 
@@ -82,7 +82,7 @@ def _finite(normals: Sequence[Normal]) -> tuple[Normal, ...]:
 
 
 def can_be_dropped(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
-    """Is the set of motions the same without the constraints of these names?
+    """Return whether the set of motions is the same without the constraints of these names.
 
     They follow from the others, or, near a drawn or generic pose, all is finite and as free there without them.
     """
@@ -92,19 +92,19 @@ def can_be_dropped(scene: Scene, names: Sequence[str], report: Report) -> bool |
     kept = [n for r in reduced if r not in dropped for n in r.normals]
     if any(r.inequalities for r in dropped):
         return False
-    told = all_of(follows(n, kept, setting) for r in dropped for n in r.normals)
-    if told:
+    implied = all_of(follows(n, kept, setting) for r in dropped for n in r.normals)
+    if implied:
         return True
     entries = zip(scene.constraints, report.constraints, strict=True)
-    rest = [c.model_copy(update={"name": e.name}) for c, e in entries if e.name not in names]
-    fewer = classify(_with(scene, rest))
+    remaining = [c.model_copy(update={"name": e.name}) for c, e in entries if e.name not in names]
+    fewer = classify(_with(scene, remaining))
     freedom = [(r.dof, r.velocity_dof) for r in (report, fewer)]
     if any(None in pair for pair in freedom):
         return None
     if freedom[0] != freedom[1] or fewer.instantaneous_dof != report.instantaneous_dof:
         return False
     local = bool(setting.pose or setting.generic) and all(e.form == "finite" for e in report.constraints if e.bilateral)
-    return True if local else told
+    return True if local else implied
 
 
 def _with(scene: Scene, constraints: Sequence[object]) -> Scene:

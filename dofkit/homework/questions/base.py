@@ -23,14 +23,14 @@ FEWEST_POINTS, MOST_POINTS = Fraction(1, 1000), 1_000_000
 
 
 def _points(value: object) -> object:
-    found = exact(value)
-    if found < 0:
+    points = exact(value)
+    if points < 0:
         raise fault_error(f"points are not negative, as {value} is", "write 0 or more")
-    if found > MOST_POINTS or 0 < found < FEWEST_POINTS:
+    if points > MOST_POINTS or 0 < points < FEWEST_POINTS:
         raise fault_error(
             f"a question cannot be worth {value} points", f"write 0, or {float(FEWEST_POINTS)} to {MOST_POINTS}"
         )
-    return found
+    return points
 
 
 def identifier(value: object) -> object:
@@ -61,14 +61,14 @@ class QuestionBase(WrittenModel):
 
     @classmethod
     def kind(cls) -> str:
-        """What it asks for, as written."""
+        """Return what it asks for, as written."""
         return _kind(cls)
 
     @property
     def about(self) -> tuple[str, ...]:
         """The names of the scene that it is about."""
-        found = getattr(self, "constraint", None) or getattr(self, "coordinate", None) or ()
-        return (found,) if isinstance(found, str) else tuple(found)
+        names = getattr(self, "constraint", None) or getattr(self, "coordinate", None) or ()
+        return (names,) if isinstance(names, str) else tuple(names)
 
     def asked(self, about: str) -> Said:
         """Return the question in words; ``about``: how the names that it is about are shown."""
@@ -82,7 +82,7 @@ class QuestionBase(WrittenModel):
         return f"a question that asks for '{cls.kind()}'"
 
     def faults(self, key: Key) -> Iterator[Fault]:
-        """What is wrong with the question for this scene, each at a path within the question."""
+        """Yield the faults of the question for this scene, each at a path within the question."""
         del key
         yield from ()
 
@@ -98,12 +98,12 @@ class QuestionBase(WrittenModel):
         """Return the answer as it is understood, the plainest readings only. Raises TextError if it cannot be read."""
         return shown_text_of(self.readings(answer, names))
 
-    def reveals(self, found: Judgement) -> bool:
-        """Would an example that is judged so tell of the answer? What is half right does."""
-        return found.status not in ("wrong", "unreadable")
+    def reveals(self, judgement: Judgement) -> bool:
+        """Return whether an example that is judged so reveals the answer, as one that is half right does."""
+        return judgement.status not in ("wrong", "unreadable")
 
     def solution(self, key: Key) -> Sentence:
-        """What is right, in words; empty where dofkit does not know it."""
+        """Return the correct answer in words, or nothing if it is unknown."""
         raise NotImplementedError
 
     def number(self, answer: Given) -> Fraction | None:

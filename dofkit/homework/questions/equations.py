@@ -49,7 +49,7 @@ class EquationQuestion(QuestionBase):
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         ways = with_explained_names(readings_of(answer, AnswerNames(names.with_also, accelerations=True)), names)
-        return [Reading(way.with_own(names.also), way.shown, way.rank, not way.own) for way in ways]
+        return [Reading(way.with_own(names.also), way.text, way.rank, not way.undeclared) for way in ways]
 
     def solution(self, key: Key) -> Sentence:
         return say("A correct answer is {text}.", text=equations_of(key, self.constraint))
@@ -82,7 +82,7 @@ class IntegralQuestion(QuestionBase):
         if is_none(answer, _says_relation):
             return [Reading(None, "none")]
         ways = readings_of(answer, AnswerNames(names.names, signs_apart=True), _undifferentiated)
-        return [Reading(way, way.shown, way.rank, all(map(is_constant_name, way.own))) for way in ways]
+        return [Reading(way, way.text, way.rank, all(map(is_constant_name, way.undeclared))) for way in ways]
 
     def solution(self, key: Key) -> Sentence:
         entry = key.constraints[self.constraint]
@@ -96,11 +96,11 @@ class IntegralQuestion(QuestionBase):
         if reading.value is None:
             if entry.holonomic is None:
                 return needs_review("none", "it is not known whether the constraint is integrable.")
-            told = "The constraint is integrable, on its own or together with the other constraints."
-            return wrong("none", told, "INTEGRABLE") if entry.holonomic else right("none")
+            hint = "The constraint is integrable, on its own or together with the other constraints."
+            return wrong("none", hint, "INTEGRABLE") if entry.holonomic else right("none")
         if entry.holonomic is False:
             return wrong(
-                reading.shown,
+                reading.text,
                 ("This is not an integral of the constraint: its differential is a different condition."),
                 "NOT_INTEGRABLE",
             )
@@ -112,8 +112,8 @@ _STILL = re.compile(r"\A\s*diff\((?P<whole>.*), t\)\s*=\s*0\s*\Z")
 
 
 def _undifferentiated(script: Script) -> Script:
-    found = _STILL.match(script.text)
-    return script if found is None else script.cut(*found.span("whole"))
+    still = _STILL.match(script.text)
+    return script if still is None else script.cut(*still.span("whole"))
 
 
 #: What a differential is written with: an equation that holds one is a reason, no integral.
@@ -121,7 +121,7 @@ _DIFFERENTIAL = re.compile(r"(?<![^\W\d_])[d∂](?=[^\W\d_]|\s?\\)|dot|∧|\\(?:
 
 
 def _says_relation(part: str) -> bool:
-    """Is a part of an answer a finite relation?"""
+    """Return whether a part of an answer is a relation between coordinates."""
     return "=" in part and _DIFFERENTIAL.search(part) is None
 
 

@@ -71,52 +71,52 @@ class LabelQuestion(QuestionBase):
             raise DoubtError("a property is described but not named.", 1, None)
         return [Reading(labels, label_text(labels))]
 
-    def reveals(self, found: Judgement) -> bool:
-        return found.status in ("right", "needs_review")
+    def reveals(self, judgement: Judgement) -> bool:
+        return judgement.status in ("right", "needs_review")
 
     def solution(self, key: Key) -> Sentence:
         truth = truths(key.constraints[self.constraint])
-        known = [word_of(p, holds) for p in self.parts if (holds := truth[p]) is not None]
+        words = [word_of(p, holds) for p in self.parts if (holds := truth[p]) is not None]
         reason = key.constraints[self.constraint].reason
-        return say("The constraint is {labels}. {reason}", labels=", ".join(known), reason=reason) if known else ""
+        return say("The constraint is {labels}. {reason}", labels=", ".join(words), reason=reason) if words else ""
 
     def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        given, entry = reading.value, key.constraints[self.constraint]
-        truth, shown = truths(entry), reading.shown
+        claims, entry = reading.value, key.constraints[self.constraint]
+        truth, text = truths(entry), reading.text
         if any(truth[p] is None for p in self.parts):
-            return needs_review(shown, "the classification of this constraint is not known for certain.")
-        twice = [p for p in self.parts if len(given.get(p, ())) > 1]
+            return needs_review(text, "the classification of this constraint is not known for certain.")
+        twice = [p for p in self.parts if len(claims.get(p, ())) > 1]
         if twice:
-            return self._contradictory(given, twice, key)
-        return self._judged(given, key)
+            return self._contradictory(claims, twice, key)
+        return self._judged(claims, key)
 
-    def _contradictory(self, given: Labels, twice: list[Part], key: Key) -> Judgement:
+    def _contradictory(self, claims: Labels, twice: list[Part], key: Key) -> Judgement:
         """Parts that are said to hold and not to: a person has to look; what each way to read it would earn."""
         labels = ", ".join(word_of(p, holds) for p in twice for holds in (True, False))
-        found = needs_review(label_text(given), say("the answer contradicts itself: {labels}.", labels=labels))
+        review = needs_review(label_text(claims), say("the answer contradicts itself: {labels}.", labels=labels))
         ways = []
         for chosen in product((True, False), repeat=len(twice)):
-            one = self._judged({**given, **{p: frozenset({c}) for p, c in zip(twice, chosen, strict=True)}}, key)
-            ways.append(JudgedReading(one.read_as, one.share))
-        return replace(found, ways=tuple(ways))
+            judgement = self._judged({**claims, **{p: frozenset({c}) for p, c in zip(twice, chosen, strict=True)}}, key)
+            ways.append(JudgedReading(judgement.read_as, judgement.share))
+        return replace(review, ways=tuple(ways))
 
-    def _judged(self, given: Labels, key: Key) -> Judgement:
-        """What labels are worth of which each part has one or none."""
+    def _judged(self, claims: Labels, key: Key) -> Judgement:
+        """Return what labels are worth of which each part has one or none."""
         entry = key.constraints[self.constraint]
         truth = truths(entry)
-        good = [p for p in self.parts if given.get(p) == frozenset({truth[p]})]
-        missing = [p for p in self.parts if p not in given]
+        good = [p for p in self.parts if claims.get(p) == frozenset({truth[p]})]
+        missing = [p for p in self.parts if p not in claims]
         explained = [explain_label(p, entry, key) for p in self.parts if p not in good and p not in missing]
-        told: list[Sentence] = [why for _, why in explained]
-        told += [
+        hints: list[Sentence] = [why for _, why in explained]
+        hints += [
             say("State also whether it is {holds} or {fails}.", holds=TERMS[p].holds, fails=TERMS[p].fails)
             for p in missing
         ]
         share = Fraction(len(good), len(self.parts))
-        return partly(share, label_text(given), "", *(code for code, _ in explained)).saying(*told)
+        return partly(share, label_text(claims), "", *(code for code, _ in explained)).saying(*hints)
 
 
 def truths(entry: ConstraintEntry) -> dict[str, bool | None]:
-    """What holds of a constraint, by part."""
+    """Return the labels of a constraint, by part."""
     return {"holonomic": entry.holonomic, "scleronomic": entry.scleronomic, "bilateral": entry.bilateral}

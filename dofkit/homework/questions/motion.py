@@ -40,21 +40,21 @@ class _MotionQuestion(QuestionBase):
 
     def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        return self._judged(posed_motion(reading.value, key, isinstance(self, _Value)), reading.shown)
+        return self._judged(posed_motion(reading.value, key, isinstance(self, _Value)), reading.text)
 
-    def _judged(self, posed: PosedMotion, shown: str) -> Judgement:
+    def _judged(self, posed: PosedMotion, text: str) -> Judgement:
         for guess in posed.guesses:
-            found = self._judged(guess, shown)
-            if found.status == "right":
-                return found.saying("The names differ from those of the problem; they were matched to them.")
+            judgement = self._judged(guess, text)
+            if judgement.status == "right":
+                return judgement.saying("The names differ from those of the problem; they were matched to them.")
         if posed.strange:
-            return needs_review(shown, undeclared(posed.strange))
+            return needs_review(text, undeclared(posed.strange))
         motion = posed.key.motion
         if isinstance(motion, DofkitError):
-            return needs_review(shown, say("the equations of motion could not be derived ({reason}).", reason=motion))
-        return self._judgement(posed, motion, shown)
+            return needs_review(text, say("the equations of motion could not be derived ({reason}).", reason=motion))
+        return self._judgement(posed, motion, text)
 
-    def _judgement(self, posed: PosedMotion, known: RightMotion, shown: str) -> Judgement:
+    def _judgement(self, posed: PosedMotion, motion: RightMotion, text: str) -> Judgement:
         raise NotImplementedError
 
     def solution(self, key: Key) -> Sentence:
@@ -65,17 +65,17 @@ class _MotionQuestion(QuestionBase):
                 return self._solution(motion)
         return "" if isinstance(key.motion, DofkitError) else self._solution(key.motion)
 
-    def _solution(self, known: RightMotion) -> Sentence:
+    def _solution(self, motion: RightMotion) -> Sentence:
         raise NotImplementedError
 
 
 class _Value(_MotionQuestion):
     """One expression; a leading name is read over."""
 
-    def _judgement(self, posed: PosedMotion, known: RightMotion, shown: str) -> Judgement:
-        return self._comparison(known.in_kept(posed.value), known, shown)
+    def _judgement(self, posed: PosedMotion, motion: RightMotion, text: str) -> Judgement:
+        return self._comparison(motion.in_kept(posed.value), motion, text)
 
-    def _comparison(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
+    def _comparison(self, expression: Expr, motion: RightMotion, text: str) -> Judgement:
         raise NotImplementedError
 
 
@@ -89,20 +89,20 @@ class Lagrangian(_Value):
     examples: ClassVar[tuple[str, ...]] = ("L = 1/2 M (udot^2 + wdot^2) - M g w", "L = 1/2 I chidot^2 + kappa u^4")
     ask: Literal["lagrangian"] = Field(description="the Lagrangian")
 
-    def _comparison(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
-        same = same_lagrangian(given, known.lagrangian, known)
+    def _comparison(self, expression: Expr, motion: RightMotion, text: str) -> Judgement:
+        same = same_lagrangian(expression, motion.lagrangian, motion)
         if same:
-            return right(shown)
+            return right(text)
         if same is None:
-            return needs_review(shown, "it could not be decided whether this Lagrangian gives the same motion.")
-        if same_lagrangian(given, known.total, known):
-            return wrong(shown, "This is the energy T + V; the Lagrangian is T - V.", "TOTAL_ENERGY")
-        if same_lagrangian(given, -known.lagrangian, known):
-            return wrong(shown, "This is V - T; the Lagrangian is T - V.", "SIGN")
-        return wrong(shown, "This Lagrangian does not give the equations of motion of the system.", "WRONG_LAGRANGIAN")
+            return needs_review(text, "it could not be decided whether this Lagrangian gives the same motion.")
+        if same_lagrangian(expression, motion.total, motion):
+            return wrong(text, "This is the energy T + V; the Lagrangian is T - V.", "TOTAL_ENERGY")
+        if same_lagrangian(expression, -motion.lagrangian, motion):
+            return wrong(text, "This is V - T; the Lagrangian is T - V.", "SIGN")
+        return wrong(text, "This Lagrangian does not give the equations of motion of the system.", "WRONG_LAGRANGIAN")
 
-    def _solution(self, known: RightMotion) -> Sentence:
-        return say("A correct answer is {text}.", text=f"L = {to_text(known.lagrangian)}")
+    def _solution(self, motion: RightMotion) -> Sentence:
+        return say("A correct answer is {text}.", text=f"L = {to_text(motion.lagrangian)}")
 
 
 class _OfCoordinate(_Value):
@@ -113,28 +113,28 @@ class _OfCoordinate(_Value):
     hint: ClassVar[str]
     coordinate: str = Field(description="the coordinate it belongs to")
 
-    def _right(self, known: RightMotion) -> tuple[Expr | None, Expr]:
+    def _right(self, motion: RightMotion) -> tuple[Expr | None, Expr]:
         """Return what is right in the coordinates that are kept, if any, and before the constraints are substituted."""
         raise NotImplementedError
 
-    def _comparison(self, given: Expr, known: RightMotion, shown: str) -> Judgement:
-        kept, unreduced = self._right(known)
+    def _comparison(self, expression: Expr, motion: RightMotion, text: str) -> Judgement:
+        kept, unreduced = self._right(motion)
         wanted = unreduced if kept is None else kept
-        same = known.zero(given - wanted)
+        same = motion.zero(expression - wanted)
         if same:
-            return right(shown)
+            return right(text)
         if same is None:
-            return needs_review(shown, "it could not be decided whether this is equal to the correct expression.")
-        if known.motions and kept is not None and known.zero(given - unreduced) is not False:
+            return needs_review(text, "it could not be decided whether this is equal to the correct expression.")
+        if motion.motions and kept is not None and motion.zero(expression - unreduced) is not False:
             return needs_review(
-                shown, "it may be written in the original coordinates, before the constraints are substituted."
+                text, "it may be written in the original coordinates, before the constraints are substituted."
             )
-        if known.zero(given + wanted):
-            return wrong(shown, "The sign is wrong.", "SIGN")
-        return wrong(shown, say(self.hint, coordinate=self.coordinate), self.code)
+        if motion.zero(expression + wanted):
+            return wrong(text, "The sign is wrong.", "SIGN")
+        return wrong(text, say(self.hint, coordinate=self.coordinate), self.code)
 
-    def _solution(self, known: RightMotion) -> Sentence:
-        kept, unreduced = self._right(known)
+    def _solution(self, motion: RightMotion) -> Sentence:
+        kept, unreduced = self._right(motion)
         return say("A correct answer is {text}.", text=to_text(unreduced if kept is None else kept))
 
 
@@ -148,8 +148,8 @@ class Momentum(_OfCoordinate):
     hint: ClassVar[str] = "The generalized momentum is the derivative of L with respect to {coordinate}dot."
     ask: Literal["momentum"] = Field(description="a generalized momentum")
 
-    def _right(self, known: RightMotion) -> tuple[Expr | None, Expr]:
-        return known.momenta.get(self.coordinate), known.unreduced[self.coordinate][0]
+    def _right(self, motion: RightMotion) -> tuple[Expr | None, Expr]:
+        return motion.momenta.get(self.coordinate), motion.unreduced[self.coordinate][0]
 
 
 class GeneralizedForce(_OfCoordinate):
@@ -165,8 +165,8 @@ class GeneralizedForce(_OfCoordinate):
     )
     ask: Literal["force"] = Field(description="a generalized force")
 
-    def _right(self, known: RightMotion) -> tuple[Expr | None, Expr]:
-        return known.forces.get(self.coordinate), known.unreduced[self.coordinate][1]
+    def _right(self, motion: RightMotion) -> tuple[Expr | None, Expr]:
+        return motion.forces.get(self.coordinate), motion.unreduced[self.coordinate][1]
 
 
 class MotionQuestion(_MotionQuestion):
@@ -179,54 +179,54 @@ class MotionQuestion(_MotionQuestion):
     coordinate: str | None = Field(None, description="the coordinate whose equation is asked for")
 
     def _asked(self, about: str) -> Said:
-        one = "What is the equation of motion for {about}?"
-        return say(one, about=about) if self.coordinate is not None else super()._asked(about)
+        sentence = "What is the equation of motion for {about}?"
+        return say(sentence, about=about) if self.coordinate is not None else super()._asked(about)
 
-    def _judgement(self, posed: PosedMotion, known: RightMotion, shown: str) -> Judgement:
-        relations, own, key = posed.relations, posed.multipliers, posed.key
+    def _judgement(self, posed: PosedMotion, motion: RightMotion, text: str) -> Judgement:
+        relations, names_of_multipliers, key = posed.relations, posed.multipliers, posed.key
         if any(c.relation != "=" for c in relations):
-            return wrong(shown, "An equation of motion is an equation, not an inequality.", "INEQUALITY")
+            return wrong(text, "An equation of motion is an equation, not an inequality.", "INEQUALITY")
         equations = tuple(c.left - c.right for c in relations)
-        answered = AnsweredMotion(known, equations, own)
-        found = answered.follow()
-        if found is None and self.coordinate is None and isinstance(key.whole_motion, RightMotion):
-            known = key.whole_motion
-            found = AnsweredMotion(known, equations, own).follow()
-        if found is None:
-            return needs_review(shown, "it could not be decided whether these are the equations of motion.")
-        if found.contradictory:
-            return needs_review(shown, "the answer contradicts itself.")
-        one = self.coordinate is not None and self.coordinate in known.names
-        if Found.NOT in found.told and _are_linearized(answered, None if one else len(known.names)):
-            return wrong(shown, _LINEARIZED, "SMALL_ANGLES")
-        return self._one(answered, found.told, known, shown) if one else _all(found, known, shown)
+        answered = AnsweredMotion(motion, equations, names_of_multipliers)
+        followed = answered.follow()
+        if followed is None and self.coordinate is None and isinstance(key.whole_motion, RightMotion):
+            motion = key.whole_motion
+            followed = AnsweredMotion(motion, equations, names_of_multipliers).follow()
+        if followed is None:
+            return needs_review(text, "it could not be decided whether these are the equations of motion.")
+        if followed.contradictory:
+            return needs_review(text, "the answer contradicts itself.")
+        single = self.coordinate is not None and self.coordinate in motion.names
+        if Found.NOT in followed.sameness and _are_linearized(answered, None if single else len(motion.names)):
+            return wrong(text, _LINEARIZED, "SMALL_ANGLES")
+        return self._single(answered, followed.sameness, motion, text) if single else _all(followed, motion, text)
 
-    def _one(self, answered: AnsweredMotion, told: Sequence[Found], known: RightMotion, shown: str) -> Judgement:
+    def _single(self, answered: AnsweredMotion, sameness: Sequence[Found], motion: RightMotion, text: str) -> Judgement:
         """One coordinate's equation: it holds that coordinate's acceleration, and is not the equation of another."""
-        if answered.own or known.multipliers:
-            return needs_review(shown, "a single equation with multipliers can be written in many ways.")
-        if Found.NOT in told:
-            return wrong(shown, "This equation is not satisfied by the motion.", Found.NOT.value)
-        rows = [r for r, t in zip(answered.rows or (), told, strict=True) if t is Found.FOLLOWS]
-        place = known.names.index(self.coordinate or "")
-        if not any(is_zero(row[place], known.positive) is False for row in rows):
+        if answered.multipliers or motion.multipliers:
+            return needs_review(text, "a single equation with multipliers can be written in many ways.")
+        if Found.NOT in sameness:
+            return wrong(text, "This equation is not satisfied by the motion.", Found.NOT.value)
+        rows = [r for r, t in zip(answered.rows or (), sameness, strict=True) if t is Found.FOLLOWS]
+        place = motion.names.index(self.coordinate or "")
+        if not any(is_zero(row[place], motion.positive) is False for row in rows):
             told_why = say(
                 ("This equation does not determine the acceleration of {coordinate}."), coordinate=self.coordinate
             )
-            return wrong(shown, told_why, Found.TRIVIAL.value)
-        if len(rows) == 1 and len(known.names) > 1 and self._of_another(rows[0], answered, known, place):
-            return wrong(shown, "This is the equation of motion of another coordinate.", "OTHER_COORDINATE")
-        return right(shown)
+            return wrong(text, told_why, Found.TRIVIAL.value)
+        if len(rows) == 1 and len(motion.names) > 1 and self._of_another(rows[0], answered, motion, place):
+            return wrong(text, "This is the equation of motion of another coordinate.", "OTHER_COORDINATE")
+        return right(text)
 
-    def _of_another(self, row: Sequence[Expr], answered: AnsweredMotion, known: RightMotion, place: int) -> bool:
-        """Is the row a multiple of another coordinate's equation, and not of the one asked for?"""
-        told = [_proportional(row[:-1], other[:-1], known.positive) for other in answered.right]
-        return not told[place] and any(told)
+    def _of_another(self, row: Sequence[Expr], answered: AnsweredMotion, motion: RightMotion, place: int) -> bool:
+        """Return whether the row is a multiple of another coordinate's equation, and not of the one asked for."""
+        proportional = [_proportional(row[:-1], other[:-1], motion.positive) for other in answered.right]
+        return not proportional[place] and any(proportional)
 
-    def _solution(self, known: RightMotion) -> Sentence:
-        given = known.equations
-        own = None if self.coordinate is None else given.get(self.coordinate)
-        chosen = list(given.values()) if own is None else [own]
+    def _solution(self, motion: RightMotion) -> Sentence:
+        of_coordinates = motion.equations
+        equation = None if self.coordinate is None else of_coordinates.get(self.coordinate)
+        chosen = list(of_coordinates.values()) if equation is None else [equation]
         return say("A correct answer is {text}.", text="; ".join(f"{to_text(e)} = 0" for e in chosen))
 
 
@@ -235,21 +235,21 @@ _LINEARIZED = "This is the approximation for small oscillations (small angles); 
 
 def _are_linearized(answered: AnsweredMotion, rank: int | None) -> bool:
     """Return whether all equations are implied by the linearized ones, and determine ``rank`` accelerations."""
-    linearized = answered.known.linearized()
-    found = None if linearized is None else replace(answered, known=linearized).follow()
-    return found is not None and all(t is Found.FOLLOWS for t in found.told) and rank in (None, found.rank)
+    linearized = answered.motion.linearized()
+    followed = None if linearized is None else replace(answered, motion=linearized).follow()
+    return followed is not None and all(t is Found.FOLLOWS for t in followed.sameness) and rank in (None, followed.rank)
 
 
-def _all(found: Followed, known: RightMotion, shown: str) -> Judgement:
+def _all(followed: Followed, motion: RightMotion, text: str) -> Judgement:
     """All equations: as many points as accelerations are fixed by those that follow."""
-    told, rank = found.told, found.rank
-    wanted = len(known.names) - len(known.rows)
-    good = Found.NOT not in told
+    sameness, rank = followed.sameness, followed.rank
+    wanted = len(motion.names) - len(motion.rows)
+    good = Found.NOT not in sameness
     if good and rank >= wanted:
-        return right(shown)
+        return right(text)
     if good and rank <= 0:
         why = "No acceleration is determined by this: write accelerations such as {name}."
-        return wrong(shown, say(why, name=f"{known.names[0]}ddot"), "WEAKER")
+        return wrong(text, say(why, name=f"{motion.names[0]}ddot"), "WEAKER")
     if good:
         share = Fraction(max(rank, 0), wanted)
         told_why = say(
@@ -257,16 +257,18 @@ def _all(found: Followed, known: RightMotion, shown: str) -> Judgement:
             number=max(rank, 0),
             all=wanted,
         )
-        return partly(share, shown, told_why, "WEAKER")
+        return partly(share, text, told_why, "WEAKER")
     share = Fraction(max(0, min(rank, wanted - 1)), wanted) if wanted > 1 else (HALF if rank else Fraction(0))
-    number = sum(t is Found.NOT for t in told)
-    if len(told) == 1:
-        return partly(share, shown, "This equation is not satisfied by the motion.", Found.NOT.value)
-    told_why = say("Equations that are not satisfied by the motion: {number} of {all}.", number=number, all=len(told))
-    return partly(share, shown, told_why, Found.NOT.value)
+    number = sum(t is Found.NOT for t in sameness)
+    if len(sameness) == 1:
+        return partly(share, text, "This equation is not satisfied by the motion.", Found.NOT.value)
+    told_why = say(
+        "Equations that are not satisfied by the motion: {number} of {all}.", number=number, all=len(sameness)
+    )
+    return partly(share, text, told_why, Found.NOT.value)
 
 
 def _proportional(a: Sequence[Expr], b: Sequence[Expr], positive: frozenset[Expr]) -> bool:
-    """Are two rows multiples of each other?"""
+    """Return whether two rows are multiples of each other."""
     pairs = [(i, j) for i in range(len(a)) for j in range(i)]
     return all(is_zero(a[i] * b[j] - a[j] * b[i], positive) for i, j in pairs)

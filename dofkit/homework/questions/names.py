@@ -26,7 +26,7 @@ class Coordinates(QuestionBase):
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         chosen = [chosen_coordinates(part, names) for part in alternatives(answer)]
-        return [Reading(one, ", ".join(one.names) or "none", certain=not one.own) for one in chosen]
+        return [Reading(choice, ", ".join(choice.names) or "none", certain=not choice.undeclared) for choice in chosen]
 
     def solution(self, key: Key) -> Sentence:
         names = key.report.generalized_coordinates
@@ -34,20 +34,20 @@ class Coordinates(QuestionBase):
 
     def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        dof, shown, names = key.report.dof, reading.shown, list(reading.value.names)
+        dof, text, names = key.report.dof, reading.text, list(reading.value.names)
         key = with_chosen(key, reading.value)
         if dof is None:
-            return needs_review(shown, "the number of degrees of freedom is not known for certain.")
+            return needs_review(text, "the number of degrees of freedom is not known for certain.")
         if len(names) < dof:
             return wrong(
-                shown, ("These coordinates do not determine the configuration: the set is incomplete."), "INCOMPLETE"
+                text, ("These coordinates do not determine the configuration: the set is incomplete."), "INCOMPLETE"
             )
-        independent = len(names) == dof and key.known(determine, names)
+        independent = len(names) == dof and key.decided(determine, names)
         if independent is None:
-            return needs_review(shown, "it could not be decided whether these coordinates are independent.")
+            return needs_review(text, "it could not be decided whether these coordinates are independent.")
         if not independent:
-            return wrong(shown, "These coordinates are not independent: the constraints relate them.", "DEPENDENT")
-        return right(shown)
+            return wrong(text, "These coordinates are not independent: the constraints relate them.", "DEPENDENT")
+        return right(text)
 
 
 class Redundant(QuestionBase):
@@ -61,12 +61,12 @@ class Redundant(QuestionBase):
     ask: Literal["redundant"] = Field(description="a largest set of redundant constraints")
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
-        known = list(names.constraints)
-        return [self._reading(part, known, names) for part in alternatives(answer, known)]
+        constraint_names = list(names.constraints)
+        return [self._reading(part, constraint_names, names) for part in alternatives(answer, constraint_names)]
 
-    def _reading(self, answer: Given, known: list[str], names: DeclaredNames) -> Reading:
-        none = is_none(answer, lambda part: lists_only(part, known), known, every=True)
-        chosen = [] if none else names_of(answer, known, "constraint", names.others)
+    def _reading(self, answer: Given, constraint_names: list[str], names: DeclaredNames) -> Reading:
+        none = is_none(answer, lambda part: lists_only(part, constraint_names), constraint_names, every=True)
+        chosen = [] if none else names_of(answer, constraint_names, "constraint", names.others)
         return Reading(chosen, ", ".join(chosen) or "none")
 
     def solution(self, key: Key) -> Sentence:
@@ -75,20 +75,20 @@ class Redundant(QuestionBase):
 
     def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
         del earlier
-        names, report, shown = reading.value, key.report, reading.shown
+        names, report, text = reading.value, key.report, reading.text
         if report.dof is None or report.redundant is None:
-            return needs_review(shown, "it is not known for certain which constraints are redundant.")
+            return needs_review(text, "it is not known for certain which constraints are redundant.")
         if set(names) == set(report.redundant):
-            return right(shown)
+            return right(text)
         if not names:
-            return wrong(shown, "Some constraints are redundant: they are implied by the others.", "REDUNDANT_MISSED")
-        dropped = key.known(can_be_dropped, names)
+            return wrong(text, "Some constraints are redundant: they are implied by the others.", "REDUNDANT_MISSED")
+        dropped = key.decided(can_be_dropped, names)
         if dropped is None:
-            return needs_review(shown, "it could not be decided whether these constraints may be removed together.")
+            return needs_review(text, "it could not be decided whether these constraints may be removed together.")
         if not dropped:
-            return wrong(shown, "Without these constraints the system would have more freedom.", "NOT_REDUNDANT")
+            return wrong(text, "Without these constraints the system would have more freedom.", "NOT_REDUNDANT")
         if len(names) < len(report.redundant):
             return wrong(
-                shown, ("These constraints may be removed, but more can be removed with them."), "REDUNDANT_MISSED"
+                text, ("These constraints may be removed, but more can be removed with them."), "REDUNDANT_MISSED"
             )
-        return right(shown)
+        return right(text)

@@ -56,11 +56,11 @@ class NumberQuestion(QuestionBase):
         return None
 
     def clash(self, key: Key) -> str:
-        """What to say of the other convention's number."""
+        """Return what to say about the other convention's number."""
         return _CONVENTIONS[key.convention]
 
     def advice(self, key: Key) -> str:
-        """How the number is counted: what to say of one that no known error explains."""
+        """Return how the number is counted: what to say about one that no known error explains."""
         raise NotImplementedError
 
     def consequences(self, key: Key, earlier: Earlier) -> Iterator[Fraction]:
@@ -73,26 +73,26 @@ class NumberQuestion(QuestionBase):
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         del names
-        found = number(answer, self.letters, self.foreign)
-        return [Reading(found, as_written(found))]
+        amount = number(answer, self.letters, self.foreign)
+        return [Reading(amount, as_written(amount))]
 
     def solution(self, key: Key) -> Sentence:
-        found = self.truth(key)
-        return "" if found is None else say("The correct answer is {number}.", number=found)
+        amount = self.truth(key)
+        return "" if amount is None else say("The correct answer is {number}.", number=amount)
 
     def judged(self, reading: Reading, key: Key, earlier: Earlier) -> Judgement:
-        given, truth, shown = reading.value, self.truth(key), reading.shown
+        amount, truth, text = reading.value, self.truth(key), reading.text
         if truth is None:
-            return needs_review(shown, "the correct number is not known for certain.")
-        if given == truth:
-            return right(shown)
-        codes, told = explain(given, self.kind(), key)
-        if given in set(self.consequences(key, earlier)):
+            return needs_review(text, "the correct number is not known for certain.")
+        if amount == truth:
+            return right(text)
+        codes, hint = explain(amount, self.kind(), key)
+        if amount in set(self.consequences(key, earlier)):
             why = "This is consistent with your earlier answer, which is wrong: half of the points."
-            return partly(HALF, shown, why, CARRIED, *codes)
-        if given == self.other(key):
-            return wrong(shown, self.clash(key), OTHER_CONVENTION, *codes)
-        return wrong(shown, told or self.advice(key), *codes)
+            return partly(HALF, text, why, CARRIED, *codes)
+        if amount == self.other(key):
+            return wrong(text, self.clash(key), OTHER_CONVENTION, *codes)
+        return wrong(text, hint or self.advice(key), *codes)
 
 
 class Dof(NumberQuestion):

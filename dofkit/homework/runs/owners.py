@@ -23,22 +23,22 @@ class OwnedOutcome(NamedTuple):
     confirmed: bool
 
 
-def named_by(roster: Roster, one: Handed) -> Handed:
+def named_by(roster: Roster, handed: Handed) -> Handed:
     """Return a submission under its owner's name, if the roster knows one by the names of its file and folders."""
-    user = one.users[0] if len(one.users) == 1 else None
+    user = handed.users[0] if len(handed.users) == 1 else None
     more = () if user is None else tuple(name for name in user.called() if roster.find(name))
-    owners = roster.owners((*one.claims, *more))
-    return replace(one, name=owners[-1].student) if len(owners) == 1 else one
+    owners = roster.owners((*handed.claims, *more))
+    return replace(handed, name=owners[-1].student) if len(owners) == 1 else handed
 
 
-def owned(roster: Roster | None, one: Handed, outcome: Outcome) -> OwnedOutcome:
+def owned(roster: Roster | None, handed: Handed, outcome: Outcome) -> OwnedOutcome:
     """Return a result under the name of its owner, with the doubt there is."""
-    inside = isinstance(one.data, Mapping) and "student" in one.data
-    by_default = not inside and outcome.student == one.name
-    student, confirmed, doubt = attributed(roster, one.claims, one.users, outcome.student, by_default)
-    doubt = outcome.doubt if doubt is None else f"{one.place}: {doubt}"
+    inside = isinstance(handed.data, Mapping) and "student" in handed.data
+    by_default = not inside and outcome.student == handed.name
+    student, confirmed, doubt = attributed(roster, handed.claims, handed.users, outcome.student, by_default)
+    doubt = outcome.doubt if doubt is None else f"{handed.place}: {doubt}"
     outcome = outcome.model_copy(update={"student": student, "doubt": doubt})
-    return OwnedOutcome(outcome, str(one.place), confirmed or one.listed)
+    return OwnedOutcome(outcome, str(handed.place), confirmed or handed.listed)
 
 
 def settled(orders: Orders, owned_outcomes: Iterable[OwnedOutcome], roster: Roster | None) -> list[Outcome]:
@@ -53,7 +53,7 @@ def settled(orders: Orders, owned_outcomes: Iterable[OwnedOutcome], roster: Rost
     for n, (outcome, _, _) in enumerate(submitted):
         if outcome.error is None and outcome.doubt is None:
             of_student[outcome.student].append(n)
-    result = [one.outcome for one in submitted]
+    result = [submission.outcome for submission in submitted]
     for student, numbers in of_student.items():
         first, *others = sorted(numbers, key=lambda n: not submitted[n].confirmed)
         counted = submitted[first]

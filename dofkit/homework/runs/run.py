@@ -1,4 +1,4 @@
-"""``dofkit grade``: from the files that are named to the results, wherever they go; and results in another format."""
+"""``dofkit grade``: from the files that are named to the results, wherever they go."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from contextlib import AbstractContextManager, closing, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
-from pydantic import ValidationError
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
@@ -21,7 +20,7 @@ from dofkit.homework.answers.sources import Handed, hand_ins
 from dofkit.homework.assignment import Prepared, load_assignment
 from dofkit.homework.formats import FORMATS, Format, FormatError
 from dofkit.homework.formats.gradebooks import apart_path
-from dofkit.homework.formats.review import PAGE, TABLE, ReviewPaths, RunReview
+from dofkit.homework.formats.review import ReviewPaths, RunReview
 from dofkit.homework.result import Result, json_line
 from dofkit.homework.runs.batch import Grading, Orders, Outcome, grading
 from dofkit.homework.runs.owners import OwnedOutcome, named_by, owned, settled
@@ -70,13 +69,13 @@ class GradingOptions:
 
     @property
     def in_folder(self) -> bool:
-        """Does the format write a folder there?"""
+        """Return whether the format writes a folder there."""
         return self.out is not None and self.format.folder(self.out)
 
     @property
     def review(self) -> ReviewPaths | None:
-        """Where the review stands. Raises FormatError."""
-        return None if self.out is None or self.check_only else ReviewPaths.beside(self.out, self.in_folder)
+        """Return the paths of the review. Raises FormatError."""
+        return None if self.out is None or self.check_only else ReviewPaths.of_output(self.out, self.in_folder)
 
     @property
     def written(self) -> list[Path]:
@@ -84,8 +83,8 @@ class GradingOptions:
         if self.out is None:
             return []
         review, native = self.review, self.out / RESULTS if self.in_folder else self.out
-        beside = [apart_path(self.out), *([] if review is None else [review.table, review.page])]
-        return [self.out, native, *files_of(unfinished(self.out)), *beside]
+        companions = [apart_path(self.out), *([] if review is None else [review.table, review.page])]
+        return [self.out, native, *files_of(unfinished(self.out)), *companions]
 
 
 def unfinished(out: Path) -> Path:
@@ -96,10 +95,10 @@ def unfinished(out: Path) -> Path:
 def fingerprint(prepared: Prepared, check_only: bool, roster: Roster | None = None) -> str:
     """Return what distinguishes a run from others: the assignment with its scenes, the roster, and how it grades."""
     course = "" if roster is None else roster.digest
-    parts = [__version__, str(check_only), course, prepared.assignment.model_dump_json()]
-    parts += [f"{identity} {decision}" for identity, decision in sorted(prepared.decisions.items())]
-    parts += [f"{name} {key.convention} {key.scene.model_dump_json()}" for name, key in prepared.keys.items()]
-    return hashlib.blake2b("\0".join(parts).encode("utf-8", "replace"), digest_size=16).hexdigest()
+    texts = [__version__, str(check_only), course, prepared.assignment.model_dump_json()]
+    texts += [f"{identity} {decision}" for identity, decision in sorted(prepared.decisions.items())]
+    texts += [f"{name} {key.convention} {key.scene.model_dump_json()}" for name, key in prepared.keys.items()]
+    return hashlib.blake2b("\0".join(texts).encode("utf-8", "replace"), digest_size=16).hexdigest()
 
 
 def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
@@ -111,7 +110,7 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     roster = None if options.roster is None else load_roster(options.roster)
     form = options.format
     for path in options.written:
-        if path.resolve() in [Path(given).resolve() for given in (assignment, *sources, options.roster or "")]:
+        if path.resolve() in [Path(source).resolve() for source in (assignment, *sources, options.roster or "")]:
             raise FormatError(f"--out would overwrite the input file {path}")
     review = RunReview.read(prepared, options.reviewed, options.review)
     prepared, people = with_roster(review.applied(prepared), roster)
@@ -119,14 +118,14 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
     others: list[str | Path] = [assignment, *options.written, *filter(None, (options.reviewed, options.roster))]
     stream = hand_ins(sources, prepared.columns(), others)
     if people is not None:
-        stream = (named_by(people, one) for one in stream)
+        stream = (named_by(people, entry) for entry in stream)
     out, mark = options.out, fingerprint(prepared, options.check_only, roster)
     with (
         grading(orders, options.workers, options.scheduler) as grade_all,
         nullcontext() if out is None else closing(Journal(unfinished(out), mark)) as journal,
     ):
         outcomes = settled(orders, _graded(grade_all, orders, stream, people, journal), people)
-        results = [one for one in outcomes if isinstance(one, Result)]
+        results = [entry for entry in outcomes if isinstance(entry, Result)]
         if form.name != NATIVE:
             form.write(iter(results), prepared, out or sys.stdout, roster)
         elif out is None:
@@ -134,14 +133,14 @@ def run(assignment: str, sources: list[str], options: GradingOptions) -> bool:
         else:
             native = out / RESULTS if options.in_folder else out
             native.parent.mkdir(parents=True, exist_ok=True)
-            native.write_text("".join(f"{json_line(one)}\n" for one in outcomes), encoding="utf-8", newline="\n")
+            native.write_text("".join(f"{json_line(entry)}\n" for entry in outcomes), encoding="utf-8", newline="\n")
         review.write(results, prepared)
         if journal is not None:
             journal.remove()
-    doubted = sum(one.doubt is not None for one in outcomes)
+    doubted = sum(entry.doubt is not None for entry in outcomes)
     if doubted:
         print(f"{doubted} of the submissions have a 'doubt': a person has to decide whose they are", file=sys.stderr)
-    return all(one.error is None for one in outcomes)
+    return all(entry.error is None for entry in outcomes)
 
 
 def _graded(
@@ -150,8 +149,8 @@ def _graded(
     """Yield every result with its owner; a bar on a terminal shows how far it is."""
     with _bar() as bar:
         task = bar.add_task("graded", total=None)
-        for one, lines in grade_all(stream, journal):
-            yield from (owned(people, one, orders.outcome(line)) for line in lines)
+        for handed, lines in grade_all(stream, journal):
+            yield from (owned(people, handed, orders.outcome(line)) for line in lines)
             bar.update(task, advance=len(lines))
 
 
@@ -164,45 +163,6 @@ def _to_stdout(outcomes: Iterable[Outcome]) -> None:
 def _bar() -> AbstractContextManager[Progress]:
     """Return a progress bar on standard error, if that is a terminal."""
     console = Console(stderr=True)
-    shown = console.is_terminal and not console.is_jupyter
+    visible = console.is_terminal and not console.is_jupyter
     columns = (SpinnerColumn(), BarColumn(), TextColumn("{task.completed:.0f} graded"), TimeElapsedColumn())
-    return Progress(*columns, console=console, transient=True, disable=not shown)
-
-
-def convert(assignment: str, results: Path, options: GradingOptions) -> int:
-    """Write the results of a run, or those in its folder, in another format, and return how many there are.
-
-    Raises AssignmentError, RosterError, OSError, and FormatError for what are no results of this assignment.
-    """
-    form, path = options.format, results / RESULTS if results.is_dir() else results
-    if options.out is None or form.name == NATIVE:
-        raise FormatError(f"--format must be one of {', '.join(name for name in FORMATS if name != NATIVE)}")
-    read = [Path(given).resolve() for given in (assignment, path, options.roster or "")]
-    if any(target.resolve() in read for target in options.written):
-        raise FormatError(f"--out would overwrite an input file: {options.out}")
-    prepared = load_assignment(assignment)
-    roster = None if options.roster is None else load_roster(options.roster)
-    most = float(sum(prepared.most_points().values()))
-    found = list(_checked(path, most))
-    form.write(iter(found), prepared, options.out, roster)
-    if (options.out / PAGE).exists():
-        beside = ReviewPaths(path.parent / TABLE, options.out / PAGE, True)
-        RunReview.read(prepared, None, beside).write_page(found, prepared)
-    return len(found)
-
-
-def _checked(path: Path, most: float) -> Iterator[Result]:
-    """Yield the results of a file. Raises FormatError for a line that is no result of this assignment."""
-    with path.open(encoding="utf-8", newline="\n") as lines:
-        for number, line in enumerate(lines, 1):
-            try:
-                result = Result.model_validate_json(line)
-            except ValidationError:
-                hint = "name the results.jsonl that `dofkit grade ... --out FOLDER` wrote"
-                raise FormatError(f"{path}, line {number}: this is not a result of dofkit ({hint})") from None
-            if abs(result.max_score - most) > 1e-9:
-                raise FormatError(
-                    f"{path}, line {number}: this result has {result.max_score:g} points, the assignment "
-                    f"{most:g}: run `dofkit grade` again"
-                )
-            yield result
+    return Progress(*columns, console=console, transient=True, disable=not visible)

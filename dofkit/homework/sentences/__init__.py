@@ -22,16 +22,16 @@ def catalogue() -> dict[str, dict[str, str]]:
 
 @cache
 def _reading(language: Language) -> list[tuple[re.Pattern[str], str]]:
-    """What matches an English text of why reading stopped, and the same in a language with the names that it found."""
+    """Return patterns of English texts of why reading stopped, each with the text in a language."""
     data = files("dofkit.homework.sentences").joinpath("reading.yaml").read_bytes()
     rows: list[dict[str, str]] = read_document(data, "reading").value
     return [(_pattern(row["en"]), row[language]) for row in rows]
 
 
 def _pattern(sentence: str) -> re.Pattern[str]:
-    parts = _PLACE.split(sentence)
+    pieces = _PLACE.split(sentence)
     return re.compile(
-        "".join(re.escape(part) if i % 2 == 0 else f"(?P<{part}>.+?)" for i, part in enumerate(parts)), re.DOTALL
+        "".join(re.escape(part) if i % 2 == 0 else f"(?P<{part}>.+?)" for i, part in enumerate(pieces)), re.DOTALL
     )
 
 
@@ -39,15 +39,15 @@ _PLACE = re.compile(r"\{(\w+)\}")
 
 
 def stopped(text: str, language: Language) -> str:
-    """Why reading stopped, or what to do, in a language; in English where it has no such text.
+    """Return why reading stopped, or what to do, in a language; in English if it has no such text.
 
     >>> stopped("`q` is not declared", "fr")
     "`q` n'est pas déclaré"
     """
-    for pattern, told in _reading(language) if language != "en" else ():
-        found = pattern.fullmatch(text)
-        if found is not None:
-            return told.format(**found.groupdict())
+    for pattern, translation in _reading(language) if language != "en" else ():
+        match = pattern.fullmatch(text)
+        if match is not None:
+            return translation.format(**match.groupdict())
     return text
 
 
@@ -80,24 +80,24 @@ class Said(NamedTuple):
     sentence: str
     values: tuple[tuple[str, object], ...] = ()
 
-    def told(self, language: Language = "en") -> str:
+    def translated(self, language: Language = "en") -> str:
         """The sentence in a language; in English where it has none.
 
-        >>> say("The correct answer is {number}.", number=3).told("de")
+        >>> say("The correct answer is {number}.", number=3).translated("de")
         'Die richtige Antwort ist 3.'
         """
-        known = {} if language == "en" else catalogue()[language]
-        sentence = known.get(self.sentence, self.sentence)
+        translations = {} if language == "en" else catalogue()[language]
+        sentence = translations.get(self.sentence, self.sentence)
         if not self.values:
             return sentence
         return sentence.format(
-            **{n: stopped(str(v), language) if n in FAULTS else _word(str(v), known) for n, v in self.values}
+            **{n: stopped(str(v), language) if n in FAULTS else _word(str(v), translations) for n, v in self.values}
         )
 
 
-def _word(text: str, known: dict[str, str]) -> str:
+def _word(text: str, translations: dict[str, str]) -> str:
     """Return a value with its words translated, if all of them are known."""
-    return "".join(known.get(word, word) for word in re.split("(, | / )", text))
+    return "".join(translations.get(word, word) for word in re.split("(, | / )", text))
 
 
 def in_language(language: Language, sentence: str, **values: object) -> str:
@@ -106,7 +106,7 @@ def in_language(language: Language, sentence: str, **values: object) -> str:
     >>> in_language("de", "{score} of {most}", score=1, most=2)
     '1 von 2'
     """
-    return say(sentence, **values).told(language)
+    return say(sentence, **values).translated(language)
 
 
 def say(sentence: str, **values: object) -> Said:

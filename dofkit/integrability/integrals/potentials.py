@@ -90,12 +90,12 @@ class Algebra:
 
     def tidy(self, e: Expr) -> Expr:
         """Return ``e`` as one factored quotient in lowest terms, or ``e`` itself where that is too large."""
-        found = self._tidied.get(e)
-        if found is None:
-            shown = self.attempt(lambda: self._quotient(e))
-            found = self._tidied[e] = e if shown is None else shown
-            self._tidied[found] = found
-        return found
+        tidied = self._tidied.get(e)
+        if tidied is None:
+            factored_form = self.attempt(lambda: self._quotient(e))
+            tidied = self._tidied[e] = e if factored_form is None else factored_form
+            self._tidied[tidied] = tidied
+        return tidied
 
     def _quotient(self, e: Expr) -> Expr:
         canon, (quotient,) = self.lowered([e])
@@ -108,10 +108,10 @@ class Algebra:
         """Return whether ``e`` is proved to be zero identically."""
         if e.op in ("num", "sym"):
             return e.is_zero
-        found = self._vanishing.get(e)
-        if found is None:
-            found = self._vanishing[e] = bool(self.attempt(lambda: self._is_zero(e)))
-        return found
+        zero = self._vanishing.get(e)
+        if zero is None:
+            zero = self._vanishing[e] = bool(self.attempt(lambda: self._is_zero(e)))
+        return zero
 
     def _is_zero(self, e: Expr) -> bool:
         self.spend([e])
@@ -183,7 +183,7 @@ def _small(top: Poly, bottom: Poly) -> Quotient:
     return in_lowest_terms(top, bottom)
 
 
-def solve(rows: list[list[Quotient]], one: Poly) -> list[Quotient] | None:
+def solve(rows: list[list[Quotient]], unit: Poly) -> list[Quotient] | None:
     """Return x with sum(row[k] x[k]) = row[-1] for every row, free unknowns 0, or None where there is none."""
     if not rows:
         return None
@@ -201,7 +201,7 @@ def solve(rows: list[list[Quotient]], one: Poly) -> list[Quotient] | None:
         for k, other in pivots.items():
             pivots[k] = _cleared(other, row, lead)
         pivots[lead] = row
-    zero = (one * 0, one)
+    zero = (unit * 0, unit)
     return [pivots[k][-1] if k in pivots else zero for k in range(unknowns)]
 
 
@@ -239,12 +239,12 @@ def potential(work: Algebra, form: Form) -> Expr | None:
 def _potential_in_order(work: Algebra, form: Form, order: list[Expr]) -> Expr | None:
     total, done = ex.ZERO, set[Expr]()
     for symbol in order:
-        rest = form[symbol] - diff(total, symbol)
-        if not done.isdisjoint(rest.symbols):
-            rest = work.tidy(rest)
-            if not done.isdisjoint(rest.symbols):
+        slope = form[symbol] - diff(total, symbol)
+        if not done.isdisjoint(slope.symbols):
+            slope = work.tidy(slope)
+            if not done.isdisjoint(slope.symbols):
                 return None
-        part = ex.ZERO if rest.is_zero else antiderivative(work, rest, symbol)
+        part = ex.ZERO if slope.is_zero else antiderivative(work, slope, symbol)
         if part is None:
             return None
         total = total + part

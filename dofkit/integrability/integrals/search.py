@@ -76,9 +76,9 @@ def _integrate(work: Algebra, form: Pfaffian) -> Integral | None:
     if work.closed(whole):
         closed = potential(work, whole)
         if closed is not None:
-            for shown in dict.fromkeys((arranged(upright(closed)), arranged(closed), closed)):
-                if _proved(work, whole, (shown, ex.ONE)):
-                    return Integral(None, _equation(shown, whole))
+            for integral in dict.fromkeys((arranged(upright(closed)), arranged(closed), closed)):
+                if _proved(work, whole, (integral, ex.ONE)):
+                    return Integral(None, _equation(integral, whole))
     return _with_factor(work, whole)
 
 
@@ -138,15 +138,15 @@ def _proved(work: Algebra, form: Form, pair: Pair) -> bool:
 
 def exponential(e: Expr) -> Expr:
     """Return exp(e), with exp(c log u) written as u^c."""
-    parts = []
+    factors_of_exp = []
     for term in e.args if e.op == "add" else (e,):
         factors = term.args if term.op == "mul" else (term,)
         log = next((f for f in factors if f.op == "fn" and f.args[0] == "log"), None)
         if log is None or any(s.args[0] != "parameter" for f in factors if f is not log for s in f.symbols):
-            parts.append(ex.fn("exp", term))
+            factors_of_exp.append(ex.fn("exp", term))
         else:
-            parts.append(ex.power(log.args[1], ex.mul(*(f for f in factors if f is not log))))
-    return ex.mul(*parts)
+            factors_of_exp.append(ex.power(log.args[1], ex.mul(*(f for f in factors if f is not log))))
+    return ex.mul(*factors_of_exp)
 
 
 def exterior_derivative(form: Form) -> dict[tuple[Expr, Expr], Expr]:
@@ -166,8 +166,8 @@ def simple(work: Algebra, form: Form) -> Iterator[Expr]:
 def _content(work: Algebra, form: Form) -> Expr:
     """Return the common divisor of the numerators over that of the denominators."""
     present = [a for a in form.values() if not a.is_zero]
-    found = work.attempt(lambda: _common(work, present))
-    return ex.ONE if found is None else found
+    content = work.attempt(lambda: _common(work, present))
+    return ex.ONE if content is None else content
 
 
 def _common(work: Algebra, present: list[Expr]) -> Expr:
@@ -186,9 +186,9 @@ def of_powers(work: Algebra, form: Form) -> Iterator[Expr]:
     logs = _candidates(work, form)
     if not logs:
         return
-    found = work.attempt(lambda: _constants(work, form, logs))
-    if found:
-        yield exponential(ex.add(*(c * g for c, g in zip(found, logs, strict=True))))
+    exponents = work.attempt(lambda: _constants(work, form, logs))
+    if exponents:
+        yield exponential(ex.add(*(c * g for c, g in zip(exponents, logs, strict=True))))
 
 
 def _candidates(work: Algebra, form: Form) -> list[Expr]:
@@ -222,20 +222,20 @@ def _constants(work: Algebra, form: Form, logs: list[Expr]) -> list[Expr] | None
         for _, bottom in row:
             below = below * (bottom / below.gcd(bottom))
         system.extend(_compared([canon.reduce(top * (below / bottom)) for top, bottom in row], fixed, canon))
-    found = solve(system, canon.one)
-    return None if found is None else [canon.to_expr(a) / canon.to_expr(b) for a, b in found]
+    solution = solve(system, canon.one)
+    return None if solution is None else [canon.to_expr(a) / canon.to_expr(b) for a, b in solution]
 
 
 def _compared(polys: list[Poly], fixed: frozenset[int], canon: Canon) -> list[list[Quotient]]:
     """Return one equation for every monomial in the generators that are not ``fixed``."""
     count = len(canon.ring.vars)
-    parts: dict[tuple[int, ...], list[dict[tuple[int, ...], Any]]] = {}
+    by_monomial: dict[tuple[int, ...], list[dict[tuple[int, ...], Any]]] = {}
     for column, poly in enumerate(polys):
         for exponents, coefficient in poly.to_dict().items():
             inside = tuple(int(k) if count - 1 - i in fixed else 0 for i, k in enumerate(exponents))
             outside = tuple(int(k) - j for k, j in zip(exponents, inside, strict=True))
-            parts.setdefault(outside, [{} for _ in polys])[column][inside] = coefficient
-    return [[(canon.ctx.from_dict(part), canon.one) for part in row] for row in parts.values()]
+            by_monomial.setdefault(outside, [{} for _ in polys])[column][inside] = coefficient
+    return [[(canon.ctx.from_dict(part), canon.one) for part in row] for row in by_monomial.values()]
 
 
 #: (integral, factor).
@@ -260,25 +260,25 @@ def _place(term: Expr) -> tuple[bool, bool, list[tuple[int, str]]]:
 
 def arranged(e: Expr) -> Expr:
     """Return ``e`` with terms and factors sorted, a term without a minus sign first, exp(u)^k as exp(k u)."""
-    parts = tuple(arranged(child) for child in ex.children(e))
+    operands = tuple(arranged(child) for child in ex.children(e))
     if e.op == "mul":
-        return _product(parts)
-    if e.op == "pow" and _is_exp(parts[0]):
-        return ex.fn("exp", arranged(parts[1] * parts[0].args[1]))
+        return _product(operands)
+    if e.op == "pow" and _is_exp(operands[0]):
+        return ex.fn("exp", arranged(operands[1] * operands[0].args[1]))
     if e.op == "add":
-        terms = sorted(parts, key=_place)
+        terms = sorted(operands, key=_place)
         first = next((i for i, term in enumerate(terms) if not to_text(term).startswith("-")), 0)
         return Expr("add", (terms[first], *terms[:first], *terms[first + 1 :]))
-    return ex.rebuild(e, parts) if parts else e
+    return ex.rebuild(e, operands) if operands else e
 
 
 def _is_exp(e: Expr) -> bool:
     return e.op == "fn" and e.args[0] == "exp"
 
 
-def _product(parts: tuple[Expr, ...]) -> Expr:
-    others = sorted((p for p in parts if not _is_exp(p)), key=_rank)
-    exponents = [p.args[1] for p in parts if _is_exp(p)]
+def _product(factors: tuple[Expr, ...]) -> Expr:
+    others = sorted((p for p in factors if not _is_exp(p)), key=_rank)
+    exponents = [p.args[1] for p in factors if _is_exp(p)]
     if exponents:
         total = arranged(ex.add(*exponents)) if len(exponents) > 1 else exponents[0]
         others += [] if total.is_zero else [ex.fn("exp", total)]
@@ -313,25 +313,25 @@ def _reading(e: Expr) -> int:
 
 def shapes(work: Algebra, pair: Pair) -> list[Pair]:
     """Return ``pair`` and its equivalent forms, the simplest first."""
-    found = list(_scaled(work, pair))
-    for first in list(found):
+    pairs = list(_scaled(work, pair))
+    for first in list(pairs):
         for other in (_without_logs(first), _without_roots(first), _reciprocal(first)):
             if other is not None:
-                found.extend(_scaled(work, other))
-    for first in found[2:]:
+                pairs.extend(_scaled(work, other))
+    for first in pairs[2:]:
         for other in (_without_roots(first), _reciprocal(first)):
             if other is not None:
-                found.extend(_scaled(work, other))
-    return sorted(dict.fromkeys(found), key=cost)
+                pairs.extend(_scaled(work, other))
+    return sorted(dict.fromkeys(pairs), key=cost)
 
 
 def _scaled(work: Algebra, pair: Pair) -> Iterator[Pair]:
     """Yield the pair as built and as one quotient, constant factors taken out."""
     integral, factor = pair
-    for shown in dict.fromkeys((upright(integral), integral, work.tidy(integral))):
-        constant = _constant(shown)
+    for form in dict.fromkeys((upright(integral), integral, work.tidy(integral))):
+        constant = _constant(form)
         plain = factor / constant
-        yield arranged(shown / constant), min((arranged(mu) for mu in (work.tidy(plain), plain)), key=_reading)
+        yield arranged(form / constant), min((arranged(mu) for mu in (work.tidy(plain), plain)), key=_reading)
 
 
 def _constant(e: Expr) -> Expr:
@@ -348,7 +348,7 @@ def _constant(e: Expr) -> Expr:
 def _logs(e: Expr) -> tuple[dict[Expr, Fraction], list[Expr]]:
     """Return the terms c log(u) of a sum with rational c, as u -> c, and the other terms."""
     logs: dict[Expr, Fraction] = {}
-    rest = []
+    terms = []
     for term in e.args if e.op == "add" else (e,):
         factors = term.args if term.op == "mul" else (term,)
         number = factors[0].args[0] if factors[0].op == "num" else Fraction(1)
@@ -356,32 +356,32 @@ def _logs(e: Expr) -> tuple[dict[Expr, Fraction], list[Expr]]:
         if last.op == "fn" and last.args[0] == "log" and len(factors) - (factors[0].op == "num") == 1:
             logs[last.args[1]] = logs.get(last.args[1], Fraction(0)) + number
         else:
-            rest.append(term)
-    return logs, rest
+            terms.append(term)
+    return logs, terms
 
 
 def _without_logs(pair: Pair) -> Pair | None:
     """Return exp(k f) where f holds logarithms with rational coefficients."""
     integral, factor = pair
-    logs, rest = _logs(integral)
+    logs, terms = _logs(integral)
     if not logs:
         return None
     k = Fraction(lcm(*(c.denominator for c in logs.values())), gcd(*(c.numerator for c in logs.values())) or 1)
     powers = [ex.power(u, ex.num(c * k)) for u, c in logs.items()]
-    if any(n.op in ("fn", "call") or as_power(n)[1] < 0 for term in rest for n in ex.nodes(term)):
+    if any(n.op in ("fn", "call") or as_power(n)[1] < 0 for term in terms for n in ex.nodes(term)):
         return None
-    whole = ex.mul(*powers, ex.fn("exp", ex.add(*rest) * k)) if rest else ex.mul(*powers)
+    whole = ex.mul(*powers, ex.fn("exp", ex.add(*terms) * k)) if terms else ex.mul(*powers)
     return whole, whole * factor * k
 
 
 def _without_roots(pair: Pair) -> Pair | None:
     """Return f^k for a product of powers with fractions in the exponents."""
     integral, factor = pair
-    parts = integral.args if integral.op == "mul" else (integral,)
-    k = lcm(*(as_power(part)[1].denominator for part in parts))
+    powers = integral.args if integral.op == "mul" else (integral,)
+    k = lcm(*(as_power(part)[1].denominator for part in powers))
     if k == 1 or k > 6:
         return None
-    whole = ex.mul(*(ex.power(base, ex.num(e * k)) for base, e in map(as_power, parts)))
+    whole = ex.mul(*(ex.power(base, ex.num(e * k)) for base, e in map(as_power, powers)))
     return whole, factor * k * integral ** (k - 1)
 
 

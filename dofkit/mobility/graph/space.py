@@ -149,8 +149,8 @@ def _fixed_pairs(pairs: Sequence[Ends], joints: Sequence[int]) -> list[Ends]:
     motion = vector_in_kernel(rows, p, random.Random("dofkit motion in space"))
     x = np.array([at[v] for v in joints], dtype=object)
     v = np.array([[motion[3 * v + k] for k in range(3)] for v in joints], dtype=object)
-    own, cross = (x * v).sum(axis=1), x @ v.T
-    fixed = (own[:, None] + own[None, :] - cross - cross.T) % p == 0
+    diagonal, cross = (x * v).sum(axis=1), x @ v.T
+    fixed = (diagonal[:, None] + diagonal[None, :] - cross - cross.T) % p == 0
     return [(joints[a], joints[b]) for a, b in np.argwhere(np.triu(fixed, 1)).tolist()]
 
 

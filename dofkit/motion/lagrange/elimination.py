@@ -114,12 +114,12 @@ class Eliminator:
 
         Relations that need more than `care.roots` roots are all left.
         """
-        found = self._attempt(relations, names, preferred, self.care.roots)
-        if found is None:
-            found = self._attempt(relations, names, preferred, 0) or Elimination()
+        elimination = self._attempt(relations, names, preferred, self.care.roots)
+        if elimination is None:
+            elimination = self._attempt(relations, names, preferred, 0) or Elimination()
             many = "Several relations are quadratic; they keep multipliers, so that the equations hold on every branch."
-            found = replace(found, notes=(*found.notes, many))
-        return found
+            elimination = replace(elimination, notes=(*elimination.notes, many))
+        return elimination
 
     def _attempt(
         self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str], most: int
@@ -128,17 +128,17 @@ class Eliminator:
         solved: dict[str, Expr] = {}
         constants: set[Expr] = set()
         notes: list[str] = []
-        left = list(relations)
+        remaining = list(relations)
         roots = 0
-        while left:
+        while remaining:
             check()
-            found = self._best(left, [n for n in names if n not in solved], preferred, most > 0)
-            if found is None:
+            best = self._best(remaining, [n for n in names if n not in solved], preferred, most > 0)
+            if best is None:
                 break
-            relation, candidate = found
+            relation, candidate = best
             if candidate.other is not None and roots == most:
                 return None
-            left.remove(relation)
+            remaining.remove(relation)
             value = ordered(candidate.value)
             if candidate.other is not None:
                 roots += 1
@@ -151,13 +151,13 @@ class Eliminator:
             mapping = {ex.coordinate(candidate.name): value}
             try:
                 solved = {n: substitute(e, mapping) for n, e in solved.items()} | {candidate.name: value}
-                left = [relation_ for r in left for relation_ in self._rest(r, mapping)]
+                remaining = [relation_ for r in remaining for relation_ in self._remainders(r, mapping)]
             except NoValueError:
                 break
             constants |= relation.constants
         return Elimination(solved, frozenset(constants), tuple(notes))
 
-    def _rest(self, relation: EliminatedRelation, mapping: Mapping[Expr, Expr]) -> list[EliminatedRelation]:
+    def _remainders(self, relation: EliminatedRelation, mapping: Mapping[Expr, Expr]) -> list[EliminatedRelation]:
         """A relation after a substitution; nothing where it then holds identically."""
         e = substitute(relation.expr, mapping)
         return [] if is_identically_zero(e, self.positive) else [relation._replace(expr=e)]
@@ -165,15 +165,15 @@ class Eliminator:
     def _best(
         self, relations: Sequence[EliminatedRelation], names: Sequence[str], preferred: Sequence[str], roots: bool
     ) -> tuple[EliminatedRelation, Candidate] | None:
-        found = [
+        candidates = [
             (relation, candidate)
             for relation in relations
             for place, name in enumerate(names)
             if (candidate := self._solved(relation.expr, name, (name not in preferred, -place))) is not None
             and (roots or candidate.other is None)
         ]
-        found.sort(key=lambda pair: pair[1].cost)
-        return next((pair for pair in found if self._checked(*pair)), None)
+        candidates.sort(key=lambda pair: pair[1].cost)
+        return next((pair for pair in candidates if self._checked(*pair)), None)
 
     def _solved(self, g: Expr, name: str, order: tuple[int, int]) -> Candidate | None:
         """The relation solved for one coordinate where it is linear or quadratic in that."""
@@ -202,7 +202,7 @@ class Eliminator:
         return ex.add(*(ex.mul(*(t.args if t.op == "mul" else (t,))) for t in (e.args if e.op == "add" else (e,))))
 
     def _checked(self, relation: EliminatedRelation, candidate: Candidate) -> bool:
-        """Does the relation hold identically with what it was solved to? Zero in the canonical ring is a proof."""
+        """Return whether the relation holds identically with its solution; zero in the canonical ring is a proof."""
         q = ex.coordinate(candidate.name)
         for value in (candidate.value, candidate.other):
             if value is None:
@@ -230,8 +230,8 @@ def _free_of(e: Expr, q: Expr, positive: frozenset[Expr]) -> bool:
 
 def _never_zero(e: Expr, positive: frozenset[Expr]) -> bool:
     """A number, or a product of positive parameters and numbers."""
-    parts = e.args if e.op == "mul" else (e,)
-    return all(p.op in ("num", "const") or (p.args[0] if p.op == "pow" else p) in positive for p in parts)
+    factors = e.args if e.op == "mul" else (e,)
+    return all(p.op in ("num", "const") or (p.args[0] if p.op == "pow" else p) in positive for p in factors)
 
 
 def by_potential(
@@ -263,8 +263,8 @@ def by_potential(
 
 
 def _all(name: str, value: Expr, solved: Mapping[str, Expr]) -> dict[Expr, Expr]:
-    found = {ex.coordinate(n): substitute(e, {ex.coordinate(name): value}) for n, e in solved.items()}
-    return {**found, ex.coordinate(name): value}
+    values = {ex.coordinate(n): substitute(e, {ex.coordinate(name): value}) for n, e in solved.items()}
+    return {**values, ex.coordinate(name): value}
 
 
 def _sampled(e: Expr) -> Expr:
@@ -302,9 +302,9 @@ def inserted(piece: Remaining, elimination: Elimination) -> Remaining:
 
 
 def vanishes(piece: Remaining, positive: frozenset[Expr]) -> bool:
-    """Does a relation hold identically? Proved in the canonical ring."""
-    parts = [*piece.coefficients.values(), piece.dt] if isinstance(piece, Pfaffian) else [piece.expr]
-    return all(e.is_zero or is_identically_zero(e, positive) is True for e in parts)
+    """Return whether a relation holds identically, proved in the canonical ring."""
+    expressions = [*piece.coefficients.values(), piece.dt] if isinstance(piece, Pfaffian) else [piece.expr]
+    return all(e.is_zero or is_identically_zero(e, positive) is True for e in expressions)
 
 
 # roots of squares

@@ -56,13 +56,13 @@ class EnergyReader:
 
     def energy(self) -> Energy:
         """The energies, and the forces by coordinate."""
-        given = self.scene.energies
+        written = self.scene.energies
         world = self.worlds.at("energies")
         kinetic, potential, dissipation = (
-            _text(world, getattr(given, key, None), key) for key in ("kinetic", "potential", "dissipation")
+            _text(world, getattr(written, key, None), key) for key in ("kinetic", "potential", "dissipation")
         )
-        own = {} if given is None else given.forces
-        forces = {name: moving(world, text, "forces", name) for name, text in own.items()}
+        force_texts = {} if written is None else written.forces
+        forces = {name: moving(world, text, "forces", name) for name, text in force_texts.items()}
         if kinetic is None:
             kinetic = ex.add(*self._kinetic())
             self._assumed_centres()
@@ -136,13 +136,13 @@ def body_spin(frame: Frame) -> Vec:
     phidot (sin theta sin psi, sin theta cos psi, cos theta) + thetadot (cos psi, -sin psi, 0) + psidot e_z.
     """
     theta, psi = (ex.coordinate(name) for name in frame.angles[1:])
-    precession, nutation, own = (ex.velocity(name) for name in frame.angles)
+    precession, nutation, rotation = (ex.velocity(name) for name in frame.angles)
     s, c = ex.fn("sin", psi), ex.fn("cos", psi)
     tilt = ex.fn("sin", theta)
     return (
         precession * tilt * s + nutation * c,
         precession * tilt * c - nutation * s,
-        precession * ex.fn("cos", theta) + own,
+        precession * ex.fn("cos", theta) + rotation,
     )
 
 
@@ -215,23 +215,23 @@ class ForceReader:
         stiffness = needed(world, force.stiffness, "stiffness", "of a spring")
         turned = _turned(world, force)
         if turned is not None:
-            rest = ZERO if force.rest_length is None else moving(world, force.rest_length, "rest_length")
-            return HALF * stiffness * (turned - rest) ** 2
+            unstretched = ZERO if force.rest_length is None else moving(world, force.rest_length, "rest_length")
+            return HALF * stiffness * (turned - unstretched) ** 2
         ends = _ends(world, force)
         if ends is None:
             return ZERO
         gap = minus(_place(ends[1]), _place(ends[0]))
         if force.rest_length is not None:
-            rest = moving(world, force.rest_length, "rest_length")
+            unstretched = moving(world, force.rest_length, "rest_length")
         elif ends[0].reference is not None and ends[1].reference is not None:
-            rest = length(minus(ends[1].reference, ends[0].reference))
+            unstretched = length(minus(ends[1].reference, ends[0].reference))
             self.notes.append("A spring without `rest_length` is unstretched in the reference configuration.")
         else:
             world.fault("a spring needs its `rest_length` here", hint="write its length without load, perhaps 0")
             return ZERO
-        if rest.is_zero:
+        if unstretched.is_zero:
             return HALF * stiffness * square(gap)
-        return HALF * stiffness * (ex.sqrt(square(gap)) - rest) ** 2
+        return HALF * stiffness * (ex.sqrt(square(gap)) - unstretched) ** 2
 
 
 def gravity_of(scene: Scene, worlds: EntryWorlds) -> Vec:

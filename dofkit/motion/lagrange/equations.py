@@ -100,14 +100,14 @@ def lagrange(scene: SceneLike, linearize: bool = False, budget: float | None = N
     >>> dofkit.lagrange({**pendulum, "energies": energies}).equations
     ['m*l^2*thetaddot + m*g*l*sin(theta) = 0']
     """
-    seconds, given = DEFAULT_SECONDS if budget is None else seconds_of(budget), load(scene)
+    seconds, read_scene = DEFAULT_SECONDS if budget is None else seconds_of(budget), load(scene)
     try:
         with limited(seconds):
-            derived = derived_of(given)
-            report = _report(derived, *(_small(given, derived) if linearize else (None, ())))
+            derived = derived_of(read_scene)
+            report = _report(derived, *(_small(read_scene, derived) if linearize else (None, ())))
     except OutOfTimeError as error:
         raise NoEquationsError(f"no equations of motion are given: {error}") from None
-    report._companion.about = given
+    report._companion.about = read_scene
     return report
 
 
@@ -148,11 +148,11 @@ def _by_joints(source: MotionSource) -> Derived | None:
     terms = written_length(energy.lagrangian)
     if terms > MOST_WRITTEN:
         raise NoEquationsError(TOO_LONG.format(len(scene.coordinates), terms, MOST_WRITTEN))
-    found = survey(scene)
-    own = replace(source, system=system_of(scene, found), energy=energy, names=found.names)
+    surveyed = survey(scene)
+    joint_source = replace(source, system=system_of(scene, surveyed), energy=energy, names=surveyed.names)
     try:
         with by_processor(min(JOINTS_TRYING, 0.5 * left())):
-            derived = derive(_sorted(own.model()))
+            derived = derive(_sorted(joint_source.model()))
     except OutOfTimeError:
         check()
         raise NoEquationsError(TOO_LONG.format(len(scene.coordinates), terms, "fewer")) from None
@@ -170,7 +170,7 @@ def _with_note(derived: Derived, freest: LagrangeModel | None) -> Derived:
 
 
 def _short(lagrangian: Expr) -> bool:
-    """Is a Lagrangian short enough for equations that can be read? Roots grow as they are differentiated."""
+    """Return whether a Lagrangian is short enough for readable equations; roots grow as they are differentiated."""
     roots = any(
         n.op == "pow" and n.args[1].op == "num" and n.args[1].args[0].denominator > 1 for n in ex.nodes(lagrangian)
     )
@@ -188,7 +188,7 @@ def _sorted(model: LagrangeModel) -> LagrangeModel:
 
 
 def _readable(derived: Derived) -> bool:
-    """Is every text one that can be read back?"""
+    """Return whether every text can be read back."""
     texts = (derived.lagrangian, *derived.equations.values(), *derived.momenta.values(), *derived.forces.values())
     return all(len(to_text(e)) + len(" = 0") <= MAX_CHARACTERS for e in texts)
 
@@ -220,10 +220,10 @@ class MotionSource:
 
 def read(scene: Scene) -> MotionSource:
     """The scene's energies and what is known of its constraints. Raises SceneError with all its faults."""
-    found = survey(scene, euler=True)
-    if found.faults:
-        raise SceneError(found.faults, scene.name)
-    energy, faults = energy_of(scene, found.drawing)
+    surveyed = survey(scene, euler=True)
+    if surveyed.faults:
+        raise SceneError(surveyed.faults, scene.name)
+    energy, faults = energy_of(scene, surveyed.drawing)
     if faults:
         raise SceneError(faults, scene.name)
     if not _tells_of_motion(scene):
@@ -232,11 +232,11 @@ def read(scene: Scene) -> MotionSource:
         )
         hint = "add `energies: {kinetic: ..., potential: ...}`, or a `mass` to its particles and bodies"
         raise SceneError((Fault(message, hint=hint),), scene.name)
-    return MotionSource(scene, system_of(scene, found), energy, found.names, found.drawing)
+    return MotionSource(scene, system_of(scene, surveyed), energy, surveyed.names, surveyed.drawing)
 
 
 def _tells_of_motion(scene: Scene) -> bool:
-    """Does anything of the scene tell of its motion?"""
+    """Return whether anything in the scene describes its motion."""
     if scene.energies is not None and scene.energies.kinetic is not None:
         return True
     return any(p.mass is not None for p in scene.particles) or any(b.mass is not None for b in scene.bodies)
@@ -322,10 +322,10 @@ def conserved(derived: Derived) -> Iterator[Conserved]:
 
 def energy_function(derived: Derived) -> tuple[Expr, bool]:
     """h = sum qdot dL/dqdot - L, and whether that is T + V, as it is where T is quadratic in the velocities."""
-    own = derived.model.energy
+    energies = derived.model.energy
     powers = ex.add(*(ex.velocity(n) * p for n, p in derived.momenta.items()))
     function = powers - derived.lagrangian
-    total = own.kinetic + own.potential
+    total = energies.kinetic + energies.potential
     whole = _zero(derived, function - total)
     tidy = Tidier(Bridge(derived.model.names, derived.model.positive), derived.model.positive, SECONDS)
     return tidy.shorter(total if whole else function), whole
@@ -336,7 +336,7 @@ def _zero(derived: Derived, e: Expr) -> bool:
 
 
 def _acts(piece: Remaining, name: str, derived: Derived) -> bool:
-    """May the constraint's force have a component along a coordinate?"""
+    """Return whether the constraint's force may have a component along a coordinate."""
     if isinstance(piece, Pfaffian):
         return name in piece.coefficients and not _zero(derived, piece.coefficients[name])
     symbol = ex.coordinate(name) if isinstance(piece, Finite) else ex.velocity(name)
@@ -344,7 +344,7 @@ def _acts(piece: Remaining, name: str, derived: Derived) -> bool:
 
 
 def _workless(piece: Remaining, derived: Derived) -> bool:
-    """Does the constraint's force do no work in the motion itself?"""
+    """Return whether the constraint's force does no work in the motion itself."""
     if isinstance(piece, Pfaffian):
         return _zero(derived, piece.dt)
     return not isinstance(piece, Nonlinear) and _zero(derived, diff(piece.expr, ex.TIME))

@@ -87,10 +87,10 @@ class MovingBody(NamedTuple):
 
 def _turned_back(step: JointStep, v: Vec) -> Vec:
     """A direction of the first body in the axes of the second: (u.v) u + cos q (v - (u.v) u) - sin q u x v."""
-    own = scaled(dot(step.along, v), step.along)
-    across, turned = minus(v, own), cross(step.along, v)
+    parallel = scaled(dot(step.along, v), step.along)
+    across, turned = minus(v, parallel), cross(step.along, v)
     cosine, sine = ex.fn("cos", step.amount), ex.fn("sin", step.amount)
-    return plus(own, scaled(cosine, across), scaled(-sine, turned))
+    return plus(parallel, scaled(cosine, across), scaled(-sine, turned))
 
 
 @dataclass(frozen=True)
@@ -111,11 +111,11 @@ def joint_motion(scene: Scene, drawing: Drawing, system: System) -> JointMotion 
     reader = _TreeReader(scene, drawing, system, {})
     joints = [c for c in system.connections if c.facts.freedoms or c.facts.welded]
     steps = [reader.steps_of(c) for c in joints]
-    known = [one for one in steps if one is not None]
+    complete = [of_joint for of_joint in steps if of_joint is not None]
     couplings = reader.couplings()
-    if len(known) < len(steps) or couplings is None:
+    if len(complete) < len(steps) or couplings is None:
         return None
-    energy = reader.energy({c.members: own for c, own in zip(joints, known, strict=True)})
+    energy = reader.energy({c.members: of_pair for c, of_pair in zip(joints, complete, strict=True)})
     if energy is None:
         return None
     kept = {"name": scene.name, "title": scene.title, "parameters": scene.parameters, "functions": scene.functions}
@@ -132,21 +132,21 @@ class _TreeReader:
     system: System
     names: dict[str, str]
 
-    def _named(self, told: str) -> str:
+    def _named(self, quantity: str) -> str:
         """The coordinate of an angle or displacement, ``shoulder.angle``: ``shoulder_angle``, or the like."""
         taken = {*self.names.values(), *self.system.parameters, *self.system.functions}
-        found = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in told).strip("_")
-        found = found if found[:1].isalpha() else f"q_{found}"
-        while found in taken or valid_name(found) is not None:
-            found += "_"
-        self.names[told] = found
-        return found
+        name = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in quantity).strip("_")
+        name = name if name[:1].isalpha() else f"q_{name}"
+        while name in taken or valid_name(name) is not None:
+            name += "_"
+        self.names[quantity] = name
+        return name
 
     def steps_of(self, joint: Connection) -> list[JointStep] | None:
         """What the second body of a joint does against the first; None of a screw, or of general position."""
         name = self.system.constraints[joint.constraint].name
         place = joint.places[0] if joint.places else None
-        lines = [one for one in joint.directions if one is not None]
+        lines = [direction for direction in joint.directions if direction is not None]
         if joint.facts.by_turn or len(lines) < len(joint.directions) or (joint.places and place is None):
             return None
         steps = []
@@ -165,17 +165,17 @@ class _TreeReader:
         pull = gravity_of(self.scene, worlds)
         zero = (ZERO,) * 3
         moving = {GROUND: MovingBody(zero, zero, zero, pull, ZERO)}
-        left = deque([GROUND])
-        while left:
-            body = left.popleft()
+        waiting = deque([GROUND])
+        while waiting:
+            body = waiting.popleft()
             for (first, second), steps in joints.items():
                 if body not in (first, second) or {first, second} <= moving.keys():
                     continue
-                other, own = (second, steps) if body == first else (first, [s.back() for s in reversed(steps)])
+                other, coordinate = (second, steps) if body == first else (first, [s.back() for s in reversed(steps)])
                 moving[other] = moving[body]
-                for step in own:
+                for step in coordinate:
                     moving[other] = moving[other].after(step)
-                left.append(other)
+                waiting.append(other)
         if len(moving) <= len(self.scene.bodies):
             return None
         kinetic, potential = [], []
@@ -185,31 +185,35 @@ class _TreeReader:
             kinetic.append(HALF * m * square(centre.velocity))
             kinetic.append(spin_energy(world, part.inertia, part.name, apply(_axes_back(frame), centre.spin)))
             potential.append(-m * centre.fall)
-        told = COUNTED.format(", ".join(f"{own} is {name}" for name, own in self.names.items()))
-        return None if worlds.faults else Energy(ex.add(*kinetic), ex.add(*potential), ZERO, {}, (told,))
+        note = COUNTED.format(", ".join(f"{coordinate} is {name}" for name, coordinate in self.names.items()))
+        return None if worlds.faults else Energy(ex.add(*kinetic), ex.add(*potential), ZERO, {}, (note,))
 
     def couplings(self) -> list[str] | None:
         """Relations between joints as texts; None where one mentions what is no coordinate here."""
-        found = []
+        texts = []
         for written in self.scene.constraints:
             if not isinstance(written, Coupling):
                 continue
-            own = {letter: self._measured(name) for letter, name in written.lettered.items()}
-            letters = frozenset(own)
+            coordinates = {letter: self._measured(name) for letter, name in written.lettered.items()}
+            letters = frozenset(coordinates)
             table = self.drawing.vocabulary.names
             names = Names(letters, table.parameters, table.functions, table.arguments)
             for relation in parse_relations(written.text, names):
                 if relation.relation != "=":
                     continue
-                told = {ex.coordinate(letter): ex.coordinate(name) for letter, name in own.items() if name}
-                if len(told) < len(own):
+                renaming = {ex.coordinate(letter): ex.coordinate(name) for letter, name in coordinates.items() if name}
+                if len(renaming) < len(coordinates):
                     return None
-                found.append(f"{to_text(substitute(relation.left - relation.right, told))} = 0")
-        return found
+                texts.append(f"{to_text(substitute(relation.left - relation.right, renaming))} = 0")
+        return texts
 
     def _measured(self, name: str) -> str | None:
         """The coordinate that a coupling means by a joint's name, with what is meant of it or alone."""
-        alone = [own for told, own in self.names.items() if told == name or told.rpartition(".")[0] == name]
+        alone = [
+            coordinate
+            for quantity, coordinate in self.names.items()
+            if quantity == name or quantity.rpartition(".")[0] == name
+        ]
         return alone[0] if len(alone) == 1 else None
 
 
@@ -229,20 +233,20 @@ def _line_of(what: str, number: int, lines: Sequence[Vec]) -> tuple[Vec, bool]:
 
 
 def _axes_back(frame: Frame) -> tuple[Vec, ...]:
-    """From directions of the drawing to the body's own axes."""
+    """From directions of the reference configuration to the body's own axes."""
     return transposed(euler(*frame.initial))
 
 
 def written_length(e: Expr) -> int:
     """How many nodes an expression has as it is written, shared ones counted as often as they stand there."""
     lengths: dict[Expr, int] = {}
-    left = [e]
-    while left:
-        node = left[-1]
+    stack = [e]
+    while stack:
+        node = stack[-1]
         below = [part for part in node.args if isinstance(part, Expr)]
         waiting = [part for part in below if part not in lengths]
         if waiting:
-            left += waiting
+            stack += waiting
         else:
-            lengths[left.pop()] = 1 + sum(lengths[part] for part in below)
+            lengths[stack.pop()] = 1 + sum(lengths[part] for part in below)
     return lengths[e]

@@ -111,18 +111,18 @@ def _agreeing(
 ) -> Elimination:
     """An elimination that keeps the report's generalized coordinates, where just as many can be eliminated so."""
     dependent = [c for c in coordinates if c not in free]
-    found = eliminator.eliminated(relations, coordinates, dependent)
-    if found.solved.keys() != set(dependent) and len(found.solved) == len(dependent):
+    elimination = eliminator.eliminated(relations, coordinates, dependent)
+    if elimination.solved.keys() != set(dependent) and len(elimination.solved) == len(dependent):
         other = replace(eliminator, care=eliminator.care._replace(roots=0)).eliminated(relations, dependent, dependent)
         if len(other.solved) == len(dependent):
             return other
-    return found
+    return elimination
 
 
 def _possible(study: Examined) -> None:
     report = study.report
-    own = {c.name for c in study.system.coordinates}
-    if any(coordinates_of(r.piece) - own for r in study.outcome.rows):
+    coordinate_names = {c.name for c in study.system.coordinates}
+    if any(coordinates_of(r.piece) - coordinate_names for r in study.outcome.rows):
         raise NoEquationsError(
             "a constraint on accelerations brings constants of integration: write its integral instead"
         )
@@ -156,23 +156,23 @@ def _integrals(study: Examined, names: Names) -> Iterator[EliminatedRelation]:
     for i in sorted(owners):
         entry = study.report.constraints[i]
         if entry.holonomic and entry.integral is not None:
-            found = _read_integral(entry.integral, names)
-            if found is not None:
-                yield found
+            relation = _read_integral(entry.integral, names)
+            if relation is not None:
+                yield relation
 
 
 def _read_integral(text: str, names: Names) -> EliminatedRelation | None:
-    own: dict[str, Expr] = {}
-    while len(own) <= MOST_CONSTANTS:
-        known = Names(names.coordinates, {**names.parameters, **own}, names.functions, names.arguments)
+    constants: dict[str, Expr] = {}
+    while len(constants) <= MOST_CONSTANTS:
+        vocabulary = Names(names.coordinates, {**names.parameters, **constants}, names.functions, names.arguments)
         try:
-            (found,) = parse_relations(text, known)
+            (relation,) = parse_relations(text, vocabulary)
         except UnknownNameError as error:
-            own[error.name] = ex.parameter(error.name)
+            constants[error.name] = ex.parameter(error.name)
         except (TextError, ValueError):
             return None
         else:
-            return EliminatedRelation(found.left - found.right, frozenset(own.values()))
+            return EliminatedRelation(relation.left - relation.right, frozenset(constants.values()))
     return None
 
 
@@ -187,10 +187,10 @@ def _built(
         return None
     pieces = [inserted(r.piece, elimination) for r in study.outcome.rows if isinstance(r.piece, Remaining)]
     pieces += [inserted(Finite(g), elimination) for a in study.outcome.answers for g in a.hidden]
-    left = [p for p in pieces if not vanishes(p, study.setting.positive)]
-    if any(_symbols(p) & elimination.constants for p in left):
+    remaining = [p for p in pieces if not vanishes(p, study.setting.positive)]
+    if any(_symbols(p) & elimination.constants for p in remaining):
         return None
-    chosen = independent(kept, left, study.setting)
+    chosen = independent(kept, remaining, study.setting)
     if chosen is None or len(elimination.solved) + len(chosen) != len(coordinates) - (study.report.velocity_dof or 0):
         return None
     notes = [*reduced.notes, *elimination.notes]
@@ -202,7 +202,7 @@ def _built(
     if used:
         notes.append(f"Constants of integration, fixed by the initial conditions: {', '.join(used)}.")
     notes += [n for n in study.report.warnings if "branch" in n]
-    notes += [f"Not modelled: {told}." for told in study.system.left_out]
+    notes += [f"Not modelled: {text}." for text in study.system.left_out]
     return LagrangeModel(
         study,
         tuple(kept),
@@ -246,11 +246,11 @@ def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], sett
                 if not slope.is_zero:
                     forces[j] = forces.get(j, ZERO) + insert(force) * slope
     potential, notes = without_roots(potential, setting.positive, setting.reference)
-    found = Energy(kinetic, potential, insert(energy.dissipation), forces, (*energy.notes, *notes))
-    used = (found.kinetic, found.potential, found.dissipation, *forces.values())
+    reduced = Energy(kinetic, potential, insert(energy.dissipation), forces, (*energy.notes, *notes))
+    used = (reduced.kinetic, reduced.potential, reduced.dissipation, *forces.values())
     if any(e.symbols & elimination.constants for e in used):
         return None
-    return found
+    return reduced
 
 
 def independent(names: Sequence[str], pieces: Sequence[Remaining], setting: Setting) -> list[Remaining] | None:
@@ -267,8 +267,8 @@ def independent(names: Sequence[str], pieces: Sequence[Remaining], setting: Sett
         if a.dof is None or not a.matrix:
             return None
         rows = without_time(a.matrix, len(block.coordinates))
-        known = [r.piece for r in block.finite] + [Finite(g) for g in a.hidden] + [r.piece for r in block.forms]
-        if len(known) != len(rows):
+        relations = [r.piece for r in block.finite] + [Finite(g) for g in a.hidden] + [r.piece for r in block.forms]
+        if len(relations) != len(rows):
             return None
-        chosen += [p for i in echelon(rows, a.modulus).independent if isinstance(p := known[i], Remaining)]
+        chosen += [p for i in echelon(rows, a.modulus).independent if isinstance(p := relations[i], Remaining)]
     return chosen

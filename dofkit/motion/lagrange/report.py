@@ -83,10 +83,10 @@ class MotionReport(DisplayedFormulas, ReportModel):
     @property
     def classification(self) -> Report:
         """The report of the constraints that the equations rest on; of one that was read back there is none."""
-        return self._own.model.study.report
+        return self._derivation.model.study.report
 
     @property
-    def _own(self) -> Derived:
+    def _derivation(self) -> Derived:
         if self._derived is None:
             raise ValueError("this report was read back as text: derive it again by dofkit.lagrange(scene)")
         return self._derived
@@ -96,4 +96,4 @@ class MotionReport(DisplayedFormulas, ReportModel):
 
         Raises ValueError for a report that was read back and not derived here.
         """
-        return self._own.handover
+        return self._derivation.handover

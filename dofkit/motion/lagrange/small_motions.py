@@ -275,29 +275,29 @@ class _Linearization(_Translated):
 
     def texts(self, at: Equilibrium) -> dict[str, str]:
         """Return the coordinates at rest, those that were eliminated too."""
-        told = {str(q.args[1]): to_text(v) for q, v in at.place.items()}
+        values = {str(q.args[1]): to_text(v) for q, v in at.place.items()}
         for name, value in self.model.elimination.solved.items():
             try:
-                told[name] = to_text(self.plain(substitute(value, at.place)))
+                values[name] = to_text(self.plain(substitute(value, at.place)))
             except NoValueError:
                 continue
-        return told
+        return values
 
-    def linearized(self, at: Equilibrium, found: Matrices, others: list[dict[str, str]]) -> Linearized:
+    def linearized(self, at: Equilibrium, matrices: Matrices, others: list[dict[str, str]]) -> Linearized:
         """Return the report's entry."""
         import sympy
 
         s = sympy.Dummy("s")
         polynomial = None
-        if found.mass.rows <= MOST_ROWS:
-            whole = found.mass * s**2 + found.damping * s + found.stiffness
-            polynomial = sympy.cancel(whole.det(method="berkowitz")) if found.mass.rows else sympy.Integer(1)
-        squares = [] if polynomial is None else _squares(polynomial, s, found.damping)
+        if matrices.mass.rows <= MOST_ROWS:
+            whole = matrices.mass * s**2 + matrices.damping * s + matrices.stiffness
+            polynomial = sympy.cancel(whole.det(method="berkowitz")) if matrices.mass.rows else sympy.Integer(1)
+        squares = [] if polynomial is None else _squares(polynomial, s, matrices.damping)
         mass, damping, stiffness = (
-            [[to_text(self.tidy(e)) for e in m.row(i)] for i in range(m.rows)] for m in found[1:]
+            [[to_text(self.tidy(e)) for e in m.row(i)] for i in range(m.rows)] for m in matrices[1:]
         )
         return Linearized(
-            coordinates=list(found.names),
+            coordinates=list(matrices.names),
             equilibrium=self.texts(at),
             mass=mass,
             damping=damping,
@@ -315,15 +315,15 @@ class _Linearization(_Translated):
         system = self.model.study.system
         taken = {*(c.name for c in system.coordinates), *system.parameters, *system.functions}
         name = next(n for n in ("s", "sigma", "s_", "exponent", "characteristic_exponent") if n not in taken)
-        shown = self.bridge.sympy(ex.parameter(name))
+        symbol = self.bridge.sympy(ex.parameter(name))
         top, bottom = sympy.fraction(sympy.together(polynomial))
         if s not in top.free_symbols:
-            return to_text(self.tidy(polynomial.xreplace({s: shown})))
+            return to_text(self.tidy(polynomial.xreplace({s: symbol})))
         common, monic = sympy.Poly(top, s).primitive()
-        terms = [to_text(self.tidy(sympy.Mul(sympy.factor(c), shown**k))) for (k,), c in monic.terms()]
+        terms = [to_text(self.tidy(sympy.Mul(sympy.factor(c), symbol**k))) for (k,), c in monic.terms()]
         factor = to_text(self.tidy(common / bottom))
         if factor != "1" and len(terms) == 1:
-            return to_text(self.tidy(polynomial.xreplace({s: shown})))
+            return to_text(self.tidy(polynomial.xreplace({s: symbol})))
         total = terms[0] + "".join(f" - {t[1:]}" if t.startswith("-") else f" + {t}" for t in terms[1:])
         return total if factor == "1" else f"{factor}*({total})"
 

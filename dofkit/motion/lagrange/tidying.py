@@ -99,14 +99,14 @@ def terms(e: Expr) -> int:
     """No fewer than the terms of any sum in ``e`` once products and powers are written out."""
     memo: dict[Expr, int] = {}
     for node in ex.nodes(e):
-        parts = [memo[child] for child in ex.children(node)]
+        counts = [memo[child] for child in ex.children(node)]
         if node.op == "add":
-            many = sum(parts)
+            many = sum(counts)
         elif node.op == "mul":
-            many = prod(parts)
+            many = prod(counts)
         elif node.op == "pow" and node.args[1].op == "num" and node.args[1].args[0].denominator == 1:
             power = min(abs(node.args[1].args[0].numerator), TERMS)
-            many = comb(min(parts[0], TERMS) + power - 1, power)
+            many = comb(min(counts[0], TERMS) + power - 1, power)
         else:
             many = 1
         memo[node] = min(many, MANY)
@@ -129,21 +129,24 @@ def by_rates(e: Expr, positive: frozenset[Expr]) -> Expr | None:
 
 
 def _is_rate(canon: Canon, index: int) -> bool:
-    shown = canon.ring.var_expr[index]
-    return shown.op == "sym" and shown.args[0] in _RATES
+    generator = canon.ring.var_expr[index]
+    return generator.op == "sym" and generator.args[0] in _RATES
 
 
 def _grouped(canon: Canon, top: Poly) -> list[tuple[Expr, Poly]]:
     """The polynomial's parts by their monomials in rates."""
-    shown = list(reversed(canon.ring.var_expr))
-    moving = [e.op == "sym" and e.args[0] in _RATES for e in shown] or [False]
+    generators = list(reversed(canon.ring.var_expr))
+    moving = [e.op == "sym" and e.args[0] in _RATES for e in generators] or [False]
     groups: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
     for exponents, coefficient in top.to_dict().items():
         rates = tuple(int(k) if m else 0 for k, m in zip(exponents, moving, strict=True))
-        rest = tuple(0 if m else int(k) for k, m in zip(exponents, moving, strict=True))
-        groups.setdefault(rates, {})[rest] = coefficient
+        others = tuple(0 if m else int(k) for k, m in zip(exponents, moving, strict=True))
+        groups.setdefault(rates, {})[others] = coefficient
     return [
-        (ex.mul(*(ex.power(v, ex.num(k)) for v, k in zip(shown, rates, strict=False) if k)), canon.ctx.from_dict(part))
+        (
+            ex.mul(*(ex.power(v, ex.num(k)) for v, k in zip(generators, rates, strict=False) if k)),
+            canon.ctx.from_dict(part),
+        )
         for rates, part in groups.items()
     ]
 
@@ -156,10 +159,10 @@ def _factored(canon: Canon, top: Poly, bottom: Poly) -> Expr:
 def _factored_product(canon: Canon, poly: Poly) -> Expr:
     content, factors = poly.factor()[0], canon.factors(poly)
     number = ex.num(Fraction(int(content.p), int(content.q)))
-    parts = [ex.power(canon.to_expr(f), ex.num(k)) for f, k in factors]
-    if number != ex.ONE and len(parts) == 1 and parts[0].op == "add":
-        return Expr("mul", (number, parts[0])) if number != ex.MINUS_ONE else -parts[0]
-    return ex.mul(number, *parts)
+    powers = [ex.power(canon.to_expr(f), ex.num(k)) for f, k in factors]
+    if number != ex.ONE and len(powers) == 1 and powers[0].op == "add":
+        return Expr("mul", (number, powers[0])) if number != ex.MINUS_ONE else -powers[0]
+    return ex.mul(number, *powers)
 
 
 def length(e: Expr) -> int:
@@ -180,13 +183,13 @@ def ordered(e: Expr) -> Expr:
     """The same expression with its terms and factors in a steady order that people expect, and few minus signs."""
     memo: dict[Expr, Expr] = {}
     for node in ex.nodes(e):
-        parts = tuple(memo[child] for child in ex.children(node))
+        operands = tuple(memo[child] for child in ex.children(node))
         if node.op == "add":
-            memo[node] = _sum(parts)
+            memo[node] = _sum(operands)
         elif node.op == "mul":
-            memo[node] = _product(parts)
+            memo[node] = _product(operands)
         else:
-            memo[node] = ex.rebuild(node, parts)
+            memo[node] = ex.rebuild(node, operands)
     return memo[e]
 
 
@@ -200,7 +203,7 @@ def _product(factors: tuple[Expr, ...]) -> Expr:
     ``-a*(-b - c)`` is ``a*(b + c)``, ``a*(cos(x) - 1)`` is ``-a*(1 - cos(x))``, ``(a/2 + b/2)*c`` is ``(a + b)*c/2``;
     a minus goes into a difference of constants.
     """
-    number, parts = Fraction(1), []
+    number, kept = Fraction(1), []
     for factor in factors:
         base, exponent = factor.args if factor.op == "pow" else (factor, ex.ONE)
         if base.op == "num" and exponent == ex.ONE:
@@ -212,15 +215,15 @@ def _product(factors: tuple[Expr, ...]) -> Expr:
             base = _sum(tuple(_times(term, 1 / content) for term in base.args))
             number *= content ** exponent.args[0].numerator
             factor = base if exponent == ex.ONE else Expr("pow", (base, exponent))
-        parts.append(factor)
-    turned = next((k for k, part in enumerate(parts) if _turns(part)), None) if number < 0 else None
+        kept.append(factor)
+    turned = next((k for k, part in enumerate(kept) if _turns(part)), None) if number < 0 else None
     if turned is not None:
-        parts[turned], number = _sum(tuple(_times(term, Fraction(-1)) for term in parts[turned].args)), -number
-    return _times(Expr("mul", tuple(sorted(parts, key=_factor))) if len(parts) != 1 else parts[0], number)
+        kept[turned], number = _sum(tuple(_times(term, Fraction(-1)) for term in kept[turned].args)), -number
+    return _times(Expr("mul", tuple(sorted(kept, key=_factor))) if len(kept) != 1 else kept[0], number)
 
 
 def _turns(e: Expr) -> bool:
-    """Is it a difference of constants, which may as well stand the other way round?"""
+    """Return whether it is a difference of constants, which may as well stand the other way round."""
     constants = e.op == "add" and all(s.args[0] == "parameter" for s in e.symbols)
     return constants and 2 * sum(map(_is_negative, e.args)) == len(e.args)
 
@@ -242,18 +245,18 @@ def _times(term: Expr, number: Fraction) -> Expr:
     """The term with a number before it, its factors in their order."""
     if term.op == "num":
         return ex.num(term.args[0] * number)
-    first, rest = (term.args[0], term.args[1:]) if term.op == "mul" else (term, (term,))
+    first, others = (term.args[0], term.args[1:]) if term.op == "mul" else (term, (term,))
     if term.op == "mul" and first.op == "num":
         number *= first.args[0]
     elif term.op == "mul":
-        rest = term.args
+        others = term.args
     if number == 1:
-        return rest[0] if len(rest) == 1 else Expr("mul", rest)
-    return Expr("mul", (ex.num(number), *rest)) if rest else ex.num(number)
+        return others[0] if len(others) == 1 else Expr("mul", others)
+    return Expr("mul", (ex.num(number), *others)) if others else ex.num(number)
 
 
 def _better_negated(e: Expr) -> bool:
-    """Has a sum more minus than plus signs, or is it ``cos(x) - 1``?"""
+    """Return whether a sum has more minus than plus signs, or is like ``cos(x) - 1``."""
     below = sum(map(_is_negative, e.args))
     if len(e.args) == 2 and below == 1:
         return any(t.op == "num" and t.args[0] < 0 for t in e.args) and any(t.op == "fn" for t in e.args)

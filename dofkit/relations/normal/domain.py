@@ -35,7 +35,7 @@ class DomainCondition:
 
     @property
     def strict(self) -> bool:
-        """Is it > 0?"""
+        """Return whether the sense is > 0."""
         return self.sense == ">"
 
 
@@ -54,12 +54,12 @@ def _inside(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
         e.op == "pow" and e.args[1].op == "num" and e.args[1].args[0].denominator == 1
     )
     if not (rational and outermost):
-        yield from _own(e, outermost)
+        yield from _required_by(e, outermost)
     for part in ex.children(e):
         yield from _inside(part, outermost and rational)
 
 
-def _own(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
+def _required_by(e: Expr, outermost: bool) -> Iterator[DomainCondition]:
     if e.op == "pow":
         yield from (DomainCondition(*required) for required in of_power(*e.args))
     elif e.op == "fn" and not (outermost and e.args[0] in ("tan", "sec", "cot", "csc")):
@@ -80,7 +80,7 @@ def _denominator(e: Expr, positive: frozenset[Expr]) -> Expr | None:
 
 
 def _always(c: DomainCondition, positive: frozenset[Expr]) -> bool:
-    """Is a condition proved to hold wherever its expression has a value?"""
+    """Return whether a condition is proved to be satisfied wherever its expression has a value."""
     if c.sense == "!=":
         return never_vanishes(c.expr, positive)
     return never_holds(-c.expr, c.sense == ">=", positive)
@@ -135,11 +135,11 @@ def with_absolute_values(e: Expr, positive: frozenset[Expr]) -> Expr:
         return e
 
     def folded(node: Expr) -> Expr:
-        parts = ex.children(node)
+        operands = ex.children(node)
         base = square_root(node.args[0], positive) if _root_of_sum(node) else None
         if base is not None:
             return ex.power(ex.fn("abs", base), ex.num(2 * node.args[1].args[0]))
-        return ex.rebuild(node, tuple(map(folded, parts))) if parts else node
+        return ex.rebuild(node, tuple(map(folded, operands))) if operands else node
 
     return folded(e)
 
@@ -153,7 +153,7 @@ def _is_half(exponent: Expr) -> bool:
 
 
 def holds_on_a_region(e: Expr, positive: frozenset[Expr]) -> bool:
-    """Is ``e`` identically 0 for some signs of the arguments of its absolute values (x + abs(x) for x <= 0)?"""
+    """Return whether ``e`` is identically 0 for some signs in its absolute values (x + abs(x) for x <= 0)."""
     arguments = arguments_of(e)
     if not arguments or len(arguments) > MAX_ARGUMENTS:
         return False
@@ -201,7 +201,7 @@ def squared(e: Expr, positive: frozenset[Expr]) -> tuple[Expr, DomainCondition] 
 
 
 def _outside(ring: Ring, index: int) -> bool:
-    """Does no other generator have the root in its argument?"""
+    """Return whether no other generator has the root in its argument."""
     root = ring.var_expr[index]
     return all(root not in ex.nodes(ring.var_expr[v.index]) for v in ring.vars if v.index != index)
 
@@ -225,5 +225,5 @@ def with_signs(e: Expr, signs: Mapping[Expr, int]) -> Expr:
     if _root_of_square(e) and e.args[0].args[0] in signs:
         inner = e.args[0].args[0]
         return ex.power(with_signs(inner, signs) * signs[inner], ex.num(2 * e.args[1].args[0]))
-    parts = ex.children(e)
-    return ex.rebuild(e, tuple(with_signs(part, signs) for part in parts)) if parts else e
+    operands = ex.children(e)
+    return ex.rebuild(e, tuple(with_signs(part, signs) for part in operands)) if operands else e

@@ -133,7 +133,7 @@ class PolynomialSystem(NamedTuple):
 
 
 def _faithful(relations: Sequence[Expr], positive: frozenset[Expr]) -> bool:
-    """Has every root a value in the ring wherever it has one? There sqrt(u^2 v) is |u| sqrt(v), though u = 0 > v."""
+    """Return whether every root has a value in the ring wherever it has one, unlike sqrt(u^2 v) = |u| sqrt(v)."""
     ring = Ring((), positive)
     for node in {n for e in relations for n in ex.nodes(e)}:
         if node.op == "pow" and node.args[1].op == "num" and node.args[1].args[0].denominator % 2 == 0:
@@ -164,23 +164,23 @@ def _polynomials(relations: Sequence[Expr], positive: frozenset[Expr]) -> Polyno
     ring = Ring(relations, positive)
     nodes = [ring.node(e) for e in relations]
     canon = Canon(ring)
-    own = [canon.quotient(node)[0] for node in nodes]
-    if any(p == 0 for p in own):
-        own = [p for p in own if p != 0]
-    present = {i for p in own for i in canon.generators_in(p)}
-    own += [g for g in canon.relations if not present.isdisjoint(canon.generators_in(g))]
-    everything = _resultants(_combined(canon, own))
+    numerators = [canon.quotient(node)[0] for node in nodes]
+    if any(p == 0 for p in numerators):
+        numerators = [p for p in numerators if p != 0]
+    present = {i for p in numerators for i in canon.generators_in(p)}
+    numerators += [g for g in canon.relations if not present.isdisjoint(canon.generators_in(g))]
+    everything = _resultants(_combined(canon, numerators))
     count = len(ring.vars)
     symbols = tuple(ex.parameter(f"generator {count - 1 - i}") for i in range(count))
     ranges = {symbols[count - 1 - v.index]: _range(v, ring) for v in ring.vars}
-    if any(_known(canon, p) and never_vanishes(canon.to_expr(p), positive) for p in everything):
+    if any(_without_hidden_numbers(canon, p) and never_vanishes(canon.to_expr(p), positive) for p in everything):
         raise EmptyError
     if any(_without_real_roots(p) for p in everything):
         raise EmptyError
     return PolynomialSystem(tuple(everything), symbols, ranges)
 
 
-def _known(canon: Canon, p: Poly) -> bool:
+def _without_hidden_numbers(canon: Canon, p: Poly) -> bool:
     """No generator is a number of its own: such numbers may be related, and their polynomials hidden zeros."""
     return all(canon.ring.var_expr[i].symbols for i in canon.generators_in(p))
 
@@ -267,7 +267,7 @@ SEARCHES = 4
 
 @lru_cache(maxsize=512)
 def holds_somewhere(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool | None:
-    """Is ``e >= 0`` (or > 0) at some real point? None where neither a point nor a proof was found.
+    """Return whether ``e >= 0`` (or > 0) at some real point; None if neither a point nor a proof was found.
 
     Parameters may have any value, those of ``positive`` a positive one; an unknown function may be any.
     """
@@ -319,7 +319,7 @@ def _holds_at(e: Expr, strict: bool, point: dict[Expr, Expr]) -> bool:
 
 
 def _never_by_bounds(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
-    """Is an upper bound of ``e`` over all of space below 0, or 0 where it is asked to be above?"""
+    """Return whether an upper bound of ``e`` over all of space is below 0, or 0 where > 0 is asked."""
     try:
         program = BoxProgram([(e, WHOLE)])
         box = [NON_NEGATIVE if v in positive else WHOLE for v in program.variables]
@@ -338,7 +338,7 @@ def _negative_everywhere(e: Expr, positive: frozenset[Expr]) -> bool:
 
 
 def _continuous(node: Expr) -> bool:
-    """Is an operation defined and continuous everywhere?"""
+    """Return whether an operation is defined and continuous everywhere."""
     if node.op == "pow":
         exponent = node.args[1]
         return exponent.op == "num" and bool(exponent.args[0] > 0) and exponent.args[0].denominator == 1
@@ -346,7 +346,7 @@ def _continuous(node: Expr) -> bool:
 
 
 def _holds_along_slack(e: Expr, strict: bool, positive: frozenset[Expr]) -> bool:
-    """Is there a certified zero of e - s^2, for a strict inequality one with s apart from 0?"""
+    """Return whether e - s^2 has a certified zero, for a strict inequality one with s apart from 0."""
     slack = ex.coordinate("_slack")
     unknowns: Sequence[Expr] = [*sorted(e.symbols, key=repr), slack]
     try:

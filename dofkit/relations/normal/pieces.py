@@ -192,12 +192,12 @@ def _sense(piece: Finite | Nonlinear | Inequality | DomainCondition) -> str | bo
 
 def _form_shape(form: Pfaffian) -> PieceShape:
     places: dict[str, int] = {}
-    parts: list[Hashable] = [type(form).__name__]
+    key: list[Hashable] = [type(form).__name__]
     for name, e in _coefficients(form):
         shape = shape_of(e)
-        own = -1 if name is None else places.setdefault(name, len(places))
-        parts.append((own, shape.skeleton, tuple(places.setdefault(n, len(places)) for n in shape.names)))
-    return PieceShape(tuple(parts), tuple(places))
+        place = -1 if name is None else places.setdefault(name, len(places))
+        key.append((place, shape.skeleton, tuple(places.setdefault(n, len(places)) for n in shape.names)))
+    return PieceShape(tuple(key), tuple(places))
 
 
 def _coefficients(form: Pfaffian) -> Iterator[tuple[str | None, Expr]]:
@@ -224,16 +224,16 @@ class _PieceTemplate:
     def __init__(self, piece: Piece, names: Sequence[str]) -> None:
         number = {name: k for k, name in enumerate(names)}
         self._piece, self._shape = piece, piece_shape(piece)
-        self._own = [number[n] for n in self._shape.names]
-        parts = list(_coefficients(piece)) if isinstance(piece, Pfaffian) else [(None, piece.expr)]
-        self._parts = []
-        for name, e in parts:
+        self._numbers = [number[n] for n in self._shape.names]
+        coefficients = list(_coefficients(piece)) if isinstance(piece, Pfaffian) else [(None, piece.expr)]
+        self._templates = []
+        for name, e in coefficients:
             template = Template(e)
-            self._parts.append((number.get(name or "", -1), template, [number[n] for n in template.names]))
+            self._templates.append((number.get(name or "", -1), template, [number[n] for n in template.names]))
 
     def of(self, names: Sequence[str]) -> Piece:
         """The piece in other names."""
-        result = [(k, template.of([names[i] for i in own])) for k, template, own in self._parts]
+        result = [(k, template.of([names[i] for i in numbers])) for k, template, numbers in self._templates]
         made: Piece
         if isinstance(self._piece, Pfaffian):
             made = Pfaffian({names[k]: e for k, e in result[:-1]}, result[-1][1])
@@ -241,5 +241,5 @@ class _PieceTemplate:
             made = Finite(result[0][1])
         else:
             made = replace(self._piece, expr=result[0][1])
-        vars(made)[_SHAPE] = PieceShape(self._shape.key, tuple([names[k] for k in self._own]))
+        vars(made)[_SHAPE] = PieceShape(self._shape.key, tuple([names[k] for k in self._numbers]))
         return made

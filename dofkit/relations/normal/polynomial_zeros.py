@@ -74,8 +74,8 @@ def _plain(canon: Canon, index: int, variables: frozenset[Expr]) -> bool:
         return False
     argument = canon.ring.var_expr[index].args[1]
     moving = argument.symbols & variables
-    known = all(s.args[0] in ("coordinate", "time", "parameter") for s in argument.symbols)
-    return bool(moving) and known and all(node.op != "call" for node in ex.nodes(argument))
+    declared = all(s.args[0] in ("coordinate", "time", "parameter") for s in argument.symbols)
+    return bool(moving) and declared and all(node.op != "call" for node in ex.nodes(argument))
 
 
 def _regular(canon: Canon, index: int, value: int) -> Expr:
@@ -140,12 +140,12 @@ def products_of(options: Iterable[Iterable[Conjunction]]) -> list[Conjunction]:
 
 
 def _holds(less: Conjunction, more: Conjunction, before: bool) -> bool:
-    """Does all of ``less`` stand in ``more``, and is it shorter, or the same and written before?"""
+    """Return whether all of ``less`` stands in ``more``, and it is shorter, or equal and written before."""
     return set(less) <= set(more) and (before or len(less) < len(more))
 
 
 def vanishes(constant: Expr, positive: frozenset[Expr]) -> bool:
-    """Is a constant 0? Raises HiddenZeroError where neither that nor the contrary is certain."""
+    """Return whether a constant is 0. Raises HiddenZeroError where neither that nor the contrary is certain."""
     if constant.op == "sym":
         return False
     zero, sure = zero_and_verdict(constant, positive)
@@ -192,7 +192,7 @@ class PolynomialZeros:
         return branches_of(branches, notes)
 
     def _undefined(self, factor: Any, bottom: Any) -> bool:
-        """Does a denominator vanish wherever the factor does?"""
+        """Return whether a denominator vanishes wherever the factor does."""
         if bottom.is_constant():
             return False
         if not factor.gcd(bottom).is_constant():

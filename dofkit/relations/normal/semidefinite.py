@@ -157,17 +157,17 @@ def semidefinite(canon: Canon, signs: Signs, factor: Any) -> list[Expr] | None:
     if any(canon.ring.vars[i].kind not in ("symbol", "exp") for i in present):
         return None
     place = {index: i for i, index in enumerate(present)}
-    form, one = _quadratic_form(canon, factor, place), len(present)
+    form, size = _quadratic_form(canon, factor, place), len(present)
     rows = _semidefinite_rows(form)
     if rows is None:
         return None
     generators = [canon.ring.var_expr[i] for i in present] + [ex.ONE]
-    reduced, rank = fmpq_mat(rows).rref() if rows else (fmpq_mat(0, one + 1), 0)
+    reduced, rank = fmpq_mat(rows).rref() if rows else (fmpq_mat(0, size + 1), 0)
     linear = []
     for r in range(rank):
-        entries = [reduced[r, c] for c in range(one + 1)]
-        answer = [i for i, v in zip(present, entries[:one], strict=True) if v != 0]
-        if not answer or (len(answer) == 1 and answer[0] in signs.positive and entries[one] == 0):
+        entries = [reduced[r, c] for c in range(size + 1)]
+        answer = [i for i, v in zip(present, entries[:size], strict=True) if v != 0]
+        if not answer or (len(answer) == 1 and answer[0] in signs.positive and entries[size] == 0):
             return []
         linear.append(ex.add(*(ex.mul(ex.num(fraction(v)), s) for v, s in zip(entries, generators, strict=True))))
     return linear

@@ -115,12 +115,12 @@ class _WrittenZeros:
             return None
         return self._together([self.of(term) for term in e.args])
 
-    def _together(self, parts: list[Zeros]) -> Zeros:
+    def _together(self, zeros: list[Zeros]) -> Zeros:
         notes = [SQUARES_NOTE]
-        for branches, _ in parts:
+        for branches, _ in zeros:
             if not branches:
                 return (), (EMPTY_NOTE,)
-        return tuple(products_of(branches for branches, _ in parts)), tuple(notes)
+        return tuple(products_of(branches for branches, _ in zeros)), tuple(notes)
 
     def _polynomial(self, e: Expr) -> Zeros:
         ring = Ring([e], self.positive)
@@ -171,8 +171,8 @@ MAX_DENOMINATOR = 24
 
 def is_analytic_in_coordinates(e: Expr, *, poles: bool) -> bool:
     """Return whether ``e`` holds coordinates only, is no unknown function and is analytic in them."""
-    known = all(s.args[0] == "coordinate" for s in e.symbols) and "call" not in e.functions
-    return known and is_analytic(e, e.symbols, poles=poles)
+    declared = all(s.args[0] == "coordinate" for s in e.symbols) and "call" not in e.functions
+    return declared and is_analytic(e, e.symbols, poles=poles)
 
 
 def candidates(relations: Sequence[Expr], s: Expr) -> Iterator[Expr]:

@@ -34,8 +34,8 @@ MOST_TURNS = 8
 
 def _coupling_rows(at: Kinematics) -> Iterator[VelocityRow]:
     """Yield the sum over the joints of the slope of the relation by each, times its rate."""
-    if at.parts:
-        yield combined([(factor, rate(part)) for rate, factor, part in at.parts])
+    if at.couplings:
+        yield combined([(factor, rate(part)) for rate, factor, part in at.couplings])
 
 
 def _shape(value: object) -> str:
