@@ -78,7 +78,7 @@ function times(a, b) {
 
 const polyKey = (p) => [...p.entries()].sort(([a], [b]) => (a < b ? -1 : 1)).map(([k, t]) => `${t.c}*${k}`).join("+");
 
-/** The polynomial with the relations of its atoms used; roots of quotients multiply by denominators (see `clear`). */
+/** The first factor of a monomial to which s^2 = 1 - c^2 or r^k = u applies; -1 where there is none. */
 function reducible(m) {
   return m.findIndex(([a, e]) => {
     const { rule } = ATOMS[a];

@@ -1,7 +1,6 @@
 // The rules: one function for each kind of claim. Each refuses, or returns what later claims may use.
 
-import { NotCovered, Refused, refuse } from "./numbers.mjs";
-import { parse } from "./grammar.mjs";
+import { NotCovered, refuse } from "./numbers.mjs";
 import { isZero, rational } from "./ring.mjs";
 import { nowhereZero } from "./scene.mjs";
 import { isTotal } from "./evidence.mjs";
@@ -892,5 +891,3 @@ export function check(rules, claim) {
       return uncovered(`claims of ${parts[1]}`);
   }
 }
-
-export { Refused };
