@@ -42,8 +42,8 @@ BUGS: Mapping[str, Bug] = {
     ),
     "rank of sparse rows": Bug(
         "exact/matrices/sparse.py",
-        "        if rest:\n            reduction.add(i, rest, used)\n            independent",
-        "        if len(rest) > 1:\n            reduction.add(i, rest, used)\n            independent",
+        "            if rest:\n                self._add(i, rest, used)",
+        "            if len(rest) > 1:\n                self._add(i, rest, used)",
         "tests/scenes/mechanisms/rssp-linkage.yaml",
     ),
     "ring": Bug(

@@ -55,9 +55,9 @@ class Surroundings:
 
     def expression(self, value: object, *allowed: str) -> Tree:
         """A number or text that mentions parameters, and what is ``allowed`` besides."""
-        found = parse(value, self.names)
-        refuse(not found.symbols <= {*self.signs, *allowed}, f"`{value}` mentions what cannot stand there")
-        return found
+        tree = parse(value, self.names)
+        refuse(not tree.symbols <= {*self.signs, *allowed}, f"`{value}` mentions what cannot stand there")
+        return tree
 
     def moving(self, value: object) -> Tree:
         """A length that may change with time and place."""
@@ -101,11 +101,13 @@ class Surroundings:
     def between(self, texts: Any, letters: Iterable[str]) -> list[Sided]:
         """Relations between letters, coordinates and time; no velocity occurs."""
         refuse(not isinstance(texts, list), "a curve is a list of texts")
-        own = KnownNames(self.names.coordinates.union(letters), self.names.values, self.names.functions)
-        found = [relation for text in texts for relation in parse_relations(text, own)]
-        allowed = own.coordinates.union(self.signs, "t")
-        refuse(any(not one.tree.symbols <= allowed for one in found), "a text mentions places, parameters and t")
-        return found
+        known_names = KnownNames(self.names.coordinates.union(letters), self.names.values, self.names.functions)
+        relations = [relation for text in texts for relation in parse_relations(text, known_names)]
+        allowed = known_names.coordinates.union(self.signs, "t")
+        refuse(
+            any(not sided.tree.symbols <= allowed for sided in relations), "a text mentions places, parameters and t"
+        )
+        return relations
 
 
 def known_fields(entry: Entry, fields: str) -> None:
@@ -129,8 +131,8 @@ def nowhere_zero(tree: Tree, signs: Mapping[str, str], effort: Effort, positive:
 
 def equation(world: Surroundings, entry: Entry) -> Iterator[Sided]:
     """The relations of a text, in velocities."""
-    for found in parse_relations(entry["text"], world.names):
-        yield found._replace(tree=in_velocities(found.tree, world.names.coordinates))
+    for relation in parse_relations(entry["text"], world.names):
+        yield relation._replace(tree=in_velocities(relation.tree, world.names.coordinates))
 
 
 def on(world: Surroundings, entry: Entry) -> Iterator[Sided]:
@@ -139,7 +141,7 @@ def on(world: Surroundings, entry: Entry) -> Iterator[Sided]:
     relations = world.between(entry["curve"] if "curve" in entry else [entry["surface"]], "xyz"[: world.dimension])
     for member in entry["members"]:
         values = dict(zip("xyz", world.point(member).place, strict=False))
-        yield from (found._replace(tree=substituted(found.tree, values)) for found in relations)
+        yield from (relation._replace(tree=substituted(relation.tree, values)) for relation in relations)
 
 
 def cam(world: Surroundings, entry: Entry) -> Iterator[Tree]:
@@ -175,8 +177,8 @@ def string(world: Surroundings, entry: Entry) -> Iterator[Tree]:
     """The distances along the points add up to the length."""
     pairs = list(pairwise(map(world.point, entry["along"])))
     drawn = [length(less(b.start, a.start)) for a, b in pairs if a.start and b.start]
-    given = world.moving(entry["length"]) if "length" in entry else None
-    total = given or (add(*drawn) if len(drawn) == len(pairs) else world.fresh("length"))
+    prescribed = world.moving(entry["length"]) if "length" in entry else None
+    total = prescribed or (add(*drawn) if len(drawn) == len(pairs) else world.fresh("length"))
     yield difference(add(*(length(less(b.place, a.place)) for a, b in pairs)), total)
 
 
@@ -284,8 +286,8 @@ def coupling(world: Surroundings, entry: Entry) -> Iterator[Sided]:
     """A relation between angles and displacements of joints, which count from the drawing."""
     names = entry["joints"] if isinstance(entry["joints"], Mapping) else {name: name for name in entry["joints"]}
     values = {letter: measured(world, name) for letter, name in names.items()}
-    for found in world.between([entry["text"]], names):
-        yield found._replace(tree=substituted(found.tree, values))
+    for relation in world.between([entry["text"]], names):
+        yield relation._replace(tree=substituted(relation.tree, values))
 
 
 def measured(world: Surroundings, written: str) -> Tree:

@@ -13,22 +13,25 @@ from dofkit.checker.trees import CheckedPoint, derivative, not_zero, refuse
 
 def bounds(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     """dof or velocity_dof near a point, between two bounds."""
-    path, size, one = claim["path"], len(evidence.problem.coordinates), {"minor": claim.get("minor")}
-    most, least = claim.get("most", {**one, "rule": "minor"}), claim.get("least", {**one, "rule": "regular"})
+    path, size, minor_of_claim = claim["path"], len(evidence.problem.coordinates), {"minor": claim.get("minor")}
+    most, least = (
+        claim.get("most", {**minor_of_claim, "rule": "minor"}),
+        claim.get("least", {**minor_of_claim, "rule": "regular"}),
+    )
     refuse(path != "/dof" and most["rule"] != "minor", "an upper bound of velocities is `minor`")
     minor = MOST[most["rule"]](evidence, most) if path == "/dof" else evidence.minor(most["minor"])
     above = size - len(minor.rows) - (most["rule"] == "isolated")
     if least["rule"] == "span":
-        point, found = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
+        point, lower = span(evidence, {"minor": most["minor"], **least}, 1 if path == "/velocity_dof" else 12)
     else:
         rows = least["minor"]["rows"] if least["rule"] == "family" else None
         other = evidence.accounts(evidence.minor(least["minor"], rows), evidence.equations)
         for row in map(evidence.relation, rows or ()):
             refuse(row.kind != "finite" or (not row.owner and evidence.is_open(row.left)), "it is no family of poses")
-        point, found = other.point, size - len(other.rows)
-    refuse(point is not minor.point or above != found, f"{found} at least and {above} at most, or of two points")
+        point, lower = other.point, size - len(other.rows)
+    refuse(point is not minor.point or above != lower, f"{lower} at least and {above} at most, or of two points")
     verified[f"{path} at"] = evidence.is_about(claim["about"], point)
-    return found
+    return lower
 
 
 def instantaneous(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -71,22 +74,27 @@ def _groups(evidence: CheckedEvidence, verified: Told) -> list[Told]:
 
     So it is where what can be dropped was verified at the same point: there the dependent equation is a regular one.
     """
-    surplus, known = verified["/redundant_equations"], [one for one in owners(evidence) if evidence.owned(one)]
-    place, whole = verified.get("at /redundant", object()), len(known) == 1 or "apart" in verified
-    around = [{one, *verified[f"circuit {one}"]} for one in known if verified.get(f"at circuit {one}") == place]
-    around = [set(known)] if whole else around
+    surplus, constrained = (
+        verified["/redundant_equations"],
+        [owner for owner in owners(evidence) if evidence.owned(owner)],
+    )
+    place, whole = verified.get("at /redundant", object()), len(constrained) == 1 or "apart" in verified
+    around = [
+        {owner, *verified[f"circuit {owner}"]} for owner in constrained if verified.get(f"at circuit {owner}") == place
+    ]
+    around = [set(constrained)] if whole else around
     refuse(surplus and (len(around) != 1 or (surplus > 1 and not whole)), "several groups, or none that is shown")
-    return [{"nullity": surplus, "members": [one for one in known if one in around[0]]}] if surplus else []
+    return [{"nullity": surplus, "members": [owner for owner in constrained if owner in around[0]]}] if surplus else []
 
 
 def owners(evidence: CheckedEvidence) -> list[str]:
     """The constraints with relations, in order."""
-    return list(dict.fromkeys(one.owner for one in evidence.problem.relations))
+    return list(dict.fromkeys(relation.owner for relation in evidence.problem.relations))
 
 
 def relations_of(evidence: CheckedEvidence, names: Any) -> tuple[str, ...]:
     """The equations of constraints."""
-    return tuple(one for name in names for one in evidence.owned(name))
+    return tuple(relation for name in names for relation in evidence.owned(name))
 
 
 def names_told(claim: Told) -> list[str]:
@@ -99,15 +107,15 @@ def names_told(claim: Told) -> list[str]:
 
 def circuit(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]:
     """The constraint follows from those named near a point of all; without any one, a row of it is independent."""
-    names, point, own = names_told(claim), evidence.point(claim["at"]), evidence.owned(claim["owner"])
+    names, point, dependent = names_told(claim), evidence.point(claim["at"]), evidence.owned(claim["owner"])
     before = owners(evidence)[: owners(evidence).index(claim["owner"])]
-    refuse(not own or not set(names) <= set(before), "a circuit holds constraints that were written before")
+    refuse(not dependent or not set(names) <= set(before), "a circuit holds constraints that were written before")
     verified[f"at circuit {claim['owner']}"] = evidence.is_about("here", point)
-    evidence.on_set(point, [*relations_of(evidence, names), *own])
-    evidence.follow(own, relations_of(evidence, names), point, "the circuit")
+    evidence.on_set(point, [*relations_of(evidence, names), *dependent])
+    evidence.follow(dependent, relations_of(evidence, names), point, "the circuit")
     for name in names:
         others = relations_of(evidence, [other for other in names if other != name])
-        minor = evidence.minor(claim["minimal"][name]["minor"], {*others, *own})
+        minor = evidence.minor(claim["minimal"][name]["minor"], {*others, *dependent})
         apart = minor.point is point and _rank(evidence, minor, others) < len(minor.rows)
         refuse(not apart, "no row is independent of the other members, or at another point")
     return names
@@ -115,8 +123,8 @@ def circuit(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str]
 
 def _rank(evidence: CheckedEvidence, minor: CheckedMinor, names: tuple[str, ...]) -> int:
     """How many rows of a minor follow from relations, which follow from them in turn."""
-    known = evidence.closure(names, minor.point)
-    rows = tuple(row for row in minor.rows if row in known and not evidence.relation(row).leaf)
+    implied = evidence.closure(names, minor.point)
+    rows = tuple(row for row in minor.rows if row in implied and not evidence.relation(row).leaf)
     return len(evidence.accounts(minor._replace(rows=rows), names).rows)
 
 
@@ -127,10 +135,10 @@ def independence(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     """
     minor, order = evidence.minor(claim["minor"]), evidence.equations
     evidence.is_about("here", minor.point)
-    own = [rows for kind in ("finite", "velocity") if (rows := evidence.owned(claim["owner"], {kind}))]
-    refuse(not own, "the constraint has no equations")
+    equations_of_owner = [rows for kind in ("finite", "velocity") if (rows := evidence.owned(claim["owner"], {kind}))]
+    refuse(not equations_of_owner, "the constraint has no equations")
     added = 0
-    for rows in own:
+    for rows in equations_of_owner:
         place = order.index(rows[0])
         before, upto = order[:place], order[: place + len(rows)]
         last = "last" in claim and "/dof at" in verified and not evidence.moving and upto == order
@@ -177,9 +185,17 @@ def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[
     if not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite):
         return
     for name in others:
-        ways = [(i, one) for i, one in enumerate(evidence.consequences) if one.target == name and one.defined]
-        ways = [(i, one) for i, one in ways if {*one.sources} <= {*minor.rows} and evidence.applies(i, minor.point)]
-        used = [(*one.defined, *one.nonzero) for _, one in ways]
+        ways = [
+            (i, consequence)
+            for i, consequence in enumerate(evidence.consequences)
+            if consequence.target == name and consequence.defined
+        ]
+        ways = [
+            (i, consequence)
+            for i, consequence in ways
+            if {*consequence.sources} <= {*minor.rows} and evidence.applies(i, minor.point)
+        ]
+        used = [(*consequence.defined, *consequence.nonzero) for _, consequence in ways]
         plain = any(not any(tree.symbols for tree in trees) for trees in used)
         single = len(others) == 1 and any(all(not_zero(minor.point.value(t)) for t in trees) for trees in used)
         refuse(not plain and not single, f"`{name}` does not depend on the rows by numbers")
@@ -190,9 +206,9 @@ def _is_general(evidence: CheckedEvidence, name: str) -> bool:
     return all(evidence.ring.rational(slope) is not None for slope in slopes) or bool(evidence.own_symbol(name))
 
 
-def same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: Told, beside: Any = ()) -> int:
-    """n less the dof that was verified near the point; of angles ``beside`` it is told beside the point."""
-    place = evidence.is_about("here", point, beside)
+def same_place(evidence: CheckedEvidence, point: CheckedPoint, verified: Told, exempt: Any = ()) -> int:
+    """n less the dof that was verified near the point; of angles ``exempt`` it is told beside the point."""
+    place = evidence.is_about("here", point, exempt)
     refuse(verified.get("/dof at") not in (None, place), "dof was verified at another point")
     return len(evidence.problem.coordinates) - int(verified["/dof"])
 
@@ -224,22 +240,26 @@ def growth(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[int]:
 
     Directions are those of (q, t) where a constraint was verified to be rheonomic or not catastatic.
     """
-    labels = [f"{field} {one.owner}" for field in ("scleronomic", "catastatic") for one in evidence.problem.relations]
+    labels = [
+        f"{field} {relation.owner}"
+        for field in ("scleronomic", "catastatic")
+        for relation in evidence.problem.relations
+    ]
     refuse(evidence.timed and not any(verified.get(label) is False for label in labels), "time may be divided out")
     minor = evidence.accounts(evidence.minor(claim["minor"]), evidence.equations)
     whole = len(evidence.problem.coordinates) - same_place(evidence, minor.point, verified) + evidence.timed
     refuse(not evidence.moving or not all(map(evidence.is_linear, evidence.moving)), "a growth vector is of forms")
     point, fields = admissible(evidence, claim, evidence.equations)
-    rank, found = len(evidence.problem.coordinates) + evidence.timed - len(minor.rows), list[int]()
+    rank, vector = len(evidence.problem.coordinates) + evidence.timed - len(minor.rows), list[int]()
     refuse(point is not minor.point or len(fields) > rank, "the fields and the minor are of one point")
-    for step, given in enumerate(claim["spans"], 1):
-        words = [of_word(evidence, word, claim["fields"], step) for word in given["words"]]
-        independent(evidence, words, given["columns"], point)
+    for step, entry in enumerate(claim["spans"], 1):
+        words = [of_word(evidence, word, claim["fields"], step) for word in entry["words"]]
+        independent(evidence, words, entry["columns"], point)
         most = min(whole, (rank, rank * (rank + 1) // 2, whole)[min(step, 3) - 1])
         refuse(len(words) != most, f"entry {step} is at least {len(words)} and at most {most}")
-        found.append(most)
-    refuse(found[-1] != whole and (len(found) < 2 or found[-1] != found[-2]), "the last entry is not the whole")
-    return found
+        vector.append(most)
+    refuse(vector[-1] != whole and (len(vector) < 2 or vector[-1] != vector[-2]), "the last entry is not the whole")
+    return vector
 
 
 def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -260,11 +280,11 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     """
     order, blocks, generic = claim.get("order", []), claim.get("blocks", []), dict(claim.get("generic", []))
     names, size = [*(name for name, _ in order), *blocks, *generic], len(evidence.problem.coordinates)
-    known, rank = evidence.closure(names, None), len(names)
-    whole, apart = known.issuperset(evidence.equations), len(set(names)) == rank
+    implied, rank = evidence.closure(names, None), len(names)
+    whole, apart = implied.issuperset(evidence.equations), len(set(names)) == rank
     apart = apart and set(names) <= set(evidence.equations) and all(map(evidence.is_linear, names))
-    told = claim.get("about") == "everywhere" and apart and known.issuperset(evidence.finite)
-    refuse(not told, "a relation is left out, stands twice or is not linear, or the claim is not about everywhere")
+    fits = claim.get("about") == "everywhere" and apart and implied.issuperset(evidence.finite)
+    refuse(not fits, "a relation is left out, stands twice or is not linear, or the claim is not about everywhere")
     forms = [name for name in names if evidence.relation(name).kind != "finite"]
     refuse(forms and (generic or (blocks and not blocks == forms == names[-1:])), "forms stand in the order, or alone")
     minor = evidence.accounts(evidence.minor(claim["minor"], names), names) if "minor" in claim else None
@@ -276,8 +296,8 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
         refuse(not evidence.own_symbol(name, [letter]), f"`{letter}` is not the own symbol of `{name}`")
     smooth = all(_is_analytic(evidence, name, not minor or name in dict(order)) for name in names)
     refuse((blocks or rank < len(names) or not minor) and not smooth, "a relation is not analytic")
-    beside = any(q == "t" for _, q in order) and (blocks or generic or evidence.moving or not minor)
-    refuse(beside or (not minor and (blocks or generic)), "t is given beside others, or a point is needed")
+    timed = any(q == "t" for _, q in order) and (blocks or generic or evidence.moving or not minor)
+    refuse(timed or (not minor and (blocks or generic)), "t is given beside others, or a point is needed")
     if minor:
         verified[f"{claim['path']} at"] = evidence.is_about("here", minor.point)
     if rank < len(names):
@@ -286,35 +306,35 @@ def everywhere(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
     if not evidence.moving or claim["path"] == "/velocity_dof":
         refuse(not whole, "each relation stands in one place")
         return size - rank
-    found = bounds(evidence, {**claim, "about": "here"}, verified)
-    refuse(found != size - rank + len(forms) and not (whole and smooth), "another part may be larger")
-    return found
+    dof = bounds(evidence, {**claim, "about": "here"}, verified)
+    refuse(dof != size - rank + len(forms) and not (whole and smooth), "another part may be larger")
+    return dof
 
 
-def _is_analytic(evidence: CheckedEvidence, name: str, given: bool) -> bool:
+def _is_analytic(evidence: CheckedEvidence, name: str, graphic: bool) -> bool:
     """Whether a relation is analytic at all places; a form, and what gives no coordinate, up to a denominator."""
-    one = evidence.relation(name)
-    quotient = not given or one.kind != "finite"
-    return evidence.has_value_everywhere(one.left, quotient) and not one.left.applied
+    checked = evidence.relation(name)
+    quotient = not graphic or checked.kind != "finite"
+    return evidence.has_value_everywhere(checked.left, quotient) and not checked.left.applied
 
 
 def _free(evidence: CheckedEvidence, order: list[list[str]], point: CheckedPoint | None) -> dict[str, frozenset[str]]:
     """On which coordinates those that are given depend."""
-    later, found = [q for _, q in order], dict[str, frozenset[str]]()
+    later, dependencies = [q for _, q in order], dict[str, frozenset[str]]()
     refuse(len({*later}) < len(later) or not {*later} <= {*evidence.variables}, "one coordinate for each relation")
     for i, (name, q) in enumerate(order):
-        one, slope = evidence.relation(name), evidence.slope(name, q)
-        dot = "dot" if one.kind == "velocity" else ""
+        checked, slope = evidence.relation(name), evidence.slope(name, q)
+        dot = "dot" if checked.kind == "velocity" else ""
         plain = slope.symbols <= evidence.chosen and evidence.has_value_everywhere(slope)
         sure = evidence.ring.rational(slope) or evidence.is_nowhere_zero(slope)
         gives = sure or (plain and point and not_zero(point.value(slope)))
         refuse(not gives or q + dot == "tdot", f"`{name}` does not give `{q}` everywhere")
-        refuse(not one.left.symbols.isdisjoint(q + dot for q in later[i + 1 :]), f"`{name}` holds what comes later")
+        refuse(not checked.left.symbols.isdisjoint(q + dot for q in later[i + 1 :]), f"`{name}` holds what comes later")
         if not dot:
-            found[q] = _coordinates(evidence, name, found) - {q}
-    return found
+            dependencies[q] = _coordinates(evidence, name, dependencies) - {q}
+    return dependencies
 
 
-def _coordinates(evidence: CheckedEvidence, name: str, given: dict[str, frozenset[str]]) -> frozenset[str]:
+def _coordinates(evidence: CheckedEvidence, name: str, dependencies: dict[str, frozenset[str]]) -> frozenset[str]:
     held = evidence.relation(name).left.symbols & set(evidence.problem.coordinates)
-    return frozenset().union(*(given.get(q, frozenset((q,))) for q in held))
+    return frozenset().union(*(dependencies.get(q, frozenset((q,))) for q in held))

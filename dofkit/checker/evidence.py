@@ -48,31 +48,31 @@ class CheckedEvidence(CheckedRelations):
     def named(self, part: str, name: Any) -> dict[str, Any]:
         """A point, minor, field or cover by its id."""
         self.effort.spend(len(self.parts[part]))
-        return {one["id"]: one for one in self.parts[part]}[name]
+        return {entry["id"]: entry for entry in self.parts[part]}[name]
 
     def point(self, name: Any) -> CheckedPoint:
         """A point by its id: exact, or certified by interval Newton."""
         return self.once(("points", name), lambda: self._point(self.named("points", name)))
 
-    def _point(self, given: dict[str, Any]) -> CheckedPoint:
-        values, columns, rows = dict[str, Tree](), given.get("columns", []), given.get("rows", [])
+    def _point(self, entry: dict[str, Any]) -> CheckedPoint:
+        values, columns, rows = dict[str, Tree](), entry.get("columns", []), entry.get("rows", [])
         allowed = {*self.variables, *self.velocities, *self.chosen} - {"tdot"}
         square = len(columns) == len(rows) == len(set(columns)) == len(set(rows)) <= LARGEST_MINOR
-        fits = square and allowed >= given["values"].keys() >= set(columns)
+        fits = square and allowed >= entry["values"].keys() >= set(columns)
         refuse(not fits, "a point gives values to symbols, and a box has as many rows as columns, each once")
-        for name, text in given["values"].items():
+        for name, text in entry["values"].items():
             values[name] = substituted(self.text(text), values)
         functions = dict[str, tuple[tuple[str, ...], Tree]]()
-        for name, choice in given.get("functions", {}).items():
+        for name, choice in entry.get("functions", {}).items():
             arguments, text = tuple(choice["arguments"]), self.text(choice["text"], choice["arguments"])
             twice = len({*arguments}) != len(self.problem.world.names.functions[name])
             refuse(twice or not text.symbols <= {*arguments}, f"`{name}` is no function of its arguments")
             functions[name] = arguments, text
         balls = {name: evaluated(tree, {}, self.effort) for name, tree in values.items()}
         exact = {name: tree for name, tree in values.items() if name not in columns}
-        point = CheckedPoint(given["id"], exact, functions, self.effort, balls, frozenset(rows))
+        point = CheckedPoint(entry["id"], exact, functions, self.effort, balls, frozenset(rows))
         if columns:
-            radius = evaluated(self.text(given["radius"]), {}, self.effort)
+            radius = evaluated(self.text(entry["radius"]), {}, self.effort)
             point.settle([self.relation(name).left for name in rows], columns, radius)
         for name, sign in self.problem.world.signs.items():
             fits = name not in balls or balls[name] > 0 or (sign != "positive" and not_zero(balls[name]))
@@ -83,10 +83,10 @@ class CheckedEvidence(CheckedRelations):
         """Whether a relation is 0 at a point, exactly."""
         return self.once(("holds", name, point.name), lambda: self.is_zero(self.relation(name).left, point))
 
-    def is_zero(self, left: Tree, point: CheckedPoint) -> bool:
+    def is_zero(self, tree: Tree, point: CheckedPoint) -> bool:
         """Whether a tree is 0 at a point: of a row of its box, or in the ring; and its ball holds 0."""
-        row = any(self.known[name].left == left for name in point.rows)
-        return bool(point.value(left).contains(0)) and (row or self.ring.vanishes(point.prepared(left)))
+        row = any(self.known[name].left == tree for name in point.rows)
+        return bool(point.value(tree).contains(0)) and (row or self.ring.vanishes(point.prepared(tree)))
 
     def on_set(self, point: CheckedPoint, names: Iterable[str], states: bool = False) -> None:
         """`CheckError` unless the relations hold at a point, but for integrals; forms are smooth there.
@@ -94,24 +94,29 @@ class CheckedEvidence(CheckedRelations):
         A nonlinear relation speaks of a state, as all do where ``states``: velocity relations and rates hold there.
         """
         wanted = [self.relation(name) for name in names if not self.relation(name).leaf]
-        finite = {one.name for one in wanted if one.kind == "finite"}
+        finite = {wanted_relation.name for wanted_relation in wanted if wanted_relation.kind == "finite"}
         self.follow(finite, {*point.rows, *(name for name in finite if self.holds(name, point))}, point, "what holds")
-        states |= not all(self.is_linear(one.name) for one in wanted)
-        for one in wanted:
-            still = one.name in finite
-            for velocity in self.met_by(one.left):
-                point.value(self.slope(one.name, velocity[:-3]))
-            wrong = still and not_zero(point.value(one.left))
+        states |= not all(self.is_linear(wanted_relation.name) for wanted_relation in wanted)
+        for wanted_relation in wanted:
+            still = wanted_relation.name in finite
+            for velocity in self.met_by(wanted_relation.left):
+                point.value(self.slope(wanted_relation.name, velocity[:-3]))
+            wrong = still and not_zero(point.value(wanted_relation.left))
             if states:
-                wrong |= not self.is_zero(total_derivative(one.left, self.variables) if still else one.left, point)
-            refuse(wrong, f"`{one.name}` is not satisfied at the point `{point.name}`, or not by its velocities")
+                wrong |= not self.is_zero(
+                    total_derivative(wanted_relation.left, self.variables) if still else wanted_relation.left, point
+                )
+            refuse(
+                wrong,
+                f"`{wanted_relation.name}` is not satisfied at the point `{point.name}`, or not by its velocities",
+            )
 
-    def minor(self, given: Any, allowed: Collection[str] | None = None) -> CheckedMinor:
+    def minor(self, entry: Any, allowed: Collection[str] | None = None) -> CheckedMinor:
         """A minor, by its id or itself: rows that follow from ``allowed`` (or all relations), and are independent."""
-        if isinstance(given, str):
-            key = ("minors", given, None if allowed is None else frozenset(allowed))
-            return self.once(key, lambda: self.minor(self.named("minors", given), allowed))
-        point, rows, columns = self.point(given["at"]), tuple(given["rows"]), tuple(given["columns"])
+        if isinstance(entry, str):
+            key = ("minors", entry, None if allowed is None else frozenset(allowed))
+            return self.once(key, lambda: self.minor(self.named("minors", entry), allowed))
+        point, rows, columns = self.point(entry["at"]), tuple(entry["rows"]), tuple(entry["columns"])
         square = len({*rows}) == len(rows) == len(columns) == len({*columns}) <= LARGEST_MINOR
         fits = square and set(columns) <= set(self.problem.coordinates)
         refuse(not fits, "a minor has as many rows as columns, which are coordinates, each once, and not too many")
@@ -122,15 +127,15 @@ class CheckedEvidence(CheckedRelations):
 
     def is_linear(self, name: str) -> bool:
         """Whether a relation is finite, or a linear form in the velocities (dt included)."""
-        one = self.relation(name)
-        parts = self.once(("linear", name), lambda: linear_in(one.left, self.velocities))
-        return one.kind != "velocity" or (parts is not None and self.ring.vanishes(parts[1]))
+        checked = self.relation(name)
+        linear = self.once(("linear", name), lambda: linear_in(checked.left, self.velocities))
+        return checked.kind != "velocity" or (linear is not None and self.ring.vanishes(linear[1]))
 
     def slope(self, row: str, column: str) -> Tree:
         """The entry of a row: by a coordinate, or by its velocity."""
-        one = self.relation(row)
-        name = column if one.kind == "finite" else column + "dot"
-        return self.once(("slope", row, column), lambda: derivative(one.left, name))
+        checked = self.relation(row)
+        name = column if checked.kind == "finite" else column + "dot"
+        return self.once(("slope", row, column), lambda: derivative(checked.left, name))
 
     def accounts(self, minor: CheckedMinor, wanted: Collection[str]) -> CheckedMinor:
         """The minor; `CheckError` unless relations hold at its point, and near it wherever its rows do."""
@@ -138,38 +143,38 @@ class CheckedEvidence(CheckedRelations):
         self.follow(wanted, minor.rows, minor.point, "the rows of the minor")
         return minor
 
-    def settled(self, point: CheckedPoint, names: Iterable[str], given: dict[str, Any]) -> None:
+    def settled(self, point: CheckedPoint, names: Iterable[str], claim: dict[str, Any]) -> None:
         """`CheckError` where finite relations hold what the point chose, unless they hold near it for others, too.
 
         That is so where each has a generic symbol of its own, and where they follow from the rows of a minor.
         """
         finite = [name for name in names if self.relation(name).kind == "finite"]
         if any(self.is_open(self.relation(name).left) and not self.own_symbol(name) for name in finite):
-            minor = self.accounts(self.minor(given["minor"]), finite)
+            minor = self.accounts(self.minor(claim["minor"]), finite)
             refuse(minor.point is not point, "the minor is not at the point")
 
     def own_symbol(self, name: str, letters: Iterable[str] | None = None) -> str:
         """A generic symbol (or one of ``letters``) of one relation alone, in which it is never stationary."""
-        left = self.relation(name).left
-        others = frozenset().union(*(one.left.symbols for one in self.problem.relations if one.name != name))
+        tree = self.relation(name).left
+        others = frozenset().union(*(other.left.symbols for other in self.problem.relations if other.name != name))
         wanted = self.chosen.intersection(self.problem.world.generic if letters is None else letters) - others
-        fit = (one for one in sorted(left.symbols & wanted) if self.is_nowhere_zero(derivative(left, one)))
-        return next(fit, "") if self.has_value_everywhere(left) else ""
+        fit = (other for other in sorted(tree.symbols & wanted) if self.is_nowhere_zero(derivative(tree, other)))
+        return next(fit, "") if self.has_value_everywhere(tree) else ""
 
     def at_reference(self, tree: Tree) -> Tree:
         """A tree at the scene's configuration, parameters and functions left open."""
         return substituted(tree, {**self.problem.reference, "t": ZERO, "tdot": ONE})
 
-    def is_about(self, about: Any, point: CheckedPoint, beside: Collection[tuple[str, ...]] = ()) -> Any:
+    def is_about(self, about: Any, point: CheckedPoint, exempt: Collection[tuple[str, ...]] = ()) -> Any:
         """The point's name, or ``reference``; `CheckError` unless it is one of those that a claim is about.
 
         ``reference``: the scene's configuration, which meets the relations for all values that a point chooses;
         ``component``: any point, where no configuration is given; ``here``: whichever of both is so.
-        Angles have to be a chart of poses there, but for those ``beside``.
+        Angles have to be a chart of poses there, but for those ``exempt``.
         """
         fits = about in ("here", "reference" if self.problem.reference else "component")
         refuse(not fits, "the claim has to be about the scene's configuration, if it has one")
-        for tilt in (angles[1] for angles in self.problem.turns if angles not in beside):
+        for tilt in (angles[1] for angles in self.problem.turns if angles not in exempt):
             upright = tilt in point.balls and not not_zero(point.value(call("sin", symbol(tilt))))
             refuse(upright, f"the angles are no chart of the poses around, as sin({tilt}) may be 0")
         if not self.problem.reference:
@@ -177,17 +182,17 @@ class CheckedEvidence(CheckedRelations):
         for name, tree in {**self.problem.reference, **({"t": ZERO} if "t" in point.balls else {})}.items():
             told_here = name in point.exact and self.same(point.prepared(symbol(name)), point.prepared(tree))
             refuse(not told_here, f"`{name}` is not that of the scene's configuration")
-        for left in (self.relation(name).left for name in self.finite):
-            if self.is_open(left):
-                self.identity(self.at_reference(left), ZERO, "a relation at the configuration")
+        for equation in (self.relation(name).left for name in self.finite):
+            if self.is_open(equation):
+                self.identity(self.at_reference(equation), ZERO, "a relation at the configuration")
         return "reference"
 
 
 def field_named(evidence: CheckedEvidence, name: Any) -> VelocityField:
     """A field by its id: its components; what is left out is 0."""
-    given = evidence.named("fields", name)["components"]
-    refuse(not given.keys() <= set(evidence.variables), "a field has a component of no coordinate")
-    return {name: evidence.text(text) for name, text in given.items()}
+    components = evidence.named("fields", name)["components"]
+    refuse(not components.keys() <= set(evidence.variables), "a field has a component of no coordinate")
+    return {name: evidence.text(text) for name, text in components.items()}
 
 
 def of_word(evidence: CheckedEvidence, word: Any, allowed: Iterable[str], longest: int = LONGEST_WORD) -> VelocityField:
@@ -210,12 +215,12 @@ def bracket(evidence: CheckedEvidence, x: VelocityField, y: VelocityField) -> Ve
 
 def on_row(evidence: CheckedEvidence, row: str, field: VelocityField) -> Tree:
     """What a row says of a field: 0 where the field is tangent to it."""
-    one = evidence.relation(row)
-    if one.kind == "finite":
-        return along(field, one.left)
+    checked = evidence.relation(row)
+    if checked.kind == "finite":
+        return along(field, checked.left)
     slow = not evidence.is_linear(row) and field.get("t", ZERO) != ONE
     refuse(slow, f"`{row}` is not linear in velocities, and the field does not have time go by 1")
-    return substituted(one.left, {name + "dot": field.get(name, ZERO) for name in evidence.variables})
+    return substituted(checked.left, {name + "dot": field.get(name, ZERO) for name in evidence.variables})
 
 
 def tangent(evidence: CheckedEvidence, fields: Iterable[VelocityField], rows: Sequence[str]) -> None:
@@ -233,40 +238,40 @@ def independent(evidence: CheckedEvidence, fields: Sequence[VelocityField], colu
 
 
 def admissible(
-    evidence: CheckedEvidence, given: Told, wanted: Sequence[str]
+    evidence: CheckedEvidence, claim: Told, wanted: Sequence[str]
 ) -> tuple[CheckedPoint, list[VelocityField]]:
     """Fields whose curves through a point are motions: tangent to rows that account for ``wanted``, smooth there."""
-    point, rows = evidence.point(given["at"]), given["rows"]
-    fields = [field_named(evidence, name) for name in given["fields"]]
+    point, rows = evidence.point(claim["at"]), claim["rows"]
+    fields = [field_named(evidence, name) for name in claim["fields"]]
     tangent(evidence, fields, rows)
     evidence.on_set(point, [*rows, *wanted])
     evidence.follow(rows, wanted, point, "the relations")
     evidence.follow(wanted, rows, point, "the rows of the fields")
-    evidence.settled(point, wanted, given)
+    evidence.settled(point, wanted, claim)
     for value in (value for field in fields for value in field.values()):
         point.value(value)
     return point, fields
 
 
-def span(evidence: CheckedEvidence, given: Told, longest: int) -> tuple[CheckedPoint, int]:
+def span(evidence: CheckedEvidence, claim: Told, longest: int) -> tuple[CheckedPoint, int]:
     """A lower bound of the dimension of the orbit through a point, at a fixed time."""
-    point, fields = admissible(evidence, given, evidence.equations)
-    words = [of_word(evidence, word, given["fields"], longest) for word in given["words"]]
-    independent(evidence, words, given["columns"], point)
+    point, fields = admissible(evidence, claim, evidence.equations)
+    words = [of_word(evidence, word, claim["fields"], longest) for word in claim["words"]]
+    independent(evidence, words, claim["columns"], point)
     times_of = [field["t"] for field in fields if field.get("t", ZERO) != ZERO]
     goes_on = any(not_zero(point.value(tree)) for tree in times_of)
     refuse((evidence.timed or times_of) and not goes_on, "no field is shown to have time go by")
     return point, len(words) - bool(times_of)
 
 
-def involutive(evidence: CheckedEvidence, given: Told, allowed: Collection[str] | None = None) -> CheckedMinor:
+def involutive(evidence: CheckedEvidence, claim: Told, allowed: Collection[str] | None = None) -> CheckedMinor:
     """Rows whose kernel is spanned by fields that are closed under brackets: they integrate (Frobenius 1877)."""
-    minor, fields = evidence.minor(given["minor"], allowed), [field_named(evidence, name) for name in given["fields"]]
+    minor, fields = evidence.minor(claim["minor"], allowed), [field_named(evidence, name) for name in claim["fields"]]
     timed = evidence.holds_time(minor.rows)
     missing = len(evidence.problem.coordinates) + timed - len(minor.rows)
     fits = len(fields) == missing and (timed or all("t" not in field for field in fields))
     refuse(not fits or not all(map(evidence.is_linear, minor.rows)), f"the kernel has {missing} fields")
-    independent(evidence, fields, given["columns"], minor.point)
+    independent(evidence, fields, claim["columns"], minor.point)
     brackets = (bracket(evidence, first, second) for i, first in enumerate(fields) for second in fields[:i])
     tangent(evidence, chain(fields, brackets), minor.rows)
     return minor
@@ -278,22 +283,24 @@ def take_cover(evidence: CheckedEvidence, name: Any) -> list[str]:
     The fields are tangent identically, so a block has rank at most its variables less its fields, and the minor shows
     that the sum is reached.
     """
-    given, total = evidence.named("covers", name), 0
-    minor, rows = evidence.minor(given["minor"]), [row for block in given["blocks"] for row in block["rows"]]
+    cover, total = evidence.named("covers", name), 0
+    minor, rows = evidence.minor(cover["minor"]), [row for block in cover["blocks"] for row in block["rows"]]
     once = len(rows) == len(set(rows)) and set(minor.rows) <= set(rows) <= set(evidence.finite)
     for row in rows:
-        left = evidence.relation(row).left
-        chosen = "t" in left.symbols or (evidence.is_open(left) and not evidence.own_symbol(row))
+        tree = evidence.relation(row).left
+        chosen = "t" in tree.symbols or (evidence.is_open(tree) and not evidence.own_symbol(row))
         refuse(chosen, f"`{row}` holds time, or what the point chose: it may be met for that alone")
     evidence.on_set(minor.point, rows)
-    for block in given["blocks"]:
+    for block in cover["blocks"]:
         fields = [field_named(evidence, field) for field in block["fields"]]
         held = frozenset().union(*(evidence.relation(row).left.symbols for row in block["rows"]))
-        own = held & set(evidence.problem.coordinates)
-        refuse(not set(block["columns"]) <= own or any("t" in field for field in fields), "a column of no coordinate")
+        variables = held & set(evidence.problem.coordinates)
+        refuse(
+            not set(block["columns"]) <= variables or any("t" in field for field in fields), "a column of no coordinate"
+        )
         tangent(evidence, fields, block["rows"])
         independent(evidence, fields, block["columns"], minor.point)
-        total += min(len(own) - len(fields), len(block["rows"]))
+        total += min(len(variables) - len(fields), len(block["rows"]))
     refuse(not once or total != len(minor.rows), "each holonomic equation once, and the rank of the minor are needed")
     evidence.consequences += (Consequence(row, minor.rows, at=minor.point.name) for row in {*rows} - {*minor.rows})
     return rows
@@ -311,35 +318,35 @@ def along_curve(evidence: CheckedEvidence, minor: CheckedMinor, speeds: Told, tr
     with ctx.workprec(PRECISION):
         slopes = [[minor.point.value(evidence.slope(row, column)) for column in minor.columns] for row in minor.rows]
         for k in range(1, order + 1):
-            evidence.effort.spend(10 * sum(left.size for left in lefts))
-            lefts = [along({name: symbol(name + "'") for name in names}, left) for left in lefts]
+            evidence.effort.spend(10 * sum(equation.size for equation in lefts))
+            lefts = [along({name: symbol(name + "'") for name in names}, equation) for equation in lefts]
             names += [q + "'" * k for q in moved]
             rates |= {q + "'" * k: speeds.get(q, arb(0)) if k == 1 else arb(0) for q in moved}
-            rest = arb_mat([[minor.point.value_with(left, rates)] for left in lefts[:-1]])
-            found = arb_mat(slopes).solve(rest) if minor.rows else rest
-            rates |= {q + "'" * k: -found[i, 0] for i, q in enumerate(minor.columns)}
+            remainder = arb_mat([[minor.point.value_with(equation, rates)] for equation in lefts[:-1]])
+            solution = arb_mat(slopes).solve(remainder) if minor.rows else remainder
+            rates |= {q + "'" * k: -solution[i, 0] for i, q in enumerate(minor.columns)}
     return minor.point.value_with(lefts[-1], rates)
 
 
-def isolated(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
+def isolated(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
     """A minor whose rows leave a dimension more than there is: another relation is not 0 on all that they leave.
 
     It has a derivative that is not 0 along a curve there, and what is analytic is 0 on a thin set only.
     """
-    minor, name = evidence.minor(given["minor"]), given["zero"]
+    minor, name = evidence.minor(claim["minor"]), claim["zero"]
     unfit = evidence.moving or evidence.problem.world.names.functions or evidence.holds_time((*minor.rows, name))
     refuse(unfit or not {*minor.rows, name} <= {*evidence.finite}, "holonomic equations of the scene, without time")
     evidence.on_set(minor.point, (*minor.rows, name))
-    speeds = {q: minor.point.value(evidence.text(text)) for q, text in given["speeds"].items()}
+    speeds = {q: minor.point.value(evidence.text(text)) for q, text in claim["speeds"].items()}
     refuse(not speeds.keys() <= {*evidence.problem.coordinates} - {*minor.columns}, "speeds are of free coordinates")
-    value = along_curve(evidence, minor, speeds, evidence.relation(name).left, given["order"])
+    value = along_curve(evidence, minor, speeds, evidence.relation(name).left, claim["order"])
     refuse(not not_zero(value), "the zero on the curve is not shown to be isolated")
     return minor
 
 
-def finite_minor(evidence: CheckedEvidence, given: Told) -> CheckedMinor:
+def finite_minor(evidence: CheckedEvidence, claim: Told) -> CheckedMinor:
     """A minor of finite relations and integrals."""
-    minor = evidence.minor(given["minor"])
+    minor = evidence.minor(claim["minor"])
     refuse(any(evidence.relation(row).kind != "finite" for row in minor.rows), "a row of velocities reduces no dof")
     return minor
 

@@ -102,13 +102,13 @@ class KnownNames:
         entries = [("t", _TIME), *((name, symbol(name)) for name in self.coordinates), *self.values.items()]
         trees = {spelled_out(name): tree for name, tree in entries}
         for name, arguments in self.functions.items():
-            given = tuple(trees[word] for word in map(spelled_out, arguments) if word in trees)
+            symbols = tuple(trees[word] for word in map(spelled_out, arguments) if word in trees)
             orders = range(MOST_ORDERS + 1 if len(arguments) == 1 else 1)
-            entries += [(name + "'" * k, Tree("apply", given, name, (k,) * len(arguments))) for k in orders]
+            entries += [(name + "'" * k, Tree("apply", symbols, name, (k,) * len(arguments))) for k in orders]
         kinds = {"apply": "declared"}
-        found = {spelled_out(name): Lexeme(kinds.get(tree.head, "value"), tree, name) for name, tree in entries}
-        refuse(len(found) < len(entries), "a name is declared twice")
-        return {**BUILT_IN, **found}
+        lexemes = {spelled_out(name): Lexeme(kinds.get(tree.head, "value"), tree, name) for name, tree in entries}
+        refuse(len(lexemes) < len(entries), "a name is declared twice")
+        return {**BUILT_IN, **lexemes}
 
     def moved(self, word: str) -> Lexeme | None:
         """The velocity or differential of a coordinate; an index stands after the dot or before it."""
@@ -134,29 +134,29 @@ class KnownNames:
         for end in [*starts[1:], len(word)]:
             pieces = [(start, self.meaning(word[start:end])) for start in starts if start < end]
             ways[end] = [[*before, piece] for start, piece in pieces if piece for before in ways[start]][:2]
-        found = ways[len(word)]
-        refuse(len(found) != 1, f"`{word}` is {'a product in several ways' if found else 'not declared'}")
-        return found[0]
+        readings = ways[len(word)]
+        refuse(len(readings) != 1, f"`{word}` is {'a product in several ways' if readings else 'not declared'}")
+        return readings[0]
 
 
 def tokens_of(text: object, names: KnownNames) -> list[Lexeme]:
     """The tokens of a text, closed by one of kind ``end``."""
     refuse(not isinstance(text, (str, int)) or len(str(text)) > MOST_CHARACTERS, "a text of bounded length is needed")
-    found: list[Lexeme] = []
+    tokens: list[Lexeme] = []
     for match in _TOKEN.finditer(str(text).strip().translate(_PLAIN)):
         kind = str(match.lastgroup)
         word, touching = match[kind], not match[1]
         if kind == "word":
-            found += [one._replace(touching=touching or i > 0) for i, one in enumerate(names.parts(word))]
+            tokens += [part._replace(touching=touching or i > 0) for i, part in enumerate(names.parts(word))]
         elif kind == "number":
             refuse(any(names.words.get(c, _E) != _E for c in "eE" if c in word), f"`{word}` may be a power of ten")
-            found.append(Lexeme(kind, number(Fraction(word)), word, touching))
+            tokens.append(Lexeme(kind, number(Fraction(word)), word, touching))
         elif kind == "raised":
-            found += [Lexeme("^"), Lexeme("number", number("²³".index(word) + 2))]
+            tokens += [Lexeme("^"), Lexeme("number", number("²³".index(word) + 2))]
         else:
             refuse(kind == "unknown", f"`{word}` cannot be read")
-            found.append(Lexeme(kind if kind == "relation" else word.replace("**", "^"), ONE, word, touching))
-    return [*found, Lexeme("end")]
+            tokens.append(Lexeme(kind if kind == "relation" else word.replace("**", "^"), ONE, word, touching))
+    return [*tokens, Lexeme("end")]
 
 
 def parse(text: object, names: KnownNames) -> Tree:
@@ -167,14 +167,14 @@ def parse(text: object, names: KnownNames) -> Tree:
 def parse_relations(text: object, names: KnownNames, signs: bool = True) -> list[Sided]:
     """The relations of a text, left less right side; a text without a sign is ``= 0``, a chain is several."""
     reader = _Reader(text, names)
-    left, found = reader.sum(), []
+    side, relations = reader.sum(), []
     while signs and (sign := reader.accepted("relation").name):
         right = reader.sum()
-        tree = add(right, negative(left)) if sign[0] in "<≤" else add(left, negative(right))
-        found.append(Sided(tree, "=" if sign[0] == "=" else ">", sign in "<>"))
-        left = right
+        tree = add(right, negative(side)) if sign[0] in "<≤" else add(side, negative(right))
+        relations.append(Sided(tree, "=" if sign[0] == "=" else ">", sign in "<>"))
+        side = right
     reader.needed("end")
-    return found or [Sided(left)]
+    return relations or [Sided(side)]
 
 
 class _Reader:
@@ -215,8 +215,8 @@ class _Reader:
             sign, factor = self.accepted("*", "/").kind, self.factor()
             quotient = sign == "/" and factor != _STEP
             factors.append(_power(factor, number(-1)) if sign == "/" else factor)
-        found = times(*factors)
-        return Tree("product", tuple(factors)) if found == ZERO and any(map(_is_partial, factors)) else found
+        product = times(*factors)
+        return Tree("product", tuple(factors)) if product == ZERO and any(map(_is_partial, factors)) else product
 
     def factor(self) -> Tree:
         """Signs, a primary and its power: ``-x^2`` is -(x^2), ``x^y^z`` is x^(y^z)."""
@@ -225,60 +225,63 @@ class _Reader:
         minus = False
         while sign := self.accepted("+", "-").kind:
             minus ^= sign == "-"
-        found = self.primary()
+        tree = self.primary()
         if self.accepted("^").kind:
-            found = _power(found, self.factor())
+            tree = _power(tree, self.factor())
         self.depth -= 1
-        return negative(found) if minus else found
+        return negative(tree) if minus else tree
 
     def primary(self) -> Tree:
         """A number, a name, a group, or a function of something."""
         if self.next.kind in _PAIRS:
-            found, *more = self.arguments()
+            group, *more = self.arguments()
             refuse(more, "a comma stands in a group")
-            return found
+            return group
         token = self.needed("number", *_BEGIN)
         readers = {"function": self.function, "declared": self.declared, "derivative": self.derivative}
         if token.kind in readers:
             return readers[token.kind](token)
         after = self.tokens[self.at : self.at + 3]
-        called = token.kind != "number" and [one.kind for one in after] in (["(", "value", ")"], ["(", "number", ")"])
+        called = token.kind != "number" and [lexeme.kind for lexeme in after] in (
+            ["(", "value", ")"],
+            ["(", "number", ")"],
+        )
         refuse(called and (self.next.touching or after[1].tree == _TIME), "it may be a factor or a function")
         return token.tree
 
     def arguments(self) -> list[Tree]:
         """Values in parentheses, with commas between them."""
         closing = _PAIRS[self.needed(*_PAIRS).kind]
-        found = [self.sum()]
+        values = [self.sum()]
         while self.accepted(",").kind:
-            found.append(self.sum())
+            values.append(self.sum())
         self.needed(closing)
-        return found
+        return values
 
     def function(self, token: Lexeme) -> Tree:
         """``sin(x)``, ``sin^2(x)``; ``sin x`` and ``sin^-1(x)`` could be read in two ways."""
         exponent = self.needed("number").tree if self.accepted("^").kind else ONE
-        given = self.arguments()
-        refuse(len(given) != (2 if token.name == "atan2" else 1), f"`{token.name}` has {len(given)} arguments")
-        return _power(ONE if (token.name, given) == ("exp", [ZERO]) else call(token.name, *given), exponent)
+        values = self.arguments()
+        refuse(len(values) != (2 if token.name == "atan2" else 1), f"`{token.name}` has {len(values)} arguments")
+        return _power(ONE if (token.name, values) == ("exp", [ZERO]) else call(token.name, *values), exponent)
 
     def declared(self, token: Lexeme) -> Tree:
         """``h(s)``, ``h'(s)``, ``h`` alone."""
         alone = token.tree
-        given = tuple(self.arguments()) if self.next.kind in _PAIRS else alone.below
-        refuse(given is alone.below and self.next.kind in ("value", "^"), f"`{token.name}` needs parentheses here")
-        refuse(len(given) != len(alone.orders), f"`{token.name}` is declared with {len(alone.orders)} arguments")
-        return Tree("apply", given, alone.value, alone.orders)
+        values = tuple(self.arguments()) if self.next.kind in _PAIRS else alone.below
+        refuse(values is alone.below and self.next.kind in ("value", "^"), f"`{token.name}` needs parentheses here")
+        refuse(len(values) != len(alone.orders), f"`{token.name}` is declared with {len(alone.orders)} arguments")
+        return Tree("apply", values, alone.value, alone.orders)
 
     def derivative(self, _: Lexeme) -> Tree:
         """``diff(h(s), s)``, ``diff(h(s), s, s)``."""
-        found, *steps = self.arguments()
+        tree, *steps = self.arguments()
         refuse(not 0 < len(steps) <= MOST_ORDERS, "a derivative needs what to differentiate, and by what")
         for step in steps:
-            doubtful = step == _TIME and not found.symbols <= {"t", *self.names.values}
+            doubtful = step == _TIME and not tree.symbols <= {"t", *self.names.values}
             refuse(doubtful or step.head != "symbol", "a derivative is by a symbol, and not by time on the way")
-            found = derivative(found, str(step.value))
-        return found
+            tree = derivative(tree, str(step.value))
+        return tree
 
 
 def _power(base: Tree, exponent: Tree) -> Tree:

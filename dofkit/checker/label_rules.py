@@ -28,10 +28,10 @@ EQUATIONS, EVERY = ("finite", "velocity"), ("finite", "velocity", "inequality")
 
 def own(evidence: CheckedEvidence, claim: Told, kinds: tuple[str, ...] = EQUATIONS) -> tuple[str, ...]:
     """The relations of the claim's constraint, all of some kinds."""
-    found = evidence.owned(claim["owner"], EVERY)
-    fits = found and all(evidence.relation(name).kind in kinds for name in found)
+    names = evidence.owned(claim["owner"], EVERY)
+    fits = names and all(evidence.relation(name).kind in kinds for name in names)
     refuse(not fits, "the constraint has no relations, or such as this rule is not for")
-    return found
+    return names
 
 
 def by_kind(evidence: CheckedEvidence, claim: Told, verified: Told) -> int:
@@ -83,9 +83,9 @@ def bracket(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
 
 def form_of(evidence: CheckedEvidence, name: str) -> Form:
     """The coefficients of a relation that is linear in velocities."""
-    one = evidence.relation(name)
-    refuse(one.kind != "velocity" or not evidence.is_linear(name), f"`{name}` is no form")
-    return {v: evidence.slope(name, v) for v in evidence.variables if v + "dot" in one.left.symbols}
+    checked = evidence.relation(name)
+    refuse(checked.kind != "velocity" or not evidence.is_linear(name), f"`{name}` is no form")
+    return {v: evidence.slope(name, v) for v in evidence.variables if v + "dot" in checked.left.symbols}
 
 
 def _forms(evidence: CheckedEvidence, claim: Told, single: bool = False) -> dict[str, Form]:
@@ -137,16 +137,19 @@ def timeless(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     catastatic = claim["field"] == "catastatic"
     names = own(evidence, claim, EQUATIONS if catastatic else EVERY)
     ones = [evidence.relation(name) for name in claim.get("steps", names)]
-    evidence.follow([one.name for one in ones], names, None, "the constraint")
-    evidence.follow(names, [one.name for one in ones], None, "the steps")
-    refuse(catastatic and all(one.kind != "velocity" for one in ones), "there is no form")
+    evidence.follow([checked.name for checked in ones], names, None, "the constraint")
+    evidence.follow(names, [checked.name for checked in ones], None, "the steps")
+    refuse(catastatic and all(checked.kind != "velocity" for checked in ones), "there is no form")
     apart = not catastatic and len(names) == 1 and verified.get(f"holonomic {claim['owner']}") is False
-    for one in ones:
-        mixed = not apart and homogeneous_degree(one.left, evidence.velocities) is None
-        refuse(mixed and not evidence.is_linear(one.name), f"`{one.name}` is no form, or not homogeneous in velocities")
-        refuse(one.kind == "inequality" and evidence.met_by(one.left), "an inequality between velocities")
+    for checked in ones:
+        mixed = not apart and homogeneous_degree(checked.left, evidence.velocities) is None
+        refuse(
+            mixed and not evidence.is_linear(checked.name),
+            f"`{checked.name}` is no form, or not homogeneous in velocities",
+        )
+        refuse(checked.kind == "inequality" and evidence.met_by(checked.left), "an inequality between velocities")
         for name in ["tdot"] if catastatic else ["t"] if apart else ["t", "tdot"]:
-            evidence.identity(derivative(one.left, name), ZERO, f"the derivative of `{one.name}` by {name}")
+            evidence.identity(derivative(checked.left, name), ZERO, f"the derivative of `{checked.name}` by {name}")
     return True
 
 
@@ -157,11 +160,11 @@ def turns(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     What is not homogeneous in velocities is not catastatic.
     """
     name, point, catastatic = claim["relation"], evidence.point(claim["at"]), claim["field"] == "catastatic"
-    names, one = own(evidence, claim, EVERY), evidence.relation(claim["relation"])
+    names, checked = own(evidence, claim, EVERY), evidence.relation(claim["relation"])
     plain = len(names) == 1 or all(evidence.relation(other).kind == "finite" for other in names)
     refuse(name not in names or not plain, "the rule `turns` is for one relation of the constraint, or finite ones")
-    turned = derivative(one.left, "t")
-    if one.kind == "velocity" and evidence.is_linear(name):
+    turned = derivative(checked.left, "t")
+    if checked.kind == "velocity" and evidence.is_linear(name):
         turned = evidence.slope(name, "t")
         integrates = _has_timed_integral(evidence, claim, verified)
         refuse(not catastatic and "pair" not in claim and not integrates, "it is not shown to integrate")
@@ -169,15 +172,17 @@ def turns(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
             a, b = (evidence.slope(name, v) for v in claim["pair"])
             turned = difference(times(a, derivative(b, "t")), times(b, derivative(a, "t")))
     else:
-        if one.kind == "finite":
+        if checked.kind == "finite":
             evidence.on_set(point, names)
-        held = one.kind == "finite" or evidence.holds(name, point)
-        refuse((catastatic and one.kind != "velocity") or not held, "it holds no velocities, or is not 0 there")
-        slopes = {v: derivative(one.left, v) for v in sorted(one.left.symbols.difference(evidence.chosen, ["t"]))}
+        held = checked.kind == "finite" or evidence.holds(name, point)
+        refuse((catastatic and checked.kind != "velocity") or not held, "it holds no velocities, or is not 0 there")
+        slopes = {
+            v: derivative(checked.left, v) for v in sorted(checked.left.symbols.difference(evidence.chosen, ["t"]))
+        }
         if catastatic:
             turned = add(*(times(symbol(v), slopes[v]) for v in slopes if v in evidence.velocities))
         stationary = not any(not_zero(point.value(slope)) for slope in slopes.values())
-        refuse(stationary and one.kind != "inequality", "the relation may be stationary at the point")
+        refuse(stationary and checked.kind != "inequality", "the relation may be stationary at the point")
     refuse(not not_zero(point.value(turned)), "time may not enter at the point")
     return False
 
@@ -207,9 +212,9 @@ def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
         evidence.follow([claim["step"]], {*evidence.finite, *whole}, point, "the constraint")
     else:
         minor = evidence.minor(claim["minor"], {*others, *evidence.finite, *whole})
-        rest = set(minor.rows).difference(whole)
-        refuse(minor.point is not point or len(rest) == len(minor.rows), "the minor is not of the constraint")
-        evidence.follow({*others, *evidence.finite}, rest, point, "the rows of the minor")
+        integrals = set(minor.rows).difference(whole)
+        refuse(minor.point is not point or len(integrals) == len(minor.rows), "the minor is not of the constraint")
+        evidence.follow({*others, *evidence.finite}, integrals, point, "the rows of the minor")
     integrable(evidence, {**claim, "integrals": [claim["step"], *others]}, verified)
     return claim["value"]
 
@@ -217,17 +222,17 @@ def integral(evidence: CheckedEvidence, claim: Told, verified: Told) -> object:
 def integrable_part(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
     """The rank of what is finite is n - dof; the basis are relations that give it with the finite ones as written."""
     refuse(not evidence.moving, "an integrable part is of forms")
-    found: Told = {"rank": len(evidence.problem.coordinates) - verified["/dof"], "basis": claim["value"]["basis"]}
-    if found["basis"] is None:
-        return found
+    part: Told = {"rank": len(evidence.problem.coordinates) - verified["/dof"], "basis": claim["value"]["basis"]}
+    if part["basis"] is None:
+        return part
     minor, steps = evidence.minor(claim["minor"]), claim.get("steps", [])
-    whole = set(steps) <= set(minor.rows) <= {*steps, *evidence.finite} and len(minor.rows) == found["rank"]
-    refuse(same_place(evidence, minor.point, verified) != found["rank"] or not whole, "the minor is not of the basis")
-    for text, name in zip(found["basis"], steps, strict=True):
-        left, one = told_integral(evidence, text), evidence.relation(name)
-        refuse(not one.leaf, "a relation of the basis is an integral")
-        evidence.identity(evidence.text(left), one.left, "a relation of the basis as claimed")
-    return found
+    whole = set(steps) <= set(minor.rows) <= {*steps, *evidence.finite} and len(minor.rows) == part["rank"]
+    refuse(same_place(evidence, minor.point, verified) != part["rank"] or not whole, "the minor is not of the basis")
+    for text, name in zip(part["basis"], steps, strict=True):
+        function, checked = told_integral(evidence, text), evidence.relation(name)
+        refuse(not checked.leaf, "a relation of the basis is an integral")
+        evidence.identity(evidence.text(function), checked.left, "a relation of the basis as claimed")
+    return part
 
 
 def told_integral(evidence: CheckedEvidence, text: Any) -> str:
@@ -244,58 +249,58 @@ def consistent(evidence: CheckedEvidence, claim: Told, verified: Told) -> bool:
     Inequalities between velocities hold for those of the point, which is regular: a motion has them.
     """
     point, places = moves(evidence, claim, evidence.equations), claim.get("inequalities", {})
-    sided = [one for one in evidence.problem.relations if one.kind == "inequality"]
-    together, moving = claim["path"] == "/feasible", any(evidence.met_by(one.left) for one in sided)
+    sided = [relation for relation in evidence.problem.relations if relation.kind == "inequality"]
+    together, moving = claim["path"] == "/feasible", any(evidence.met_by(relation.left) for relation in sided)
     refuse(together and (not sided or (moving and claim["rule"] != "regular")), "inequalities, and a regular point")
     if together and moving:
         evidence.on_set(point, evidence.equations, states=True)
-    for one in sided:
-        place = point if together else evidence.point(places.get(one.name, places.get(one.owner, point.name)))
-        equal_will_do = not one.strict and not evidence.is_open(one.left)
-        met = place.value(one.left) > 0 or (equal_will_do and evidence.holds(one.name, place))
-        refuse(not met, f"the inequality `{one.name}` is not shown to be satisfied at its point")
+    for relation in sided:
+        place = point if together else evidence.point(places.get(relation.name, places.get(relation.owner, point.name)))
+        equal_will_do = not relation.strict and not evidence.is_open(relation.left)
+        met = place.value(relation.left) > 0 or (equal_will_do and evidence.holds(relation.name, place))
+        refuse(not met, f"the inequality `{relation.name}` is not shown to be satisfied at its point")
     return True
 
 
-def moves(evidence: CheckedEvidence, given: Told, wanted: Sequence[str]) -> CheckedPoint:
+def moves(evidence: CheckedEvidence, claim: Told, wanted: Sequence[str]) -> CheckedPoint:
     """A point through which a motion meets equations: a regular one, or one at which all may rest."""
-    if given["rule"] == "regular":
-        return evidence.accounts(evidence.minor(given["minor"]), wanted).point
-    point, still = evidence.point(given["at"]), [name for name in wanted if evidence.relation(name).kind == "finite"]
+    if claim["rule"] == "regular":
+        return evidence.accounts(evidence.minor(claim["minor"]), wanted).point
+    point, still = evidence.point(claim["at"]), [name for name in wanted if evidence.relation(name).kind == "finite"]
     evidence.on_set(point, still)
-    evidence.settled(point, still, given)
+    evidence.settled(point, still, claim)
     chosen = any(evidence.is_open(evidence.relation(name).left) for name in still)
     exact = {} if chosen else {name: tree for name, tree in point.exact.items() if name != "t"}
-    rest = {**dict.fromkeys(evidence.velocities, ZERO), "tdot": ONE}
-    balls = {rate: point.value(tree) for rate, tree in rest.items()}
+    still_values = {**dict.fromkeys(evidence.velocities, ZERO), "tdot": ONE}
+    balls = {rate: point.value(tree) for rate, tree in still_values.items()}
     for name in wanted:
-        left = evidence.relation(name).left
-        if name not in still or "t" in left.symbols:
-            for tree in (left, *(derivative(left, v) for v in evidence.met_by(left))):
+        equation = evidence.relation(name).left
+        if name not in still or "t" in equation.symbols:
+            for tree in (equation, *(derivative(equation, v) for v in evidence.met_by(equation))):
                 point.value_with(tree, balls)
-            put_in = substituted(left, {**({} if evidence.is_open(left) else exact), **rest})
+            put_in = substituted(equation, {**({} if evidence.is_open(equation) else exact), **still_values})
             evidence.identity(put_in, ZERO, f"`{name}` at rest")
     return point
 
 
-def refuted(evidence: CheckedEvidence, given: Told, verified: Told, names: Sequence[str] | None = None) -> bool:
+def refuted(evidence: CheckedEvidence, refutation: Told, verified: Told, names: Sequence[str] | None = None) -> bool:
     """No motion meets equations: a positive number plus squares plus multiples of what is 0 cannot be 0.
 
     An inequality is refuted by itself, times squares (Krivine 1964, Stengle 1974).
     """
-    held = evidence.closure([one.name for one in evidence.problem.relations] if names is None else names, None)
-    number = evidence.text(given["number"])
+    held = evidence.closure([checked.name for checked in evidence.problem.relations] if names is None else names, None)
+    number = evidence.text(refutation["number"])
     refuse(not evidence.is_nowhere_zero(number, True), "what is left over is not positive")
-    sided = {name: evidence.squares(terms) for name, terms in given.get("inequality", {}).items()}
-    factors = {name: evidence.text(text) for name, text in given.get("c", {}).items()}
+    sided = {name: evidence.squares(terms) for name, terms in refutation.get("inequality", {}).items()}
+    factors = {name: evidence.text(text) for name, text in refutation.get("c", {}).items()}
     refuse(sided and len(sided) + len(factors) > 1, "an inequality is refuted by itself")
-    total = [number, evidence.squares(given.get("sos", []))]
+    total = [number, evidence.squares(refutation.get("sos", []))]
     for name, factor in (*sided.items(), *factors.items()):
-        one = evidence.relation(name)
-        fits = name in held and not one.leaf and (one.kind == "inequality") == (name in sided)
+        checked = evidence.relation(name)
+        fits = name in held and not checked.leaf and (checked.kind == "inequality") == (name in sided)
         whole = fits and evidence.has_value_everywhere(factor)
         refuse(not whole, f"`{name}` is not shown to follow everywhere, or has a cofactor without a value")
-        total.append(times(factor, one.left))
+        total.append(times(factor, checked.left))
     evidence.identity(substituted(add(*total), {"tdot": ONE}), ZERO, "what is left over")
     return False
 
@@ -304,10 +309,10 @@ def conflict(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[str
     """The constraints cannot all be met, and without any one of them the others can."""
     names = names_told(claim)
     owned = {name: evidence.owned(name, ("finite", "velocity", "inequality")) for name in names}
-    refuted(evidence, claim["refutation"], verified, [one for found in owned.values() for one in found])
+    refuted(evidence, claim["refutation"], verified, [row for rows in owned.values() for row in rows])
     for name in names:
-        others = [one for other in names if other != name for one in owned[other]]
-        refuse(any(evidence.relation(one).kind == "inequality" for one in others), "an inequality conflicts by itself")
+        others = [row for other in names if other != name for row in owned[other]]
+        refuse(any(evidence.relation(row).kind == "inequality" for row in others), "an inequality conflicts by itself")
         if others:
             moves(evidence, claim["minimal"][name], others)
     return names

@@ -52,16 +52,16 @@ class CheckedEnergies:
         self.scene, self.world, self.d = problem.scene, problem.world, problem.world.dimension
         self.rates = {"t": ONE, **{q: symbol(f"{q}dot") for q in problem.coordinates}}
         self.rates |= {f"{q}dot": symbol(f"{q}ddot") for q in problem.coordinates}
-        given: Entry = self.scene.get("energies", {})
-        known_fields(given, "kinetic potential dissipation forces")
-        pushed: Entry = given.get("forces", {})
+        energies: Entry = self.scene.get("energies", {})
+        known_fields(energies, "kinetic potential dissipation forces")
+        pushed: Entry = energies.get("forces", {})
         refuse(not pushed.keys() <= {*problem.coordinates}, "a force pushes along what is no coordinate")
         for entry in self.scene.get("forces", []):
             known_fields(entry, f"type name notes {ENTRIES[entry['type']]}")
-        told = {key: self.text(value) for key, value in given.items() if key != "forces"}
-        stored = told.get("potential") or add(*self.of("spring"), *self.of("gravity"))
-        self.lagrangian = difference(told.get("kinetic") or add(*self.kinetic()), stored)
-        self.dissipation = told.get("dissipation") or add(*self.of("damper"))
+        texts = {key: self.text(value) for key, value in energies.items() if key != "forces"}
+        stored = texts.get("potential") or add(*self.of("spring"), *self.of("gravity"))
+        self.lagrangian = difference(texts.get("kinetic") or add(*self.kinetic()), stored)
+        self.dissipation = texts.get("dissipation") or add(*self.of("damper"))
         self.pushes = [(self.text(text), symbol(q)) for q, text in pushed.items()]
         self.pushes = self.pushes or [pair for pairs in self.of("force") for pair in pairs]
 
@@ -88,8 +88,8 @@ class CheckedEnergies:
         for mass, place in self.masses():
             yield times(HALF, mass, square([self.rates[str(q.value)] for q in place]))
         for entry in self.scene.get("bodies", []) if self.d > 1 else ():
-            spin, given = self.spin(entry["name"]), entry.get("inertia", symbol(f"inertia of {entry['name']}"))
-            for w, row in zip(spin, given if isinstance(given, list) else [given] * len(spin), strict=True):
+            spin, inertia = self.spin(entry["name"]), entry.get("inertia", symbol(f"inertia of {entry['name']}"))
+            for w, row in zip(spin, inertia if isinstance(inertia, list) else [inertia] * len(spin), strict=True):
                 whole = isinstance(row, list)
                 yield times(HALF, w, dot([*map(self.text, row)], spin) if whole else times(self.text(row), w))
 
@@ -116,8 +116,8 @@ class CheckedEnergies:
     def spring(self, entry: Entry) -> Tree:
         """k (d - d0)^2/2, d0 as it is drawn where it is not given."""
         now, drawn = self.extent(entry)
-        rest = self.text(entry.get("rest_length", drawn))
-        return times(HALF, self.text(entry["stiffness"]), power(difference(now, rest), TWO))
+        rest_length = self.text(entry.get("rest_length", drawn))
+        return times(HALF, self.text(entry["stiffness"]), power(difference(now, rest_length), TWO))
 
     def damper(self, entry: Entry) -> Tree:
         """c ddot^2/2."""
@@ -136,12 +136,18 @@ class CheckedEnergies:
 
     def vector(self, entry: Entry, key: str, last: Tree) -> Vector:
         """A vector from its components, or from its size and direction (the last axis, or down)."""
-        given, axis = entry[key], entry.get("direction")
-        refuse(key == "value" and self.d > 1 and axis is None and not isinstance(given, list), "no direction is given")
-        parts = given if isinstance(given, list) else axis or [*[ZERO] * (self.d - 1), last]
-        found = tuple(map(self.text, parts))
-        refuse(len(found) != self.d, "a vector has as many components as space")
-        return found if parts is given else scaled(times(self.text(given), power(length(found), MINUS)), found)
+        written, axis = entry[key], entry.get("direction")
+        refuse(
+            key == "value" and self.d > 1 and axis is None and not isinstance(written, list), "no direction is given"
+        )
+        texts = written if isinstance(written, list) else axis or [*[ZERO] * (self.d - 1), last]
+        components = tuple(map(self.text, texts))
+        refuse(len(components) != self.d, "a vector has as many components as space")
+        return (
+            components
+            if texts is written
+            else scaled(times(self.text(written), power(length(components), MINUS)), components)
+        )
 
 
 #: What a claim tells: the fields of a report of the motion.
@@ -164,43 +170,43 @@ def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
     and what does no work on it are multiples of the told constraints (of those nonlinear in velocities: of their slopes
     by these). So d/dt dL/dqdot - dL/dq + dD/dqdot less all pushes are such multiples, L and D put in [Lagrange1788].
     """
-    told, problem = claim["value"], evidence.problem
-    energies, kept, names = CheckedEnergies(problem), told["coordinates"], told["multipliers"]
+    claimed, problem = claim["value"], evidence.problem
+    energies, kept, names = CheckedEnergies(problem), claimed["coordinates"], claimed["multipliers"]
     extra = [*names, *claim.get("constants", {}), *(f"{q}ddot" for q in kept)]
     taken = {*evidence.variables, *evidence.velocities, *evidence.chosen, *problem.world.names.words, "E"}
     refuse(claim.get("cayley"), "a body turns by its angles here")
     refuse(len({*extra} - taken) < len(extra), "a multiplier, a constant or an acceleration has the name of another")
-    refuse(sorted([*kept, *told["eliminated"]]) != sorted(problem.coordinates), "each coordinate is kept or eliminated")
+    every = sorted([*kept, *claimed["eliminated"]])
+    refuse(every != sorted(problem.coordinates), "each coordinate is kept or eliminated")
 
     def read(text: str) -> Tree:
         return evidence.text(text.removesuffix("= 0"), extra)
 
-    places = {q: read(text) for q, text in told["eliminated"].items()}
+    places = {q: read(text) for q, text in claimed["eliminated"].items()}
     put = {"tdot": ONE, **places, **{f"{q}dot": along(energies.rates, tree) for q, tree in places.items()}}
-    own = [tree for tree in places.values() if evidence.met_by(tree) or not tree.symbols.isdisjoint(put)]
-    refuse(own, "a coordinate is eliminated by such, or by velocities")
-    limits = {name: read(text) for name, text in zip(names, told["constraints"], strict=True)}
+    dependent = [tree for tree in places.values() if evidence.met_by(tree) or not tree.symbols.isdisjoint(put)]
+    refuse(dependent, "a coordinate is eliminated by such, or by velocities")
+    limits = {name: read(text) for name, text in zip(names, claimed["constraints"], strict=True)}
     _leaves(evidence, claim, put, places, limits)
     lagrangian, lost = (substituted(tree, put) for tree in (energies.lagrangian, energies.dissipation))
     pushes = [(substituted(force, put), substituted(place, put)) for force, place in energies.pushes]
-    whole = read(told["lagrangian"])
-    for q, text in zip(kept, told["equations"], strict=True):
-        rate, momentum, force = f"{q}dot", read(told["momenta"][q]), read(told["forces"][q])
+    whole = read(claimed["lagrangian"])
+    for q, text in zip(kept, claimed["equations"], strict=True):
+        rate, momentum, force = f"{q}dot", read(claimed["momenta"][q]), read(claimed["forces"][q])
         for name in (q, rate):
             evidence.identity(derivative(whole, name), derivative(lagrangian, name), f"the Lagrangian, by {name}")
-        outer = add(
-            *(times(push, derivative(place, q)) for push, place in pushes), times(MINUS, derivative(lost, rate))
-        )
+        work = [times(push, derivative(place, q)) for push, place in pushes]
+        outer = add(*work, times(MINUS, derivative(lost, rate)))
         evidence.identity(momentum, derivative(whole, rate), f"the momentum of {q}")
         evidence.identity(force, add(derivative(whole, q), outer), f"the force along {q}")
-        ways = {name: derivative(one, rate if evidence.met_by(one) else q) for name, one in limits.items()}
+        ways = {name: derivative(limit, rate if evidence.met_by(limit) else q) for name, limit in limits.items()}
         held = add(*(times(symbol(name), slope) for name, slope in ways.items()))
         factor = evidence.text(claim.get("factors", {}).get(q, "1"))
         refuse(not evidence.is_nowhere_zero(factor), f"the factor of the equation of {q} may be 0")
         equation = difference(along(energies.rates, momentum), add(force, held))
         evidence.identity(times(factor, read(text)), equation, f"the equation of {q}")
-    parts = {part: {q: told[part][q] for q in kept} for part in ("momenta", "forces")}
-    return {name: parts.get(name, told[name]) for name in MOTION_FIELDS}
+    fields = {part: {q: claimed[part][q] for q in kept} for part in ("momenta", "forces")}
+    return {name: fields.get(name, claimed[name]) for name in MOTION_FIELDS}
 
 
 def _leaves(evidence: CheckedEvidence, claim: Told, put: Told, places: Told, limits: Told) -> None:
@@ -210,15 +216,15 @@ def _leaves(evidence: CheckedEvidence, claim: Told, put: Told, places: Told, lim
     constraints are independent at a point of it: it has the dimension of what they allow.
     """
     used = list[Tree]()
-    for one in map(evidence.relation, evidence.equations):
-        factors = {name: evidence.text(text) for name, text in claim.get("c", {}).get(one.name, {}).items()}
-        moving = [*factors.values(), *(limits[name] for name in factors if one.kind == "finite")]
+    for checked in map(evidence.relation, evidence.equations):
+        factors = {name: evidence.text(text) for name, text in claim.get("c", {}).get(checked.name, {}).items()}
+        moving = [*factors.values(), *(limits[name] for name in factors if checked.kind == "finite")]
         refuse(
             any(map(evidence.met_by, moving)),
             "a cofactor contains velocities, or a holonomic equation depends on others",
         )
         total = add(*(times(tree, limits[name]) for name, tree in factors.items()))
-        evidence.identity(substituted(one.left, put), total, f"`{one.name}` where coordinates are put in")
+        evidence.identity(substituted(checked.left, put), total, f"`{checked.name}` where coordinates are put in")
         used += factors.values()
     if places or limits:
         minor = evidence.minor(claim["minor"])

@@ -50,9 +50,9 @@ def document_of(text: str) -> Any:
 
 
 def _mapping(pairs: list[tuple[Any, Any]]) -> dict[str, Any]:
-    found = dict(pairs) if all(isinstance(key, str) for key, _ in pairs) else {}
-    refuse(len(found) < len(pairs), "a key is no text, or stands twice in one mapping")
-    return found
+    mapping = dict(pairs) if all(isinstance(key, str) for key, _ in pairs) else {}
+    refuse(len(mapping) < len(pairs), "a key is no text, or stands twice in one mapping")
+    return mapping
 
 
 def _from_yaml(text: str) -> Any:
@@ -71,9 +71,9 @@ def _from_node(node: yaml.Node | None) -> Any:
 
 def canonical(document: object) -> dict[str, Any]:
     """The document without its name, titles, notes and empty entries, short forms written out and values exact."""
-    found = _canonical(document, "", 0)
-    refuse(not isinstance(found, dict), "a scene is a mapping")
-    return {key: part for key, part in found.items() if key not in _SILENT and part != _DEFAULTS.get(key)}
+    mapping = _canonical(document, "", 0)
+    refuse(not isinstance(mapping, dict), "a scene is a mapping")
+    return {key: part for key, part in mapping.items() if key not in _SILENT and part != _DEFAULTS.get(key)}
 
 
 def _canonical(value: Any, key: str, depth: int) -> Any:
@@ -83,13 +83,13 @@ def _canonical(value: Any, key: str, depth: int) -> Any:
         value = _mapping([(name, None) for name in value])
     if isinstance(value, Mapping):
         missing = "real" if key == "parameters" else None
-        parts = [(name, missing if part in _NULLS else part) for name, part in value.items()]
-        found = _mapping([(name, _canonical(part, name, depth + 1)) for name, part in parts])
-        return {name: part for name, part in found.items() if part not in (None, {}, [])}
+        pairs = [(name, missing if part in _NULLS else part) for name, part in value.items()]
+        mapping = _mapping([(name, _canonical(part, name, depth + 1)) for name, part in pairs])
+        return {name: part for name, part in mapping.items() if part not in (None, {}, [])}
     if isinstance(value, (list, tuple)):
-        short, rest = _SHORT.get(key, ("", {}))
-        longer = [{**rest, short: one} if short and isinstance(one, str) else one for one in value]
-        return [_canonical(one, "" if short else key, depth + 1) for one in longer]
+        short, defaults = _SHORT.get(key, ("", {}))
+        longer = [{**defaults, short: item} if short and isinstance(item, str) else item for item in value]
+        return [_canonical(item, "" if short else key, depth + 1) for item in longer]
     if isinstance(value, bool) or (key == "name" and isinstance(value, str)):
         return value
     if value in _NULLS:
@@ -140,16 +140,16 @@ def read_problem(document: Mapping[str, Any], cayley: frozenset[str] = frozenset
     try:
         scene = canonical(document)
         known_fields(scene, KEYS)
-        world, coordinates, given = _surroundings(scene, cayley)
+        world, coordinates, configured = _surroundings(scene, cayley)
         relations = tuple(_relations(world, scene, coordinates))
-        reference = {} if world.generic else _reference(world, coordinates, given, relations)
+        reference = {} if world.generic else _reference(world, coordinates, configured, relations)
     except (LookupError, TypeError, AttributeError, ValueError, RecursionError) as error:
         raise CheckError(f"the scene cannot be read: {type(error).__name__} {str(error)[:200]}") from None
     names = [*coordinates, *world.names.values, *world.names.functions, *world.generic]
-    for told in (names, [one.name for one in relations]):
-        refuse(len({*told}) < len(told), "a name is that of a generic symbol, or relations have one name")
-    turning = (one for one in world.frames.values() if world.dimension == 3 and one.cayley is None)
-    turns = tuple(tuple(one.reference)[3:] for one in turning)
+    for group in (names, [relation.name for relation in relations]):
+        refuse(len({*group}) < len(group), "a name is that of a generic symbol, or relations have one name")
+    turning = (relation for relation in world.frames.values() if world.dimension == 3 and relation.cayley is None)
+    turns = tuple(tuple(relation.reference)[3:] for relation in turning)
     return CheckedProblem(coordinates, relations, reference, turns, scene, world)
 
 
@@ -169,41 +169,41 @@ def _surroundings(scene: Entry, cayley: frozenset[str]) -> tuple[Surroundings, t
             world.signs[name] = value
         values[name] = symbol(name) if value in SIGNS else world.expression(value)
         world.names = KnownNames(values=dict(values))
-    own = [spelled_out(name) for name in (*written, *values, *functions)]
+    spelled = [spelled_out(name) for name in (*written, *values, *functions)]
     every = KnownNames(frozenset([*written, *coordinates]), values, functions)
-    twice = len({*own, *BUILT_IN, "tdot"}) <= len(own) + len(BUILT_IN)
-    names = (*own, *map(spelled_out, coordinates))
+    twice = len({*spelled, *BUILT_IN, "tdot"}) <= len(spelled) + len(BUILT_IN)
+    names = (*spelled, *map(spelled_out, coordinates))
     words = (re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name) and name not in _NULLS for name in names)
     plain = all(words) and not any(map(every.moved, names)) and all(isinstance(v, list) for v in functions.values())
     refuse(twice or not plain, "a name is taken, or not made of letters, or a function has no list of arguments")
-    given = {q: world.expression(value) for q, value in scene.get("configuration", {}).items()}
-    refuse(not given.keys() <= {*written}, "the configuration mentions what is no coordinate")
+    configured = {q: world.expression(value) for q, value in scene.get("configuration", {}).items()}
+    refuse(not configured.keys() <= {*written}, "the configuration mentions what is no coordinate")
     world.names = KnownNames(frozenset(written).intersection(coordinates), values, functions)
     at = {entry["name"]: world.vector(entry["at"]) for entry in scene.get("particles", []) if "at" in entry}
     for name, chart in particles.items():
-        drawn = tuple(given[q] for q in chart) if given.keys() >= {*chart} else None
+        drawn = tuple(configured[q] for q in chart) if configured.keys() >= {*chart} else None
         world.particles[name] = MaterialPoint(tuple(map(symbol, chart)), ONE, at.get(name, drawn))
     for name, chart in charts.items():
-        world.frames[name] = body_frame(name, d, {q: given.get(q, ZERO) for q in chart}, name in cayley)
-        if not given.keys().isdisjoint(bodies[name]):
+        world.frames[name] = body_frame(name, d, {q: configured.get(q, ZERO) for q in chart}, name in cayley)
+        if not configured.keys().isdisjoint(bodies[name]):
             world.drawn.add(name)
-    return world, coordinates, given
+    return world, coordinates, configured
 
 
 def _owners(scene: Entry, key: str, roles: Sequence[str]) -> dict[str, list[str]]:
     """The coordinates of each particle or body."""
-    found: dict[str, list[str]] = {}
+    charts: dict[str, list[str]] = {}
     for entry in scene.get(key, []):
         known_fields(entry, FIELDS[key])
         names = entry.get("coordinates") or [f"{role}_{entry['name'].replace('-', '_')}" for role in roles]
-        refuse(len(names) != len(roles) or entry["name"] in {*found, "ground"}, f"`{key}` cannot be read")
-        found[entry["name"]] = names
-    return found
+        refuse(len(names) != len(roles) or entry["name"] in {*charts, "ground"}, f"`{key}` cannot be read")
+        charts[entry["name"]] = names
+    return charts
 
 
 def _relations(world: Surroundings, scene: Entry, coordinates: Sequence[str]) -> Iterator[CheckedRelation]:
     """The relations of every constraint, in order."""
-    rates, left = {*(f"{q}dot" for q in coordinates), "tdot"}, MOST_RELATIONS
+    rates, remaining = {*(f"{q}dot" for q in coordinates), "tdot"}, MOST_RELATIONS
     entries = enumerate(scene.get("constraints", []), 1)
     named = {str(entry.get("name", f"c{place}")): entry for place, entry in entries}
     refuse(len(named) < len(scene.get("constraints", [])), "two constraints have one name")
@@ -216,30 +216,36 @@ def _relations(world: Surroundings, scene: Entry, coordinates: Sequence[str]) ->
         read, fields, dimensions = TYPES[called]
         known_fields(entry, f"type name {fields}")
         refuse(str(world.dimension) not in dimensions, f"no {called} is defined in dimension {world.dimension}")
-        found = [one if isinstance(one, Sided) else Sided(one) for one in islice(read(world, entry), left + 1)]
-        left -= len(found)
-        refuse(left < 0, "there are too many relations")
-        for place, one in enumerate(found, 1):
-            moving = not one.tree.symbols.isdisjoint(rates)
-            kind = "inequality" if one.sign != "=" else "velocity" if moving else "finite"
-            name = owner if len(found) == 1 else f"{owner}.{place}"
-            yield CheckedRelation(name, owner, kind, one.tree, one.strict)
+        relations = [
+            relation if isinstance(relation, Sided) else Sided(relation)
+            for relation in islice(read(world, entry), remaining + 1)
+        ]
+        remaining -= len(relations)
+        refuse(remaining < 0, "there are too many relations")
+        for place, relation in enumerate(relations, 1):
+            moving = not relation.tree.symbols.isdisjoint(rates)
+            kind = "inequality" if relation.sign != "=" else "velocity" if moving else "finite"
+            name = owner if len(relations) == 1 else f"{owner}.{place}"
+            yield CheckedRelation(name, owner, kind, relation.tree, relation.strict)
 
 
 def _reference(
-    world: Surroundings, coordinates: Sequence[str], given: Mapping[str, Tree], relations: Sequence[CheckedRelation]
+    world: Surroundings,
+    coordinates: Sequence[str],
+    configured: Mapping[str, Tree],
+    relations: Sequence[CheckedRelation],
 ) -> dict[str, Tree]:
     """The drawing, where it places every body and gives every other coordinate that a relation holds; else nothing.
 
     Where no relation holds any, it has to give all. What none holds may stand anywhere.
     """
     drawn = world.drawn | {"ground"}
-    found = dict(given)
+    poses = dict(configured)
     for point in world.particles.values():
-        found |= {str(q.value): part for q, part in zip(point.over, point.start or (), strict=False)}
+        poses |= {str(q.value): part for q, part in zip(point.over, point.start or (), strict=False)}
     for frame in world.frames.values():
-        found |= frame.reference
-    symbols = frozenset[str]().union(*(one.left.symbols for one in relations))
+        poses |= frame.reference
+    symbols = frozenset[str]().union(*(relation.left.symbols for relation in relations))
     held = {q for q in coordinates if not symbols.isdisjoint((q, f"{q}dot"))} or {*coordinates}
     placed = all(name in drawn or held.isdisjoint(frame.reference) for name, frame in world.frames.items())
-    return {q: found.get(q, ZERO) for q in coordinates} if placed and found.keys() >= held else {}
+    return {q: poses.get(q, ZERO) for q in coordinates} if placed and poses.keys() >= held else {}

@@ -73,13 +73,13 @@ class CheckedTexts:
 
         return self.once(("text", text, *extra), read)
 
-    def identity(self, left: Tree, right: Tree, what: str) -> None:
+    def identity(self, first: Tree, second: Tree, what: str) -> None:
         """`CheckError` unless two trees are the same in the ring."""
-        refuse(not self.same(left, right), f"{what}: the two sides are not the same")
+        refuse(not self.same(first, second), f"{what}: the two sides are not the same")
 
-    def same(self, left: Tree, right: Tree) -> bool:
+    def same(self, first: Tree, second: Tree) -> bool:
         """Whether two trees are the same in the ring."""
-        return self.ring.vanishes(add(left, negative(right)))
+        return self.ring.vanishes(add(first, negative(second)))
 
     def squares(self, terms: Any) -> Tree:
         """A sum of squares, which have a value everywhere, with positive coefficients."""
@@ -144,7 +144,7 @@ class CheckedRelations(CheckedTexts):
     def __init__(self, problem: CheckedProblem, parts: Mapping[str, list[dict[str, Any]]], effort: Effort) -> None:
         super().__init__(problem, effort)
         self.parts = parts
-        self.known = {one.name: one for one in problem.relations}
+        self.known = {relation.name: relation for relation in problem.relations}
         self.finite, self.moving = self.owned(None, ("finite",)), self.owned(None, ("velocity",))
         self.equations = (*self.finite, *self.moving)
         self.timed = self.holds_time(self.equations)
@@ -162,10 +162,10 @@ class CheckedRelations(CheckedTexts):
                 wrong = of and (of.kind == "inequality" or (of.leaf and by != "rate"))
                 refuse(wrong, "a step is made from an equation, and of an integral there is a rate and no more")
                 refuse(name in self.known, "a name of this step is taken")
-                left, consequence = makers[step["by"]](step)
-                if left is not None:
-                    kind = "velocity" if self.met_by(left) else "finite"
-                    self.known[name] = CheckedRelation(name, "", kind, left, leaf=by == "integral")
+                tree, consequence = makers[step["by"]](step)
+                if tree is not None:
+                    kind = "velocity" if self.met_by(tree) else "finite"
+                    self.known[name] = CheckedRelation(name, "", kind, tree, leaf=by == "integral")
                 self.consequences += [consequence] if consequence else []
             except FAULTS as error:
                 self.faults[name] = f"step `{name[:60]}`: {told(error)}"
@@ -179,23 +179,32 @@ class CheckedRelations(CheckedTexts):
         """
         leaf, k, squares = step["by"] == "integral", step.get("power", 1), self.squares(step.get("sos", []))
         new = leaf or "function" in step
-        left = self.text(step["function"]) if new else self.relation(step["of"]).left
-        sources, given = [self.relation(name) for name in step["c"]], step.get("put", [])
-        refuse(any(one.leaf or one.kind == "inequality" for one in sources), "an inequality or integral to start from")
+        tree = self.text(step["function"]) if new else self.relation(step["of"]).left
+        sources, substitutions = [self.relation(name) for name in step["c"]], step.get("put", [])
+        refuse(
+            any(source.leaf or source.kind == "inequality" for source in sources),
+            "an inequality or integral to start from",
+        )
         cofactors, h = [self.text(text) for text in step["c"].values()], self.text(step.get("h", "1"))
-        refuse(self.met_by(h) or (leaf and self.met_by(left)), "the factor or integral holds velocities")
+        refuse(self.met_by(h) or (leaf and self.met_by(tree)), "the factor or integral holds velocities")
         definite = not step.get("sos") or (k % 2 == 0 and self.is_nowhere_zero(h, True))
         refuse(type(k) is not int or not 1 <= k <= 64 or not definite, "a sum that is 0 where its terms are not")
-        change = total_derivative(left, self.variables) if leaf else left
-        rest = add(*(times(c, one.left) for c, one in zip(cofactors, sources, strict=True)))
-        total = add(times(h, power(change, number(k))), squares, negative(rest))
-        for name, q in given:
-            one, (slope, total) = self.relation(name), put_in(total, q, self.relation(name).left)
-            refuse(one.kind != "finite" or one.leaf or not self.is_nowhere_zero(slope), f"`{name}` does not give `{q}`")
+        change = total_derivative(tree, self.variables) if leaf else tree
+        combination = add(*(times(c, source.left) for c, source in zip(cofactors, sources, strict=True)))
+        total = add(times(h, power(change, number(k))), squares, negative(combination))
+        for name, q in substitutions:
+            source, (slope, total) = self.relation(name), put_in(total, q, self.relation(name).left)
+            refuse(
+                source.kind != "finite" or source.leaf or not self.is_nowhere_zero(slope),
+                f"`{name}` does not give `{q}`",
+            )
         refuse(not self.ring.vanishes(total), "the cofactors: the two sides are not the same")
-        needs, defined = () if self.is_nowhere_zero(h) else (h,), (h, *cofactors, *([left] if new or given else []))
-        used = *step["c"], *(name for name, _ in given)
-        return left if new else None, Consequence(step["id" if new else "of"], used, needs, defined)
+        needs, defined = (
+            () if self.is_nowhere_zero(h) else (h,),
+            (h, *cofactors, *([tree] if new or substitutions else [])),
+        )
+        used = *step["c"], *(name for name, _ in substitutions)
+        return tree if new else None, Consequence(step["id" if new else "of"], used, needs, defined)
 
     def _rate(self, step: dict[str, Any]) -> tuple[Tree | None, Consequence | None]:
         """What is constantly 0, or keeps its value, has the derivative 0."""
@@ -205,8 +214,8 @@ class CheckedRelations(CheckedTexts):
 
     def owned(self, owner: str | None, kinds: Collection[str] = ("finite", "velocity")) -> tuple[str, ...]:
         """The relations of a constraint, or of all."""
-        found = (one for one in self.problem.relations if one.kind in kinds)
-        return tuple(one.name for one in found if owner is None or one.owner == owner)
+        chosen = (relation for relation in self.problem.relations if relation.kind in kinds)
+        return tuple(relation.name for relation in chosen if owner is None or relation.owner == owner)
 
     def holds_time(self, names: Iterable[str]) -> bool:
         """Whether time or dt occurs in a relation."""
@@ -220,39 +229,47 @@ class CheckedRelations(CheckedTexts):
 
     def closure(self, start: Iterable[str], point: CheckedPoint | None) -> set[str]:
         """All that holds near a point (or, without one, everywhere) where ``start`` does, by the steps."""
-        found, size = set(start), -1
-        while len(found) > size:
-            size = len(found)
-            for i, one in enumerate(self.consequences):
-                if one.target not in found and found.issuperset(one.sources) and self.applies(i, point):
-                    found.add(one.target)
+        implied, size = set(start), -1
+        while len(implied) > size:
+            size = len(implied)
+            for i, consequence in enumerate(self.consequences):
+                if (
+                    consequence.target not in implied
+                    and implied.issuperset(consequence.sources)
+                    and self.applies(i, point)
+                ):
+                    implied.add(consequence.target)
             self.effort.spend(len(self.consequences) + 1)
-        return found
+        return implied
 
     def follow(self, wanted: Iterable[str], start: Iterable[str], point: CheckedPoint | None, what: str) -> None:
         """`CheckError` unless all that is wanted holds near a point where ``start`` does."""
-        left = set(wanted) - set(start)
-        left = left and left - self.closure(start, point)
-        refuse(left, f"`{min(left, default='')}` is not shown to follow from {what}")
+        missing = set(wanted) - set(start)
+        missing = missing and missing - self.closure(start, point)
+        refuse(missing, f"`{min(missing, default='')}` is not shown to follow from {what}")
 
     def applies(self, place: int, point: CheckedPoint | None) -> bool:
         """Whether what a consequence needs is so near a point, at all velocities; without a point, everywhere."""
-        one = self.consequences[place]
+        consequence = self.consequences[place]
         if point is None:
-            return one.at is None and not one.nonzero and all(map(self.has_value_everywhere, one.defined))
+            return (
+                consequence.at is None
+                and not consequence.nonzero
+                and all(map(self.has_value_everywhere, consequence.defined))
+            )
         wide = {v: arb(0, 10**30) for v in self.velocities}
 
         def look() -> bool:
             try:
-                values = [point.value_with(tree, wide) for tree in (*one.nonzero, *one.defined)]
+                values = [point.value_with(tree, wide) for tree in (*consequence.nonzero, *consequence.defined)]
             except CheckError:
                 return False
-            return one.at in (None, point.name) and all(map(not_zero, values[: len(one.nonzero)]))
+            return consequence.at in (None, point.name) and all(map(not_zero, values[: len(consequence.nonzero)]))
 
         return self.once(("met", place, point.name), look)
 
 
 def told(error: Exception) -> str:
     """A fault in one line."""
-    known = isinstance(error, CheckError)
-    return str(error)[:200] if known else f"a field is missing or of another kind ({error!s:.80})"
+    expected = isinstance(error, CheckError)
+    return str(error)[:200] if expected else f"a field is missing or of another kind ({error!s:.80})"

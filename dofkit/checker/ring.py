@@ -90,8 +90,8 @@ class QuotientRing:
     def to_power(self, base: Quotient, exponent: int) -> Quotient:
         """A whole power."""
         refuse(abs(exponent) > LARGEST_POWER, "a power is too large")
-        found = repeated(self.constant(1), base, abs(exponent), self.times)
-        return self._reduced(found.below, found.above) if exponent < 0 else found
+        power = repeated(self.constant(1), base, abs(exponent), self.times)
+        return self._reduced(power.below, power.above) if exponent < 0 else power
 
     def _reduced(self, above: Any, below: Any) -> Quotient:
         """A quotient without common factors, where these are found at a moderate price."""
@@ -107,8 +107,10 @@ class QuotientRing:
 
     def key(self, quotient: Quotient) -> Any:
         """A quotient as something that can be compared: the same key, the same quotient."""
-        parts = [[(tuple(k for k in enumerate(e) if k[1]), int(c.p), int(c.q)) for e, c in p.terms()] for p in quotient]
-        return tuple(map(tuple, parts))
+        coefficients = [
+            [(tuple(k for k in enumerate(e) if k[1]), int(c.p), int(c.q)) for e, c in p.terms()] for p in quotient
+        ]
+        return tuple(map(tuple, coefficients))
 
     def value_of(self, quotient: Quotient) -> Any:
         """The rational number that a quotient is, or None."""
@@ -124,21 +126,21 @@ class QuotientRing:
         if value is not None:
             return self._number_root(value, order) if value != 0 else u
         size = abs(u.above.leading_coefficient())
-        rest = Quotient(u.above / size, u.below)
-        rule = self._product(rest.above, repeated(self.one, u.below, order - 1, self._product))
-        found = self.generator(("root", order, self.key(rest)), order, rule)
-        return self.times(Quotient(found.above, u.below), self._number_root(size, order))
+        radicand = Quotient(u.above / size, u.below)
+        rule = self._product(radicand.above, repeated(self.one, u.below, order - 1, self._product))
+        symbol = self.generator(("root", order, self.key(radicand)), order, rule)
+        return self.times(Quotient(symbol.above, u.below), self._number_root(size, order))
 
     def _number_root(self, value: Any, order: int) -> Quotient:
         whole = fmpz(value.p) * fmpz(value.q) ** (order - 1)
         self.effort.spend(int(whole).bit_length() ** 3 // 20)
         primes = whole.factor() if int(whole).bit_length() <= 128 else [(whole, 1)]
-        found = self.constant(Fraction(1, int(value.q)))
+        product = self.constant(Fraction(1, int(value.q)))
         for prime, exponent in primes:
             outside, inside = divmod(int(exponent), order)
-            root = self.generator(("root", order, int(prime)), order, fmpq(prime)) if inside else found
-            found = self.times(found, self.times(self.constant(int(prime) ** outside), self.to_power(root, inside)))
-        return found
+            root = self.generator(("root", order, int(prime)), order, fmpq(prime)) if inside else product
+            product = self.times(product, self.times(self.constant(int(prime) ** outside), self.to_power(root, inside)))
+        return product
 
 
 class CheckedRing(QuotientRing):
@@ -177,7 +179,7 @@ class CheckedRing(QuotientRing):
         if head in ("sin", "cos"):
             return self._turned(below[0])[head == "sin"]
         if head == "exp":
-            powers = (self.to_power(self.generator(("exp", *one)), often) for *one, often in self._atoms(below[0]))
+            powers = (self.to_power(self.generator(("exp", *atom)), often) for *atom, often in self._atoms(below[0]))
             return reduce(self.times, powers, self.constant(1))
         values = [self.value_of(part) for part in below]
         if (head == "log" and values[0] == 1) or (head == "atan2" and values[0] == 0 and (values[1] or 0) > 0):
@@ -187,21 +189,23 @@ class CheckedRing(QuotientRing):
     def _atoms(self, u: Quotient) -> Iterator[tuple[Any, int, int]]:
         """An argument as a sum of multiples of parts of atoms: an atom's key, in how many parts, how often."""
         lead, whole = u.above.leading_coefficient(), u.below.is_constant()
-        parts = [(self.context.from_dict({e: 1}), c) for e, c in u.above.terms()] if whole else [(u.above / lead, lead)]
-        for part, size in parts:
+        monomials = (
+            [(self.context.from_dict({e: 1}), c) for e, c in u.above.terms()] if whole else [(u.above / lead, lead)]
+        )
+        for part, size in monomials:
             refuse(abs(size.p) > LARGEST_MULTIPLE, "too large a multiple in an argument")
             yield self.key(Quotient(part, u.below)), int(size.q), int(size.p)
 
     def _turned(self, u: Quotient) -> tuple[Quotient, Quotient]:
         """Cosine and sine of an argument."""
-        found = still = (self.constant(1), self.constant(0))
-        for key, parts, multiple in self._atoms(u):
-            unit = self.generator(("cos", key, parts))
-            other = self.generator(("sin", key, parts), 2, 1 - unit.above**2)
+        turn = still = (self.constant(1), self.constant(0))
+        for key, divisions, multiple in self._atoms(u):
+            unit = self.generator(("cos", key, divisions))
+            other = self.generator(("sin", key, divisions), 2, 1 - unit.above**2)
             cosine, sine = repeated(still, (unit, other), abs(multiple), self._rotated)
-            found = self._rotated(found, (cosine, sine if multiple > 0 else self.minus(still[1], sine)))
-        return found
+            turn = self._rotated(turn, (cosine, sine if multiple > 0 else self.minus(still[1], sine)))
+        return turn
 
-    def _rotated(self, one: tuple[Quotient, Quotient], by: tuple[Quotient, Quotient]) -> tuple[Quotient, Quotient]:
-        (c, s), (d, r) = one, by
+    def _rotated(self, turn: tuple[Quotient, Quotient], by: tuple[Quotient, Quotient]) -> tuple[Quotient, Quotient]:
+        (c, s), (d, r) = turn, by
         return self.minus(self.times(c, d), self.times(s, r)), self.plus(self.times(s, d), self.times(c, r))

@@ -66,12 +66,12 @@ class Tree:
         exponent = self.below[1].value if self.head == "power" else 1
         often = max(1, int(abs(exponent))) if isinstance(exponent, Fraction) else 1
         digits = self.value.as_integer_ratio() if isinstance(self.value, Fraction) else (0,)
-        own = 1 + max(map(int.bit_length, digits)) // 64
-        object.__setattr__(self, "size", own + often * sum(part.size for part in self.below))
+        words = 1 + max(map(int.bit_length, digits)) // 64
+        object.__setattr__(self, "size", words + often * sum(part.size for part in self.below))
         named = frozenset((str(self.value),) if self.head == "symbol" else ())
         object.__setattr__(self, "symbols", named.union(*(part.symbols for part in self.below)))
         object.__setattr__(self, "applied", self.head == "apply" or any(part.applied for part in self.below))
-        refuse(self.size > LARGEST or own > LARGEST_NUMBER, "an expression or a number is too large")
+        refuse(self.size > LARGEST or words > LARGEST_NUMBER, "an expression or a number is too large")
 
 
 ZERO, ONE = (Tree("number", (), Fraction(k)) for k in (0, 1))
@@ -87,29 +87,29 @@ def symbol(name: str) -> Tree:
     return Tree("symbol", (), name)
 
 
-def _split(parts: Sequence[Tree]) -> tuple[list[Fraction], list[Tree]]:
+def _split(operands: Sequence[Tree]) -> tuple[list[Fraction], list[Tree]]:
     """The numbers among terms or factors, and the others."""
-    refuse(sum(p.size - 1 for p in parts if p.head == "number") > LARGEST_NUMBER, "a number is too large")
-    return [p.value for p in parts if isinstance(p.value, Fraction)], [p for p in parts if p.head != "number"]
+    refuse(sum(p.size - 1 for p in operands if p.head == "number") > LARGEST_NUMBER, "a number is too large")
+    return [p.value for p in operands if isinstance(p.value, Fraction)], [p for p in operands if p.head != "number"]
 
 
 def add(*terms: Tree) -> Tree:
     """A sum; numbers are added up and 0 is left out."""
-    numbers, rest = _split(terms)
+    numbers, others = _split(terms)
     if constant := sum(numbers, Fraction(0)):
-        rest.append(number(constant))
-    return rest[0] if len(rest) == 1 else Tree("sum", tuple(rest)) if rest else ZERO
+        others.append(number(constant))
+    return others[0] if len(others) == 1 else Tree("sum", tuple(others)) if others else ZERO
 
 
 def times(*factors: Tree) -> Tree:
     """A product; numbers are multiplied and 1 is left out, 0 is 0."""
-    numbers, rest = _split(factors)
+    numbers, others = _split(factors)
     constant = prod(numbers, start=Fraction(1))
     if constant == 0:
         return ZERO
-    if constant != 1 or not rest:
-        rest.insert(0, number(constant))
-    return rest[0] if len(rest) == 1 else Tree("product", tuple(rest))
+    if constant != 1 or not others:
+        others.insert(0, number(constant))
+    return others[0] if len(others) == 1 else Tree("product", tuple(others))
 
 
 def negative(term: Tree) -> Tree:
@@ -153,13 +153,13 @@ _MEANINGS: dict[str, Callable[..., Tree]] = {
 Factor = TypeVar("Factor")
 
 
-def repeated(one: Factor, base: Factor, exponent: int, product: Callable[[Factor, Factor], Factor]) -> Factor:
+def repeated(unit: Factor, base: Factor, exponent: int, product: Callable[[Factor, Factor], Factor]) -> Factor:
     """A power by squaring."""
-    found = one
+    product_so_far = unit
     for bit in bin(exponent)[2:]:
-        found = product(found, found)
-        found = product(found, base) if bit == "1" else found
-    return found
+        product_so_far = product(product_so_far, product_so_far)
+        product_so_far = product(product_so_far, base) if bit == "1" else product_so_far
+    return product_so_far
 
 
 #: Bits of every ball.
@@ -181,8 +181,8 @@ def folded(
 
     def read(node: Tree) -> Made:
         if id(node) not in done:
-            known = plain(node) if plain else None
-            done[id(node)] = made(node, tuple(map(read, node.below))) if known is None else known
+            made_already = plain(node) if plain else None
+            done[id(node)] = made(node, tuple(map(read, node.below))) if made_already is None else made_already
         return done[id(node)]
 
     return read(tree)
@@ -254,11 +254,11 @@ def linear_in(tree: Tree, names: Collection[str]) -> tuple[dict[str, Tree], Tree
     return {q: slope for q, slope in slopes.items() if slope != ZERO}, substituted(tree, dict.fromkeys(used, ZERO))
 
 
-def put_in(tree: Tree, name: str, given: Tree) -> tuple[Tree, Tree]:
+def put_in(tree: Tree, name: str, relation: Tree) -> tuple[Tree, Tree]:
     """The slope (or 0) of what is linear in a symbol, and a tree with the value of it at which that is 0."""
-    slopes, rest = linear_in(given, [name]) or ({}, ZERO)
+    slopes, remainder = linear_in(relation, [name]) or ({}, ZERO)
     slope = slopes.get(name, ZERO)
-    return slope, substituted(tree, {name: times(MINUS, rest, power(slope, MINUS))})
+    return slope, substituted(tree, {name: times(MINUS, remainder, power(slope, MINUS))})
 
 
 def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
@@ -267,14 +267,14 @@ def homogeneous_degree(tree: Tree, names: Collection[str]) -> Fraction | None:
     def degree(node: Tree, below: tuple[Fraction | None, ...]) -> Fraction | None:
         if not below:
             return Fraction(node.head == "symbol" and node.value in names)
-        known, exponent = [one for one in below if one is not None], node.below[-1].value
-        if len(known) < len(below):
+        degrees, exponent = [degree_below for degree_below in below if degree_below is not None], node.below[-1].value
+        if len(degrees) < len(below):
             return None
         if node.head == "power" and isinstance(exponent, Fraction):
-            return known[0] * exponent
+            return degrees[0] * exponent
         if node.head == "product":
-            return sum(known, Fraction(0))
-        return known[0] if len(set(known)) == 1 and (node.head == "sum" or not known[0]) else None
+            return sum(degrees, Fraction(0))
+        return degrees[0] if len(set(degrees)) == 1 and (node.head == "sum" or not degrees[0]) else None
 
     return folded(tree, degree)
 
@@ -287,11 +287,11 @@ def in_velocities(tree: Tree, coordinates: Collection[str]) -> Tree:
     degree = homogeneous_degree(tree, ["dt"])
     refuse(degree is None, "differentials and finite terms are added together")
     tree = substituted(tree, {"dt": ONE})
-    parts = linear_in(tree, [f"{q}dot" for q in coordinates])
-    if parts is None:
+    linear = linear_in(tree, [f"{q}dot" for q in coordinates])
+    if linear is None:
         return tree
-    form = [times(slope, symbol(rate)) for rate, slope in parts[0].items()]
-    return add(*form, times(parts[1], symbol("tdot"))) if form or degree else parts[1]
+    form = [times(slope, symbol(rate)) for rate, slope in linear[0].items()]
+    return add(*form, times(linear[1], symbol("tdot"))) if form or degree else linear[1]
 
 
 def not_zero(ball: Any) -> bool:
@@ -304,9 +304,9 @@ def evaluated(tree: Tree, values: Mapping[str, Any], effort: Effort) -> Any:
 
     def value(node: Tree, below: tuple[Any, ...]) -> Any:
         effort.spend(1)
-        found = _value(node, values, below)
-        refuse(not found.is_finite(), "a value is not finite at the point")
-        return found
+        ball = _value(node, values, below)
+        refuse(not ball.is_finite(), "a value is not finite at the point")
+        return ball
 
     with ctx.workprec(PRECISION):
         return folded(tree, value)
@@ -331,8 +331,8 @@ def _value(node: Tree, values: Mapping[str, Any], below: tuple[Any, ...]) -> Any
     # a power: of what is positive; a whole one, of what is not 0 where it is negative; a constant root of 0
     exponent = node.below[1].value if head == "power" else Fraction(1, 2)
     if isinstance(exponent, Fraction) and exponent.denominator == 1 and (exponent > 0 or not_zero(u)):
-        found = repeated(arb(1), u, abs(int(exponent)), operator.mul)
-        return found if exponent > 0 else 1 / found
+        ball = repeated(arb(1), u, abs(int(exponent)), operator.mul)
+        return ball if exponent > 0 else 1 / ball
     zero = u == 0 and other > 0 and not node.symbols
     refuse(head != "power" or not (u > 0 or zero), f"a {head} has no smooth value at the point, or may have none")
     return u if zero else u**other

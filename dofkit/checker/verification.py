@@ -62,27 +62,27 @@ def verify(scene: Any, certificate: Mapping[str, Any] | str | bytes) -> Verifica
     Without a scene, the document in the certificate is taken. A certificate that cannot be read, or that is of another
     scene, raises `CheckError`; a claim that is not shown is told in ``failed``.
     """
-    given = certificate_of(certificate)
-    scene = given["scene"].get("document") if scene is None else scene
-    return Verifier(document_of(scene) if isinstance(scene, str) else scene, given).run()
+    content = certificate_of(certificate)
+    scene = content["scene"].get("document") if scene is None else scene
+    return Verifier(document_of(scene) if isinstance(scene, str) else scene, content).run()
 
 
-def certificate_of(given: Any) -> dict[str, Any]:
+def certificate_of(content: Any) -> dict[str, Any]:
     """A certificate from its text or mapping: of the right form, and not too large."""
-    told_in_text = isinstance(given, (str, bytes))
-    refuse(told_in_text and len(given) > LARGEST_TEXT, "the certificate is too long")
+    told_in_text = isinstance(content, (str, bytes))
+    refuse(told_in_text and len(content) > LARGEST_TEXT, "the certificate is too long")
     try:
-        given = json.loads(given if told_in_text else json.dumps(given))
+        content = json.loads(content if told_in_text else json.dumps(content))
     except (TypeError, ValueError, RecursionError) as error:
         raise CheckError(f"the certificate is no JSON: {str(error)[:100]}") from None
-    form = isinstance(given, Mapping) and isinstance(given.get("scene"), Mapping) and given.get("certificate")
+    form = isinstance(content, Mapping) and isinstance(content.get("scene"), Mapping) and content.get("certificate")
     refuse(type(form) is not int or form != 1, "a certificate is an object of version 1, with a scene")
-    found: dict[str, Any] = {**{name: [] for name in LISTS}, **given}
-    for name in found.keys() - {"certificate", "scene"}:
-        entries, kind = found[name], LISTS.get(name, ())
+    filled: dict[str, Any] = {**{name: [] for name in LISTS}, **content}
+    for name in filled.keys() - {"certificate", "scene"}:
+        entries, kind = filled[name], LISTS.get(name, ())
         fine = kind and isinstance(entries, list) and len(entries) <= MOST_ENTRIES
-        refuse(not fine or not all(isinstance(one, kind) for one in entries), f"`{str(name)[:40]}` cannot be read")
-    return found
+        refuse(not fine or not all(isinstance(entry, kind) for entry in entries), f"`{str(name)[:40]}` cannot be read")
+    return filled
 
 
 class Verifier:
@@ -107,8 +107,8 @@ class Verifier:
 
     def run(self) -> Verification:
         """Every claim in its order; where the type of a constraint is not known, all are uncovered."""
-        unread, whole, left = self.problem.world.unread, self.given["claims"], self.given["uncovered"]
-        failed, seen, claims = list[dict[str, str]](), set(left), [] if unread else whole
+        unread, whole, uncovered = self.problem.world.unread, self.given["claims"], self.given["uncovered"]
+        failed, seen, claims = list[dict[str, str]](), set(uncovered), [] if unread else whole
         for claim in claims:
             path, rule = str(claim.get("path"))[:200], str(claim.get("rule"))[:60]
             try:
@@ -118,22 +118,22 @@ class Verifier:
                 failed.append({"path": path, "rule": rule, "why": told(error)})
             seen.add(path)
         name = str(self.given["scene"].get("name", self.document.get("name")))[:200]
-        left = left + [str(claim.get("path"))[:200] for claim in whole if unread]
-        return Verification(name, len(whole), len(claims) - len(failed), failed, left)
+        uncovered = uncovered + [str(claim.get("path"))[:200] for claim in whole if unread]
+        return Verification(name, len(whole), len(claims) - len(failed), failed, uncovered)
 
     def check(self, claim: dict[str, Any]) -> None:
         """`CheckError` unless the claim is shown; what was verified before may be used."""
         path, rule, value, cayley = claim["path"], claim["rule"], claim["value"], claim.get("cayley") is True
-        parts, about = path.split("/"), claim.get("about")
-        field = parts[3] if len(parts) == 4 and parts[1] == "constraints" else ""
+        keys, about = path.split("/"), claim.get("about")
+        field = keys[3] if len(keys) == 4 and keys[1] == "constraints" else ""
         whole = about == "everywhere" or path == "/conflicting" or value is False
         refuse(cayley and whole and not field and path not in LOCAL, "a chart is no whole")
-        refuse(parts[0] or ("about" in claim and path not in ("/dof", "/velocity_dof")), "no path, or a spare `about`")
+        refuse(keys[0] or ("about" in claim and path not in ("/dof", "/velocity_dof")), "no path, or a spare `about`")
         evidence = self.evidence(cayley)
         for name in claim.get("covers", []):
             evidence.once(("covers", name), partial(take_cover, evidence, name))
-        owner = parts[-2].replace("~1", "/").replace("~0", "~")
-        found = RULES[field or path, rule](evidence, {**claim, "owner": owner, "field": field}, self.verified)
-        same = json.dumps(found, sort_keys=True) == json.dumps(value, sort_keys=True)
-        refuse(not same, f"the evidence gives {found!r}, not {str(value)[:80]!r}")
+        owner = keys[-2].replace("~1", "/").replace("~0", "~")
+        shown_value = RULES[field or path, rule](evidence, {**claim, "owner": owner, "field": field}, self.verified)
+        same = json.dumps(shown_value, sort_keys=True) == json.dumps(value, sort_keys=True)
+        refuse(not same, f"the evidence gives {shown_value!r}, not {str(value)[:80]!r}")
         self.verified |= {f"{field} {owner}" if field else path: value, f"{path} about": about}

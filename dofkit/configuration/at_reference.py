@@ -78,7 +78,7 @@ def at_reference(chart: Chart, reference: Mapping[Expr, Expr]) -> AtReference | 
 
 
 def _is_exact(chart: Chart, pose: Mapping[Expr, Expr], answer: AtReference) -> bool:
-    """Is the rank, which is not too large over GF(p), proved not to be too small?
+    """Return whether the rank, which is not too large over GF(p), is proved not to be too small.
 
     So it is where no row depends on others, where only motions of the whole are left, and at a rational point.
     """
@@ -118,7 +118,7 @@ def _by_field(chart: Chart, pose: Mapping[Expr, Expr]) -> AtReference | None:
 def _with_fewer(
     chart: Chart, pose: Mapping[Expr, Expr], point: FieldPoint, fields: Sequence[Sequence[Any]]
 ) -> tuple[LocalDimension, int]:
-    """The local dimension by a chart with fewer coordinates, where there is one, and how many went.
+    """Return the local dimension by a chart with fewer coordinates, where there is one, and how many went.
 
     ``fields``: the motions of the whole as one body over the chart's columns; what they are on fewer is what is left.
     """
@@ -141,7 +141,7 @@ def _with_fewer(
 def _by_parts(
     chart: Chart, pose: Mapping[Expr, Expr], matrix: Sequence[SparseRow], p: int, rank: int
 ) -> tuple[LocalDimension, FollowedClasses] | None:
-    """The local dimension where every class of dependent relations gives a manifold, and what was looked at.
+    """Return the local dimension where every class of dependent relations gives a manifold, and what was looked at.
 
     None where one does not, or is not known to, or is all there is: then all have to be
     looked at together.
@@ -195,7 +195,7 @@ def _of_part(chart: Chart, pose: Mapping[Expr, Expr], rank: int) -> tuple[LocalD
 
 
 def _at_fixed_time(local: LocalDimension, timed: int) -> LocalDimension:
-    """The dimension without that of time, along which the set goes on; none where it does not."""
+    """Return the dimension without that of time, along which the set goes on; none where it does not."""
     if local.dimension is None:
         return local
     return replace(local, dimension=None if local.confined else local.dimension - timed)
@@ -233,7 +233,7 @@ def _dimension_along_curves(manifold: Manifold, rigid: int, time: int | None) ->
 
 
 def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] | None:
-    """The Jacobian over all columns; None where a relation's ball excludes 0 or has no value."""
+    """Return the Jacobian over all columns; None where a relation's ball excludes 0 or has no value."""
     try:
         at = values(chart.ring, ball)
         if exact and not all(at[node].contains(0) for node in chart.nodes):
@@ -247,7 +247,7 @@ def ball_matrix(chart: Chart, ball: BallPoint, exact: bool) -> list[list[arb]] |
 
 
 def ball_point(chart: Chart, pose: Mapping[Expr, Expr], rng: random.Random) -> BallPoint | None:
-    """The reference configuration with balls; symbols without a value get random ones."""
+    """Return the reference configuration with balls; symbols without a value get random ones."""
     with ctx.workprec(precision()):
         return _ball_point(chart, pose, rng)
 

@@ -59,7 +59,7 @@ class BoundedCase:
 def cases_of(
     relations: Sequence[Expr], unknowns: Sequence[Expr], positive: frozenset[Expr]
 ) -> list[BoundedCase] | None:
-    """The cases of some relations between ``unknowns``; None where there are too many of them.
+    """Return the cases of some relations between ``unknowns``; None where there are too many of them.
 
     Other symbols are generic constants, in which the relations have to be analytic: else what is not 0 everywhere may
     be 0 through an interval. No case: there is no real point. Where combinations lead to too many cases, those of the
@@ -94,7 +94,7 @@ def _cases_of(
 
 
 def _split(case: ZeroCase, moving: frozenset[Expr], positive: frozenset[Expr]) -> list[ZeroCase] | None:
-    """The cases within one; None where it is told apart no further."""
+    """Return the cases within one; None where it is told apart no further."""
     if case.fresh:
         g, unsplit = case.fresh[0], case.fresh[1:]
         branches = zero_set(g, positive, moving)[0]
@@ -153,7 +153,7 @@ def _linear(relations: Sequence[Expr], moving: frozenset[Expr]) -> Iterator[tupl
 
 
 def _same_zeros(e: Expr, other: Expr, positive: frozenset[Expr]) -> bool:
-    """Are two expressions the same up to a number?"""
+    """Return whether two expressions are the same up to a number."""
     if e.symbols != other.symbols:
         return False
     ring = Ring([e, other], positive)
@@ -167,7 +167,7 @@ def _same_zeros(e: Expr, other: Expr, positive: frozenset[Expr]) -> bool:
 
 
 def _bounded(case: ZeroCase, unknowns: Sequence[Expr], positive: frozenset[Expr]) -> BoundedCase:
-    """A case that is told apart no further, with the bound of its dimension: -1 where it has no point.
+    """Return a case that is told apart no further, with the bound of its dimension: -1 where it has no point.
 
     One relation takes one dimension away, unless it holds everywhere; several take that of a Groebner basis.
     """

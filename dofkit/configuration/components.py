@@ -131,7 +131,7 @@ def _variety_of(chart: Chart, relations: Sequence[Expr], look: Callable[[Chart],
 
 
 def _is_regular(chart: Chart, variety: Variety) -> bool:
-    """Have the relations as large a rank there as the dimension says?"""
+    """Return whether the relations have as large a rank there as the dimension says."""
     rank = (
         None if not variety.samples else rank_of_rows(field_jacobian(chart, variety.samples[0]), variety.samples[0].p)
     )
@@ -179,7 +179,7 @@ def _most(choice: Iterable[all_cases.BoundedCase]) -> int:
 
 
 def _larger(chart: Chart, best: Variety, other: Variety, most: int) -> tuple[Variety, bool]:
-    """The larger of two varieties, and whether the other is known to be as large as it can be."""
+    """Return the larger of two varieties, and whether the other is known to be as large as it can be."""
     samples = [p for p in other.samples if on_variety(chart, p)]
     if not other.consistent or other.dimension is None or not samples:
         return best, False
@@ -197,14 +197,14 @@ def _restricted(chart: Chart, relations: Sequence[Expr]) -> Chart:
 
 
 def is_graph(chart: Chart) -> bool:
-    """Does every relation give a coordinate as a function of others, on one region of space? [ImplicitFunctions]."""
+    """Return whether every relation gives a coordinate as a function of others on one region [ImplicitFunctions]."""
     if len(chart.relations) > MAX_RELATIONS or _in_regions(chart):
         return False
     return not explicit_relations(chart.relations).implicit
 
 
 def _in_regions(chart: Chart) -> bool:
-    """Do signs of what moves occur? On each side of their zeros other functions stand there.
+    """Return whether signs of what moves occur: on each side of their zeros other functions stand there.
 
     Signs of velocities part these, at every configuration.
     """
@@ -214,7 +214,7 @@ def _in_regions(chart: Chart) -> bool:
 
 
 def is_irreducible(chart: Chart) -> bool:
-    """Is the set known to have one part, so that what is generic somewhere is so everywhere, singular points apart?
+    """Return whether the set is known to have one component: what is generic at a regular point is so at all of them.
 
     So have a graph, and the zeros of one polynomial without factors: parts that it may have over larger numbers are
     conjugate, and as good as each other.
@@ -238,7 +238,7 @@ def is_irreducible(chart: Chart) -> bool:
 
 
 def explicit_relations(relations: Sequence[Expr]) -> Explicit:
-    """The relations that give a coordinate: a number, or parameters, times it plus what does not hold it.
+    """Return the relations that give a coordinate: a number, or parameters, times it plus what does not hold it.
 
     Those go first whose coordinate stands in no other; then it is put into the others.
     """
@@ -289,7 +289,7 @@ def _is_generic(e: Expr) -> bool:
 
 
 def _may_be_put(g: Expr, s: Expr, relations: Sequence[Expr]) -> bool:
-    """Can a coordinate be solved for and put into the other relations, which stay small?"""
+    """Return whether a coordinate can be solved for and put into the other relations, which stay small."""
     if _slope(g, s) is None:
         return False
     size = sum(1 for _ in ex.nodes(g))
@@ -297,7 +297,7 @@ def _may_be_put(g: Expr, s: Expr, relations: Sequence[Expr]) -> bool:
 
 
 def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[RelationPart]:
-    """The relations by the coordinates that they share; the moment is any."""
+    """Return the relations by the coordinates that they share; the moment is any."""
     coordinates = frozenset(symbols)
     groups = []
     for numbers in components(g.symbols & coordinates for g in relations):
@@ -308,7 +308,7 @@ def parts_of(relations: Sequence[Expr], symbols: Sequence[Expr]) -> list[Relatio
 
 
 def _cases(part: RelationPart, chart: Chart, fibre: bool) -> list[all_cases.BoundedCase] | None:
-    """The cases of a part with the bounds of their dimensions; a ``fibre`` is a generic one."""
+    """Return the cases of a part with the bounds of their dimensions; a ``fibre`` is a generic one."""
     if fibre:
         return [all_cases.BoundedCase(part.relations, len(part.unknowns) - len(part.relations), True)]
     try:
@@ -319,6 +319,6 @@ def _cases(part: RelationPart, chart: Chart, fibre: bool) -> list[all_cases.Boun
 
 
 def _is_fibre(part: RelationPart, positive: frozenset[Expr]) -> bool:
-    """Has each relation a parameter that no other holds, in which it is nowhere stationary? [Sard1942]."""
+    """Return whether each relation has a parameter of its own in which it is nowhere stationary [Sard1942]."""
     times = Counter(s for g in part.relations for s in g.symbols if _is_parameter(s))
     return all(any(times[s] == 1 and never_vanishes(diff(g, s), positive) for s in g.symbols) for g in part.relations)

@@ -59,7 +59,7 @@ class Unmet:
 
 
 def lengths_unmet(block: Block, setting: Setting) -> Answer | None:
-    """The answer to a block whose links cannot close; None where that is not seen."""
+    """Return the answer to a block whose links cannot close; None where that is not seen."""
     owners = sorted({row.constraint for row in block.rows})
     prescribed = [(i, d) for i in owners for d in setting.distances.get(i, ())]
     unmet_lengths = unmet(prescribed, setting.dimension, setting.positive) if len(prescribed) > 1 else None
@@ -117,7 +117,7 @@ class _Web:
         return self._longer(a, [b]) or self._longer(b, [a])
 
     def _longer(self, longest: Side, others: Sequence[Side]) -> bool:
-        """Is one length certainly more than some others together, whatever the positive parameters are?"""
+        """Return whether a length is certainly more than others together, whatever the positive parameters are."""
         gap = ex.add(_length(longest), *(ex.mul(ex.MINUS_ONE, _length(o)) for o in others))
         if gap.symbols:
             return never_holds(ex.mul(ex.MINUS_ONE, gap), False, self.positive)
@@ -205,7 +205,7 @@ def _length(side: Side) -> Expr:
 
 
 def _lengths_but(hidden: Side) -> Any:
-    """The lengths of all sides but one."""
+    """Return the lengths of all sides but one."""
 
     def weight(_u: Node, _v: Node, data: Mapping[str, Side]) -> float | None:
         return None if data["side"] is hidden else data["side"].length

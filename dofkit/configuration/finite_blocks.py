@@ -95,7 +95,7 @@ def _answer_of(variety: Variety) -> Answer:
 
 
 def _real_rows(chart: Chart, real: RealPoint | None) -> RealRows | None:
-    """The rows at a certified point, where they may tell another part of the set."""
+    """Return the rows at a certified point, where they may tell another part of the set."""
     if real is None or not real.certified or not real.consistent:
         return None
     matrix = ball_matrix(chart, real.point, False)
@@ -202,7 +202,7 @@ LEVEL = (
 
 
 def level_angle(block: Block, setting: Setting) -> str | None:
-    """A tilt of the block that is 0 or pi in a configuration that was found by chance; None where there is none.
+    """Return a tilt of the block that is 0 or pi in a configuration that was found by chance; None where there is none.
 
     There is a part of the set then where the body is level, and what is counted of the set may be counted there.
     """

@@ -35,7 +35,7 @@ from dofkit.relations.blocks import Chart
 
 
 def variety_at(chart: Chart, samples: list[FieldPoint], seed: int, core: Sequence[int]) -> Variety:
-    """The set near generic points over GF(p) that lie on it, held against a real point.
+    """Return the set near generic points over GF(p) that lie on it, held against a real point.
 
     ``core``: relations to search a real point of. Points at which the time is fixed, or at which a sign is another than
     at the real point, lie on other parts of the set.
@@ -65,7 +65,7 @@ def variety_at(chart: Chart, samples: list[FieldPoint], seed: int, core: Sequenc
 
 
 def near_real_point(chart: Chart, real: RealPoint | None, core: Sequence[int]) -> Variety:
-    """The set near a real point, without points over GF(p)."""
+    """Return the set near a real point, without points over GF(p)."""
     if real is None:
         return Variety(None, None, "undecided", reasons=["no configuration satisfying all equations was found"])
     columns = len(chart.columns)
@@ -90,7 +90,7 @@ ALLOWING = "the answers assume that the unknown functions are such that a real c
 
 
 def real_point(chart: Chart, seed: int, core: Sequence[int]) -> RealPoint | None:
-    """A real point of the nodes ``core``, with balls; None where none is found, or none is looked for."""
+    """Return a real point of the nodes ``core``, with balls; None where none is found, or none is looked for."""
     if len(chart.columns) > BALL_COLUMNS or "balls" not in chart.engines:
         return None
     search = RealSearch(chart.ring, core, chart.unknowns, chart.positive, chart.symbols)
@@ -128,7 +128,7 @@ def with_reality(chart: Chart, variety: Variety, rank: int) -> Variety:
 
 
 def _hangs_on_a_function(e: Expr) -> bool:
-    """Do coordinates stand within unknown functions only? h(x) = 0 holds somewhere for some h, not for all."""
+    """Return whether coordinates stand in unknown functions only: h(x) = 0 holds somewhere for some h, not for all."""
     within = any(node.op == "call" for node in ex.nodes(e))
     return within and not any(s.args[0] == "coordinate" for s in _outside_calls(e))
 
@@ -195,7 +195,7 @@ MAX_ROWS, TINY = 20, 1e-12
 
 
 def numeric_local(chart: Chart, real: RealPoint) -> LocalDimension | None:
-    """The local dimension near a singular point that a real search ran into; None where it cannot be told."""
+    """Return the local dimension near a singular point that a real search ran into; None where it cannot be told."""
     if len(chart.nodes) > MAX_ROWS:
         return None
     with ctx.workprec(BITS):

@@ -44,7 +44,7 @@ def field_jacobian(chart: Chart, point: FieldPoint, nodes: Sequence[int] | None 
 
 
 def on_variety(chart: Chart, point: FieldPoint) -> bool:
-    """Do all finite relations hold at the point?"""
+    """Return whether all finite relations hold at the point."""
     try:
         at = values(chart.ring, point)
     except NoValueError:
@@ -53,7 +53,7 @@ def on_variety(chart: Chart, point: FieldPoint) -> bool:
 
 
 def pose_point(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> FieldPoint | None:
-    """The point where the symbols have the given exact values and the others are random."""
+    """Return the point where the symbols have the given exact values and the others are random."""
     occurring = {s: v for s, v in pose.items() if chart.ring.var_index(s) is not None}
     fixed = _values_of_generators(chart.ring, occurring)
     if fixed is None:
@@ -126,7 +126,7 @@ def has_same_signs(chart: Chart, point: FieldPoint, real: RealPoint) -> bool:
 
 
 def generators_of(chart: Chart) -> set[int]:
-    """The generators that the finite relations reach."""
+    """Return the generators that the finite relations reach."""
     code = chart.ring.code
     return {code[i][1] for i in reachable(chart.ring, chart.nodes) if code[i][0] == VAR}
 

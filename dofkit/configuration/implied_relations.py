@@ -58,7 +58,7 @@ class ImpliedRelations:
     _answers: dict[tuple[int, ...], bool | None] = field(default_factory=dict)
 
     def follows(self, row: int, others: Sequence[int], afar: bool = True) -> bool | None:
-        """Does relation ``row`` vanish near the drawing where ``others`` do? Those are independent at the drawing.
+        """Return whether relation ``row`` vanishes near the drawing where ``others``, independent there, do.
 
         None where it was not decided. Not ``afar``: True says only that it vanishes to some order.
         """
@@ -90,7 +90,7 @@ class ImpliedRelations:
             return list(others)
 
     def rigid(self, rows: Sequence[int]) -> int:
-        """The dimension of the motions of the whole that keep some relations, over the coordinates they mention.
+        """Return the dimension of the motions of the whole that keep some relations, over the coordinates they mention.
 
         0 where they mention not all, or the motions are not known.
         """
@@ -99,7 +99,7 @@ class ImpliedRelations:
         return 0 if point is None or len(subchart.symbols) < len(self.chart.symbols) else rigid_motions(subchart, point)
 
     def seem_to_follow(self, rows: Sequence[int], others: Sequence[int]) -> bool:
-        """Do relations hold at every point that is found, from random starts, near the drawing where others hold?
+        """Return whether relations hold at every point, searched for near the drawing from random starts, of others.
 
         Numbers, no proof: for sets that are singular all along, whose branches are found as their points are.
         """
@@ -136,7 +136,7 @@ class ImpliedRelations:
 
 
 def _on_manifold(chart: Chart, pose: Mapping[Expr, Expr], rank: int, afar: bool) -> bool | None:
-    """Do the relations cut out a manifold of codimension ``rank``, which is that of all but one of them?"""
+    """Return whether the relations cut out a manifold of codimension ``rank``, that of all but one of them."""
     if "field" not in chart.engines:
         return None
     small, free = smaller(chart)
@@ -152,14 +152,14 @@ def _on_manifold(chart: Chart, pose: Mapping[Expr, Expr], rank: int, afar: bool)
 
 
 def pivots_among(chart: Chart, point: FieldPoint, rows: Sequence[int]) -> Pivots:
-    """The frame of some rows that are independent at a point."""
+    """Return the frame of some rows that are independent at a point."""
     matrix = field_jacobian(chart, point, [chart.nodes[r] for r in rows])
     frame = sparse_frame(matrix, len(chart.columns), point.p)
     return replace(frame, rows=tuple(rows[r] for r in frame.rows))
 
 
 def _within_tolerance(chart: Chart, setting: Setting, pose: Mapping[Expr, Expr], rank: int) -> bool | None:
-    """The same of measured relations: does what moves under all but one of them keep that one within the tolerance?"""
+    """Return whether what moves under all measured relations but one keeps that one within the tolerance."""
     if "balls" not in chart.engines:
         return None
     try:
@@ -176,7 +176,7 @@ ORDER = 4
 
 
 def needed_along(field: Manifold, other: int) -> list[int]:
-    """The numbers of the manifold's relations whose multipliers for the dependent one, ``other``, are not 0.
+    """Return the numbers of the manifold's relations whose multipliers for the dependent one, ``other``, are not 0.
 
     Over GF(p), along a random curve, to an order. Raises NoValueError.
     """
@@ -198,5 +198,5 @@ def needed_along(field: Manifold, other: int) -> list[int]:
 
 
 def _sparse(row: Sequence[Series], k: int) -> SparseRow:
-    """The coefficients of s^k without zeros."""
+    """Return the coefficients of s^k without zeros."""
     return {c: v for c, series in enumerate(row) if (v := int(series.coefficient(k)))}

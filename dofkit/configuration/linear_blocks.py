@@ -130,7 +130,7 @@ def _fraction(value: fmpq) -> Fraction:
 
 
 def eliminated(block: Block, setting: Setting) -> Answer | None:
-    """The answer to a large block of finite relations, away from any drawing; None for any other.
+    """Return the answer to a large block of finite relations, away from any drawing; None for any other.
 
     Smaller ones are answered at points like all others, and `confirmed`.
     """
@@ -170,7 +170,7 @@ def eliminated(block: Block, setting: Setting) -> Answer | None:
 
 
 def _modulo(rows: Sequence[RationalRow], p: int) -> list[SparseRow] | None:
-    """The rows over GF(p); None where p divides a numerator or a denominator."""
+    """Return the rows over GF(p); None where p divides a numerator or a denominator."""
     if any(int(v.p) % p == 0 or int(v.q) % p == 0 for row in rows for v in row.values()):
         return None
     return [{c: int(v.p) * pow(int(v.q), -1, p) % p for c, v in row.items()} for row in rows]
@@ -180,7 +180,7 @@ def _modulo(rows: Sequence[RationalRow], p: int) -> list[SparseRow] | None:
 
 
 def confirmed(block: Block, a: Answer, setting: Setting, alone: bool) -> Answer:
-    """An answer that is only probable, as proved where exact elimination says the same.
+    """Return an answer that is only probable, as proved where exact elimination says the same.
 
     ``alone``: every constraint of the block wrote one row, in this block or any other.
     """
@@ -202,7 +202,7 @@ def confirmed(block: Block, a: Answer, setting: Setting, alone: bool) -> Answer:
 
 
 def _agrees(reduced: LinearElimination, a: Answer, n: int, alone: bool) -> bool:
-    """Does an answer say what the elimination does: freedom, labels, growth, and what depends on what?"""
+    """Return whether an answer has the freedom, labels, growth and dependences that the elimination has."""
     free = n - reduced.rank
     numbers = {a.dof, a.velocity_dof, *(() if a.instantaneous is None else (a.instantaneous,))}
     grown = a.growth is None or len(set(a.growth)) == 1
@@ -216,7 +216,7 @@ def _agrees(reduced: LinearElimination, a: Answer, n: int, alone: bool) -> bool:
 
 
 def _same_dependence(reduced: LinearElimination, matrix: Sequence[SparseRow], p: int, alone: bool) -> bool:
-    """Do the rows depend on each other modulo p as they do over the rationals?
+    """Return whether the rows depend on each other modulo p as they do over the rationals.
 
     The same rows are sums of the same rows before them; where constraints wrote several rows each, other sets of them
     are asked for as well: no minor of the rows concerned is a multiple of p that is not 0, because none is as large
@@ -234,7 +234,7 @@ def _same_dependence(reduced: LinearElimination, matrix: Sequence[SparseRow], p:
 
 
 def _primitive(row: RationalRow) -> list[int]:
-    """The entries as whole numbers without a common factor."""
+    """Return the entries as whole numbers without a common factor."""
     scale = math.lcm(*(int(v.q) for v in row.values()))
     whole = [int(v * scale) for v in row.values()]
     common = math.gcd(*whole)

@@ -24,13 +24,13 @@ TRIES = 8
 
 
 def rigid_motions(chart: Chart, point: FieldPoint) -> int:
-    """The dimension, at the point, of the displacements of everything as one body that keep all relations."""
+    """Return the dimension, at the point, of the displacements of everything as one body that keep all relations."""
     vectors = rigid_fields(chart, point)
     return rank_of(vectors, point.p) if vectors else 0
 
 
 def rigid_fields(chart: Chart, point: FieldPoint) -> list[list[Any]]:
-    """The displacements of everything as one body that keep all relations, at the point, over the columns.
+    """Return the displacements of everything as one body that keep all relations, at the point, over the columns.
 
     A displacement counts only if every relation is unchanged by it at a random point of the ambient space.
     """
@@ -61,7 +61,7 @@ def displacements_real(chart: Chart, point: BallPoint | FloatPoint) -> Any:
 
 
 def _away(chart: Chart) -> FieldPoint | BallPoint | None:
-    """A random point of the ambient space: over GF(p), or of balls where only those may be asked."""
+    """Return a random point of the ambient space: over GF(p), or of balls where only those may be asked."""
     if "field" in chart.engines:
         return free_point(chart, 11)
     search = RealSearch(chart.ring, (), (), chart.positive)
@@ -88,7 +88,7 @@ def _at(chart: Chart, point: FieldPoint | BallPoint | FloatPoint, field: Displac
 
 
 def _slopes(chart: Chart, point: FieldPoint | BallPoint) -> list[dict[int, Any]]:
-    """The derivatives of every relation by the generators."""
+    """Return the derivatives of every relation by the generators."""
     at = values(chart.ring, point)
     unit = point.number(ex.ONE.args[0])
     return [gradient(chart.ring, at, point, [(node, unit)]) for node in chart.nodes]
@@ -119,7 +119,7 @@ class RigidOrbit(NamedTuple):
 
     @classmethod
     def at_reference(cls, chart: Chart, setting: Setting, dof: int) -> RigidOrbit | None:
-        """The orbit, where it has the dimension ``dof`` and so is all that is near the reference; else None."""
+        """Return the orbit, where it has the dimension ``dof`` and so is all that is near the reference; else None."""
         if setting.reference is None or "field" not in setting.engines:
             return None
         point = pose_point(chart, {**setting.reference, ex.TIME: ex.ZERO}, 3)
@@ -131,12 +131,12 @@ class RigidOrbit(NamedTuple):
         return orbit if orbit.rank(orbit.names) == dof else None
 
     def rank(self, chosen: Sequence[str]) -> int:
-        """The rank of the projection of the tangent space onto some coordinates."""
+        """Return the rank of the projection of the tangent space onto some coordinates."""
         columns = [k for k, name in enumerate(self.names) if name in chosen]
         return rank_of([[field[k] for k in columns] for field in self.fields], self.p) if self.fields else 0
 
     def chart_of(self) -> list[str]:
-        """The first coordinates, in order, over which the orbit is a graph near the reference."""
+        """Return the first coordinates, in order, over which the orbit is a graph near the reference."""
         chosen: list[str] = []
         for name in self.names:
             if self.rank([*chosen, name]) > len(chosen):

@@ -113,7 +113,7 @@ def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:
 
 
 def _has_joint_positions(chart: Chart) -> bool:
-    """Is generic geometry of joints among the unknowns?"""
+    """Return whether generic geometry of joints is among the unknowns."""
     return any(u.args[1].startswith("_a") for u in chart.unknowns if chart.ring.var_index(u) is not None)
 
 
@@ -141,7 +141,7 @@ def _refuted(chart: Chart, solver: TriangularSolver) -> Variety | None:
 
 
 def _signed(ring: Ring, node: int) -> bool:
-    """Is there a sign that varies? Another one may make 0 of what is not."""
+    """Return whether there is a sign that varies: another one may make 0 of what is not."""
     inside = (ring.code[i] for i in reachable(ring, [node], through_generators=False))
     return any(op == VAR and ring.vars[k].kind == "sign" and ring.var_expr[k].symbols for op, k in inside)
 
@@ -180,7 +180,7 @@ def isolated(chart: Chart, variety: Variety) -> Variety | None:
 
 
 def _of_one_coordinate(part: RelationPart) -> bool:
-    """Do the relations hold one coordinate only, and is one of them somewhere not 0?"""
+    """Return whether the relations hold one coordinate only, and one of them is somewhere not 0."""
     if len(part.unknowns) != 1:
         return False
     return any(differs_from_zero(g) for g in part.relations)
@@ -199,7 +199,7 @@ def _common_zeros(part: RelationPart) -> Iterator[Expr]:
 
 
 def _witness(symbols: Sequence[Expr], explicit: Sequence[Expr], zeros: dict[Expr, Expr]) -> dict[Expr, str] | None:
-    """A point of the set; None where a coordinate that is given by others is none of short form."""
+    """Return a point of the set; None where a coordinate that is given by others is none of short form."""
     point = {s: zeros.get(s, ex.ZERO) for s in symbols}
     for g in reversed(explicit):
         s = next((s for s in sorted(g.symbols, key=repr) if s not in zeros), None)

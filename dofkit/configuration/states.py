@@ -85,12 +85,12 @@ class States:
 
     @property
     def independent(self) -> bool:
-        """Is what is not 0 over GF(p) certainly not 0?"""
+        """Whether what is not 0 over GF(p) is certainly not 0."""
         return independent_on_set(self.ring, self.finite)
 
     @property
     def chosen(self) -> bool:
-        """Are there signs that a point over GF(p) chooses at random, or functions that are one branch of an inverse?
+        """Whether there are signs that points over GF(p) draw at random, or functions that are a branch of an inverse.
 
         What holds for one sign need not for the other: atan2(y, x) = pi/4 is y = x on one half of it.
         """
@@ -98,13 +98,13 @@ class States:
 
     @property
     def kinked(self) -> bool:
-        """Do velocities stand in abs()?"""
+        """Whether velocities stand in abs()."""
         signs = (self.ring.var_expr[v.index] for v in self.ring.vars if v.kind == "sign")
         return any(s.args[0] == "velocity" for e in signs for s in e.symbols)
 
     @cached_property
     def rational(self) -> bool:
-        """Are the states rational functions of numbers chosen freely? Then the real ones are as generic as any.
+        """Whether the states are rational functions of numbers chosen freely: then the real ones are as generic as any.
 
         Else the set may have parts over GF(p) that no real state lies on: where r^2 = -l^2 of r^4 = l^4, or where
         exp(u) = 1 and u is not 0.
@@ -117,7 +117,7 @@ class States:
         return all(not s.plan.stuck and all(s.degree(*step) == 1 for step in s.plan.steps) for s in solvers)
 
     def draw(self, seed: int) -> FieldPoint | None:
-        """A generic state over GF(p): velocities at a generic configuration where they can be solved for."""
+        """Return a generic state over GF(p): velocities at a generic configuration where they can be solved for."""
         if "field" not in self.setting.engines:
             return None
         for k in range(TRIES):
@@ -155,7 +155,7 @@ class States:
         return all(at[n] == 0 for n in self.relations)
 
     def real(self, seed: int) -> RealPoint | None:
-        """A real state with balls: velocities at a random configuration where there are some, else any."""
+        """Return a real state with balls: velocities at a random configuration where there are some, else any."""
         if "balls" not in self.setting.engines:
             return None
         places = [*self.places, *self.setting.generic]
@@ -227,7 +227,7 @@ def rows_at(relations: Sequence[Expr], pose: Mapping[Expr, Expr]) -> tuple[Row, 
 
 
 def moves(ring: Ring, index: int) -> bool:
-    """Does a generator depend on velocities?"""
+    """Return whether a generator depends on velocities."""
     return any(s.args[0] == "velocity" for s in ring.var_expr[index].symbols)
 
 
@@ -244,7 +244,7 @@ def vanishes(value: Scalar) -> bool:
 
 
 def value_at(ring: Ring, point: FieldPoint | BallPoint, node: int) -> Scalar | None:
-    """The value of a node; None where it has none there."""
+    """Return the value of a node; None where it has none there."""
     try:
         return values(ring, point, node + 1)[node]
     except NoValueError:

@@ -61,7 +61,7 @@ def of_real_point(chart: Chart, real: RealPoint | None) -> Witness | None:
 
 
 def of_reference(symbols: Iterable[Expr], reference: Mapping[Expr, Expr]) -> Witness:
-    """The reference configuration; t = 0 there."""
+    """Return the reference configuration; t = 0 there."""
     pose = ((s, ex.ZERO if s == ex.TIME else reference[s]) for s in symbols if s == ex.TIME or s in reference)
     return {s: "0" if value.is_zero else to_text(value) for s, value in pose}
 

@@ -95,7 +95,7 @@ class Assignment(WrittenModel):
 
     @property
     def points_visibility(self) -> Visibility:
-        """When students see what their answers are worth."""
+        """Return when students see their points."""
         return self.visibility or ("after_due_date" if self.attempts is None else "visible")
 
 
@@ -131,7 +131,7 @@ class Prepared:
                 yield problem, question
 
     def most_points(self) -> dict[tuple[str, str], Fraction]:
-        """How many points each question is worth."""
+        """Return how many points each question is worth."""
         return {(problem.id, question.id): question.points for problem, question in self.questions()}
 
     def columns(self) -> dict[str, tuple[str, str]]:

@@ -72,7 +72,7 @@ def _gradescope_users(root: Path) -> list[Participant]:
 
 
 def _gradescope_visibility(prepared: Prepared | None, root: Path) -> Visibility:
-    """When points are shown; never is no answer: without a due date that is when grades are published."""
+    """Return when points are shown: without a due date when grades are published."""
     visibility = gradescope.visibility_of(prepared)
     dates = _object(_object(_json(root / "submission_metadata.json")).get("assignment"))
     endless = "due_date" in dates and not (dates["due_date"] or dates.get("late_due_date"))
@@ -190,7 +190,7 @@ def _only_hand_in(site: Site, prepared: Prepared) -> Handed | Result:
 
 
 def _is_hand_in(path: Path, folder: Path) -> bool:
-    """Is it a file that was handed in, in whatever folder? Links are not followed, hidden files are nobody's."""
+    """Return whether it is a submitted file, in whatever folder; links and hidden files are none."""
     names = path.relative_to(folder).parts
     around = [folder.joinpath(*names[:n]) for n in range(1, len(names) + 1)]
     hidden = any(part.startswith(".") or part == "__MACOSX" for part in names)
@@ -229,7 +229,7 @@ def _write(site: Site, result: Result, prepared: Prepared | None) -> None:
 
 
 def _json(path: Path) -> Any:
-    """What a platform's file says; None where it cannot be read."""
+    """Return the content of a platform's file, or None if it cannot be read."""
     try:
         with path.open("rb") as file:
             return json.loads(file.read(MOST_BYTES))

@@ -142,7 +142,7 @@ class Grader:
         return items
 
     def _decision(self, problem: Problem, question: QuestionBase, answer: Given) -> Decision | None:
-        """What a person decided of this answer, whoever gave it."""
+        """Return what a person decided about this answer, whoever gave it."""
         if not self.prepared.decisions:
             return None
         variant = self.prepared.marks.get((problem.id, question.id), "")
@@ -158,7 +158,7 @@ class Grader:
     def judge(
         self, spot: Spot, problem: Problem, question: QuestionBase, answer: Given, earlier: Mapping[str, Fraction]
     ) -> tuple[Judgement, Fraction | None]:
-        """What an answer is worth, and the number that it gives; after the same earlier ones always the same."""
+        """Return what an answer is worth, and its number; after the same earlier answers always the same."""
         if spot in self.condemned:
             return needs_review("", self.condemned[spot]), None
         remembered = self._known.get(spot)

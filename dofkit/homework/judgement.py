@@ -66,7 +66,7 @@ class Judgement:
         return replace(self, said=(*self.said, *_said(*sentences)))
 
     def feedback(self, language: Language = "en") -> str:
-        """What is said, in a language."""
+        """Return the feedback in a language."""
         return " ".join(sentence.translated(language) for sentence in self.said)
 
 

@@ -166,7 +166,7 @@ class Variants(WrittenModel):
     students: tuple[StudentVariant, ...] = Field((), description="the students")
 
     def find(self, text: str) -> StudentVariant | None:
-        """Whose name, address or number it is; None for nobody's, and for that of two."""
+        """Return whose name, address or number it is; None for nobody's, and for that of two."""
         matches = [
             member
             for member in self.students
@@ -215,7 +215,7 @@ def named(scene: Scene) -> dict[str, ConstraintBase]:
 
 
 def places(text: str) -> list[tuple[str, str | None]]:
-    """What a text leaves to the scene: a name, and a field of it."""
+    """Return the places of a text that the scene fills: a name, and a field of it."""
     return [(match[1], match[2]) for match in _SCENE_PLACE.finditer(text)]
 
 

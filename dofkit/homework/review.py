@@ -57,7 +57,7 @@ class ReviewRow:
 
     @property
     def filled(self) -> bool:
-        """Has a person written anything into it?"""
+        """Return whether a person has written anything into it."""
         return self.decision is not None or bool(self.cells.get("remark"))
 
 
@@ -119,7 +119,7 @@ class QueuedAnswer:
 
     @property
     def open(self) -> bool:
-        """Does it wait for a person?"""
+        """Return whether it awaits review."""
         return self.item.score is None
 
     def add(self, student: str, link: str) -> None:
@@ -145,7 +145,7 @@ class Queue:
                 queued.add(result.student, link)
 
     def open_answers(self) -> list[QueuedAnswer]:
-        """What waits for a person: by question, what most students gave first."""
+        """Return the answers that await review: by question, those of most students first."""
         return sorted(
             (queued for queued in self.answers.values() if queued.open),
             key=lambda queued: (self._order.get((queued.item.problem, queued.item.question), -1), -queued.count),
@@ -222,7 +222,7 @@ class FilledTable:
 
     @property
     def decisions(self) -> dict[str, Decision]:
-        """What a person decided, by the answer's identity."""
+        """Return what a person decided, by the answer's identity."""
         return {identity: row.decision for identity, row in self.rows.items() if row.decision is not None}
 
 

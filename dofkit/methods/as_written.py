@@ -49,8 +49,8 @@ class Written:
     @property
     def positive(self) -> frozenset[Expr]:
         """Parameters that are positive, squared lengths that were left out among them."""
-        found = {ex.parameter(p) for p, sign in self.system.parameters.items() if sign == "positive"}
-        return frozenset(found | {ex.parameter(p) for p in self.system.generic if p.startswith("_L")})
+        positive_symbols = {ex.parameter(p) for p, sign in self.system.parameters.items() if sign == "positive"}
+        return frozenset(positive_symbols | {ex.parameter(p) for p in self.system.generic if p.startswith("_L")})
 
 
 def as_written(scene: Scene | System) -> Written:
@@ -64,13 +64,13 @@ def as_written(scene: Scene | System) -> Written:
             if relation.sense != "=":
                 others[i] = "inequality"
                 continue
-            found = _read(relation.expr)
-            if isinstance(found, str):
-                others[i] = found
-            elif isinstance(found, Pfaffian):
-                forms.append((i, found))
+            equation = _read(relation.expr)
+            if isinstance(equation, str):
+                others[i] = equation
+            elif isinstance(equation, Pfaffian):
+                forms.append((i, equation))
             else:
-                finite.append((i, found))
+                finite.append((i, equation))
     return Written(system, tuple(finite), tuple(forms), others)
 
 
@@ -127,19 +127,19 @@ class WrittenRows:
 
     def at(self, point: Point, zero: Scalar) -> SampledRows:
         """Everything at one point."""
-        known = values(self.ring, point)
-        slopes = {node: self._slope(known, point, node, zero) for node in self._nodes()}
+        node_values = values(self.ring, point)
+        slopes = {node: self._slope(node_values, point, node, zero) for node in self._nodes()}
         finite = [slopes[node] for _, node in self.finite]
-        forms = [[known[a[c]] if c in a else zero for c in range(len(self.columns))] for _, a in self.forms]
+        forms = [[node_values[a[c]] if c in a else zero for c in range(len(self.columns))] for _, a in self.forms]
         curls = [self._curl({c: slopes[node] for c, node in a.items()}, zero) for _, a in self.forms]
-        return SampledRows(finite, forms, curls, [known[node] for _, node in self.finite], known)
+        return SampledRows(finite, forms, curls, [node_values[node] for _, node in self.finite], node_values)
 
     def _nodes(self) -> set[int]:
         return {node for _, node in self.finite} | {node for _, a in self.forms for node in a.values()}
 
-    def _slope(self, known: Sequence[Scalar], point: Point, node: int, zero: Scalar) -> list[Scalar]:
-        found = gradient(self.ring, known, point, [(node, zero + 1)])
-        return [zero if c is None else found.get(c, zero) for c in self.indices]
+    def _slope(self, node_values: Sequence[Scalar], point: Point, node: int, zero: Scalar) -> list[Scalar]:
+        slopes = gradient(self.ring, node_values, point, [(node, zero + 1)])
+        return [zero if c is None else slopes.get(c, zero) for c in self.indices]
 
     def _curl(self, slopes: dict[int, list[Scalar]], zero: Scalar) -> Matrix:
         """d omega: the derivatives of a_j by q_i less those of a_i by q_j."""
@@ -199,27 +199,27 @@ def _flat(curl: Matrix, basis: Matrix, numbers: Decider) -> bool:
     return True
 
 
-def freedom(found: SampledPoints, numbers: Decider) -> int:
+def freedom(sampled: SampledPoints, numbers: Decider) -> int:
     """Coordinates less the rank of the finite equations and of the forms that pass: the least over the points."""
-    n = found.rows.n
-    kept = [[*s.finite, *(f for f, p in zip(s.forms, found.passing, strict=True) if p)] for s in found.samples]
+    n = sampled.rows.n
+    kept = [[*s.finite, *(f for f, p in zip(s.forms, sampled.passing, strict=True) if p)] for s in sampled.samples]
     return min(n - numbers.rank([row[:n] for row in rows]) for rows in kept)
 
 
-def labels(found: SampledPoints) -> dict[str, bool]:
+def labels(samples: SampledPoints) -> dict[str, bool]:
     """Whether each constraint is taken for holonomic."""
-    told: dict[int, bool] = {}
-    for (i, _), passes in zip(found.rows.forms, found.passing, strict=True):
-        told[i] = told.get(i, True) and passes
-    return labelled(found.rows.written, told)
+    holonomic: dict[int, bool] = {}
+    for (i, _), passes in zip(samples.rows.forms, samples.passing, strict=True):
+        holonomic[i] = holonomic.get(i, True) and passes
+    return labelled(samples.rows.written, holonomic)
 
 
-def droppable(found: SampledPoints, numbers: Decider) -> list[str]:
+def droppable(sampled: SampledPoints, numbers: Decider) -> list[str]:
     """Constraints without which the rank stays as it is, the last written first; finite ones are fixed by finite ones.
 
     Inequalities and what is nonlinear in velocities are left in.
     """
-    sample, rows = found.samples[0], found.rows
+    sample, rows = sampled.samples[0], sampled.rows
     owners = [i for i, _ in rows.finite], [i for i, _ in rows.forms]
     kept = sorted({*owners[0], *owners[1]} - set(rows.written.others))
     fixed = {*owners[0], *owners[1]} & set(rows.written.others)
@@ -246,13 +246,13 @@ def drawn_value(value: Expr, point: Any) -> Scalar:
     return values(ring, point)[node]
 
 
-def independent_at_reference(found: SampledPoints, numbers: Decider) -> bool:
+def independent_at_reference(sampled: SampledPoints, numbers: Decider) -> bool:
     """Return whether all equations are read, finite, and independent over q at the reference configuration.
 
     Then the freedom there is the number of coordinates less that of equations [ImplicitFunctions].
     """
-    written = found.rows.written
+    written = sampled.rows.written
     if written.system.reference is None or written.others or written.forms:
         return False
-    rows = found.samples[0].rows
-    return numbers.rank([row[: found.rows.n] for row in rows]) == len(rows)
+    rows = sampled.samples[0].rows
+    return numbers.rank([row[: sampled.rows.n] for row in rows]) == len(rows)

@@ -103,10 +103,10 @@ def ask(
     """
     require_one_of(question, QUESTIONS, "question")
     seconds = None if budget is None else seconds_of(budget)
-    given = scene_or_system(scene)
+    loaded = scene_or_system(scene)
     if question == "equivalence":
-        _require_answer(given, answer)
-    return answered_by(given, question, answer, seconds)
+        _require_answer(loaded, answer)
+    return answered_by(loaded, question, answer, seconds)
 
 
 def _require_answer(scene: Scene | System, answer: object) -> None:
@@ -143,9 +143,9 @@ def answered_by(
 
 def _of_system(system: System, question: Question, engines: Engines) -> Reply:
     if engines == BOTH and question in ("dof", "redundancy"):
-        found = _by_graph(system, question)
-        if found is not None:
-            return found
+        reply = _by_graph(system, question)
+        if reply is not None:
+            return reply
     if question == "integrability" and all(map(_is_finite, prepared(system)[0])):
         return Reply({c.name: True for c in system.constraints}, "proved")
     return _QUESTIONS[question](study(system, engines, grows=False))
@@ -162,16 +162,16 @@ def _by_graph(system: System, question: Question) -> Reply | None:
     pairs = unprescribed_links(system)
     if pairs is None:
         return None
-    told = linkage([pair for _, pair in pairs], system.dimension)
-    sure = told.proof("redundant").verdict
+    link_answer = linkage([pair for _, pair in pairs], system.dimension)
+    sure = link_answer.proof("redundant").verdict
     if question == "dof":
-        return Reply(len(system.coordinates) - told.rank, sure)
-    names = [system.constraints[pairs[k][0]].name for k in told.redundant_places]
+        return Reply(len(system.coordinates) - link_answer.rank, sure)
+    names = [system.constraints[pairs[k][0]].name for k in link_answer.redundant_places]
     return Reply(names, sure) if len({i for i, _ in pairs}) == len(pairs) else None
 
 
-def _dof(known: Study) -> Reply:
-    outcome = known.outcome
+def _dof(studied: Study) -> Reply:
+    outcome = studied.outcome
     sure = weakest(*(a.verdict for a in outcome.answers))
     if outcome.consistent is False:
         return Reply(CONTRADICTORY, sure, "no motion satisfies all constraints")
@@ -185,41 +185,46 @@ def _why(outcome: Outcome) -> str:
     return next(reasons, "it was not decided")
 
 
-def _integrability(known: Study) -> Reply:
-    found = labels_in_system(known.reduced, known.setting, known.outcome)
-    labels = known.by_name([label for label, _ in found])
-    sure = weakest(*(verdict for _, verdict in found))
+def _integrability(studied: Study) -> Reply:
+    labels_of_study = labels_in_system(studied.reduced, studied.setting, studied.outcome)
+    labels = studied.by_name([label for label, _ in labels_of_study])
+    sure = weakest(*(verdict for _, verdict in labels_of_study))
     reason = ""
     if None in labels.values():
-        entries = known.entries_beside([])
+        entries = studied.entries_beside([])
         labels = {e.name: e.holonomic for e in entries}
         sure = weakest(*(e.verdict for e in entries))
         reason = next((e.reason for e in entries if e.holonomic is None), "")
     return Reply(labels, "undecided" if None in labels.values() else sure, reason)
 
 
-def _redundancy(known: Study) -> Reply:
-    outcome = known.outcome
+def _redundancy(studied: Study) -> Reply:
+    outcome = studied.outcome
     if not outcome.consistent or outcome.velocity_dof is None:
         return Reply(None, "undecided", _why(outcome))
-    found = redundancies(known.reduced, known.setting, outcome)
-    if known.redundant_equations == 0:
-        found = all_needed(found, known.reduced, outcome)
-    left = sorted({i for r in found for i in r.undecided})
-    if left:
-        return Reply(None, "undecided", f"whether {known.names[left[0]]} is implied by the others was not decided")
-    gone = sorted({i for r in found for i in r.redundant})
-    return Reply([known.names[i] for i in gone], weakest(*(a.verdict for a in outcome.answers)))
+    groups = redundancies(studied.reduced, studied.setting, outcome)
+    if studied.redundant_equations == 0:
+        groups = all_needed(groups, studied.reduced, outcome)
+    open_rows = sorted({i for r in groups for i in r.undecided})
+    if open_rows:
+        return Reply(
+            None, "undecided", f"whether {studied.names[open_rows[0]]} is implied by the others was not decided"
+        )
+    gone = sorted({i for r in groups for i in r.redundant})
+    return Reply([studied.names[i] for i in gone], weakest(*(a.verdict for a in outcome.answers)))
 
 
 def _equivalence(scene: Scene, answer: Mapping[str, str], engines: Engines) -> Reply:
     read = read_equations(answer["text"], vocabulary_of(scene).names, constants=False)
     system = lower(with_equations(scene, read, ANSWER)).in_coordinates
-    answered_by, own = system.numbers_of(answer["constraint"]), range(len(scene.constraints), len(system.constraints))
-    found = compare(system, answered_by, own, read.constants, engines).sameness
-    if found is Sameness.UNDECIDED:
+    answered_by, original = (
+        system.numbers_of(answer["constraint"]),
+        range(len(scene.constraints), len(system.constraints)),
+    )
+    comparison = compare(system, answered_by, original, read.constants, engines).sameness
+    if comparison is Sameness.UNDECIDED:
         return Reply(None, "undecided", "it was not decided whether each implies the other")
-    return Reply(found is Sameness.SAME, "probable", "" if found is Sameness.SAME else found.value)
+    return Reply(comparison is Sameness.SAME, "probable", "" if comparison is Sameness.SAME else comparison.value)
 
 
 _QUESTIONS: Mapping[Question, Callable[[Study], Reply]] = {

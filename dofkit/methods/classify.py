@@ -80,7 +80,7 @@ def classify(
     """
     require_one_of(method, METHODS, "method")
     if isinstance(scene, list | tuple):
-        return [_certified(given, budget, method, certificate) for given in _all_read(scene)]
+        return [_certified(loaded, budget, method, certificate) for loaded in _all_read(scene)]
     return _certified(scene_or_system(scene), budget, method, certificate)
 
 
@@ -101,21 +101,21 @@ def _all_read(scenes: Scenes) -> list[Scene | System]:
     return read
 
 
-def _certified(given: Scene | System, budget: float | None, method: MethodName, certificate: bool) -> Report:
-    if certificate and isinstance(given, System):
+def _certified(loaded: Scene | System, budget: float | None, method: MethodName, certificate: bool) -> Report:
+    if certificate and isinstance(loaded, System):
         raise ArgumentError("a certificate needs a Scene: a System has no text that the checker could read")
-    report = _classified(given, budget, method).beside(given)
-    return with_certificate(given, report) if certificate and isinstance(given, Scene) else report
+    report = _classified(loaded, budget, method).beside(loaded)
+    return with_certificate(loaded, report) if certificate and isinstance(loaded, Scene) else report
 
 
-def _classified(given: Scene | System, budget: float | None, method: MethodName) -> Report:
+def _classified(loaded: Scene | System, budget: float | None, method: MethodName) -> Report:
     if budget is None:
-        return classified(given, DEFAULT_SECONDS, method)
+        return classified(loaded, DEFAULT_SECONDS, method)
     seconds = seconds_of(budget)
-    report = report_from_worker(given, seconds, method)
+    report = report_from_worker(loaded, seconds, method)
     if report is not None:
         return report
-    report = classified(given, seconds, method)
+    report = classified(loaded, seconds, method)
     return report.model_copy(update={"warnings": [*report.warnings, _UNWATCHED]})
 
 
@@ -152,8 +152,8 @@ def derived_flag(scene: SceneLike | System, budget: float | None = None) -> list
     [1, 0]
     """
     seconds = DEFAULT_SECONDS if budget is None else seconds_of(budget)
-    given = scene_or_system(scene)
-    system = given if isinstance(given, System) else lower(given)
+    loaded = scene_or_system(scene)
+    system = loaded if isinstance(loaded, System) else lower(loaded)
     try:
         with limited(seconds), precise_for(system.longest):
             outcome = study(system, flag=True).outcome
@@ -162,7 +162,7 @@ def derived_flag(scene: SceneLike | System, budget: float | None = None) -> list
     ranks = [a.derived for a in outcome.answers]
     if not outcome.consistent or any(b.nonlinear for b in outcome.blocks):
         return None
-    known = [r for r in ranks if r is not None]
-    if len(known) < len(ranks):
+    decided = [r for r in ranks if r is not None]
+    if len(decided) < len(ranks):
         return None
-    return [sum(r[min(k, len(r) - 1)] for r in known) for k in range(max(map(len, known), default=0))]
+    return [sum(r[min(k, len(r) - 1)] for r in decided) for k in range(max(map(len, decided), default=0))]

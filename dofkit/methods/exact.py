@@ -98,13 +98,13 @@ class RationalPoint:
 
 def rational_root(value: fmpq, degree: int) -> fmpq:
     """The non-negative root of a rational number. Raises IrrationalError where it is none."""
-    parts = []
+    roots = []
     for part in (value.p, value.q):
         root = fmpz(part).root(degree) if part >= 0 else fmpz(-1)
         if root < 0 or root**degree != part:
             raise IrrationalError(IRRATIONAL)
-        parts.append(root)
-    return fmpq(*parts)
+        roots.append(root)
+    return fmpq(*roots)
 
 
 class Rationals:
@@ -122,14 +122,14 @@ class Rationals:
         """A basis of what all rows vanish on."""
         reduced, rank = fmpq_mat(matrix).rref() if matrix else (fmpq_mat(0, columns), 0)
         pivots = [next(c for c in range(columns) if reduced[r, c] != 0) for r in range(rank)]
-        found = []
+        vectors = []
         for free in sorted(set(range(columns)) - set(pivots)):
             vector = [fmpq(0) for _ in range(columns)]
             vector[free] = fmpq(1)
             for r, c in enumerate(pivots):
                 vector[c] = -reduced[r, free]
-            found.append(vector)
-        return found
+            vectors.append(vector)
+        return vectors
 
     def vanishes(self, value: Scalar, scale: Sequence[Scalar]) -> bool:
         del scale
@@ -170,23 +170,25 @@ def value_of_all(rows: WrittenRows, point: RationalPoint) -> None:
 
 def solvable(written: Written) -> list[tuple[int, Expr]] | None:
     """An order in which each finite equation gives one symbol, in which it is linear, by those that are known then."""
-    left = dict(enumerate(g for _, g in written.finite))
+    remaining = dict(enumerate(g for _, g in written.finite))
     movable = {*written.coordinates, *(ex.parameter(p) for p in written.system.generic)}
-    found: list[tuple[int, Expr]] = []
-    while left:
-        ready = ((i, s) for i, g in left.items() for s in _own(i, left, movable) if s not in diff(g, s).symbols)
+    order: list[tuple[int, Expr]] = []
+    while remaining:
+        ready = (
+            (i, s) for i, g in remaining.items() for s in _own(i, remaining, movable) if s not in diff(g, s).symbols
+        )
         step = next(ready, None)
         if step is None:
             return None
-        found.append(step)
-        del left[step[0]]
-    return found[::-1]
+        order.append(step)
+        del remaining[step[0]]
+    return order[::-1]
 
 
-def _own(i: int, left: Mapping[int, Expr], movable: set[Expr]) -> list[Expr]:
+def _own(i: int, remaining: Mapping[int, Expr], movable: set[Expr]) -> list[Expr]:
     """Symbols that only this equation holds of those that are left, in a fixed order."""
-    mine = sorted(left[i].symbols & movable, key=repr)
-    return [s for s in mine if not any(s in g.symbols for j, g in left.items() if j != i)]
+    mine = sorted(remaining[i].symbols & movable, key=repr)
+    return [s for s in mine if not any(s in g.symbols for j, g in remaining.items() if j != i)]
 
 
 @raising_no_value
@@ -238,39 +240,39 @@ def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints, Rationals
     if written.system.tolerance is not None:
         return cannot("the geometry is measured, and rational arithmetic takes every number for exact")
     try:
-        found = look(written, numbers)
+        sampled = look(written, numbers)
     except IrrationalError as error:
         return cannot(str(error))
     except ContradictionError as error:
         return MethodReply(CONTRADICTORY, str(error))
-    if found is None:
+    if sampled is None:
         return cannot(NOWHERE)
-    if any(found.samples[0].residuals):
+    if any(sampled.samples[0].residuals):
         return cannot("the reference configuration does not satisfy the equations")
-    return found, numbers
+    return sampled, numbers
 
 
 def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """Coordinates less the rank of the Jacobian there, forms that pass Frobenius' test included."""
-    found = _look(scene, knobs)
-    if isinstance(found, MethodReply):
-        return found
-    sure: Verdict = "proved" if independent_at_reference(*found) else "undecided"
-    return MethodReply(freedom(*found), verdict=sure)
+    samples = _look(scene, knobs)
+    if isinstance(samples, MethodReply):
+        return samples
+    sure: Verdict = "proved" if independent_at_reference(*samples) else "undecided"
+    return MethodReply(freedom(*samples), verdict=sure)
 
 
 def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By Frobenius' test at that point."""
-    found = _look(scene, knobs)
-    return _unless_contradictory(found) if isinstance(found, MethodReply) else MethodReply(labels(found[0]))
+    samples = _look(scene, knobs)
+    return _unless_contradictory(samples) if isinstance(samples, MethodReply) else MethodReply(labels(samples[0]))
 
 
 def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By the ranks there with and without each constraint."""
-    found = _look(scene, knobs)
-    return _unless_contradictory(found) if isinstance(found, MethodReply) else MethodReply(droppable(*found))
+    samples = _look(scene, knobs)
+    return _unless_contradictory(samples) if isinstance(samples, MethodReply) else MethodReply(droppable(*samples))
 
 
-def _unless_contradictory(told: MethodReply) -> MethodReply:
+def _unless_contradictory(reply: MethodReply) -> MethodReply:
     """Where the constraints contradict each other there are no labels."""
-    return MethodReply(None, told.reason, told.cannot)
+    return MethodReply(None, reply.reason, reply.cannot)

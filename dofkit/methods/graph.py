@@ -29,11 +29,11 @@ def links(system: System) -> list[tuple[int, tuple[str, str]]] | None:
     particles = set(system.particles)
     if not all(c.facts.bars and particles.issuperset(c.members) for c in system.connections):
         return None
-    found = []
+    pairs = []
     for c in system.connections:
         names = [point.carrier for point in c.points]
-        found += [(c.constraint, (a, b)) for i, a in enumerate(names) for b in names[i + 1 :]]
-    return found
+        pairs += [(c.constraint, (a, b)) for i, a in enumerate(names) for b in names[i + 1 :]]
+    return pairs
 
 
 def framework(system: System, pairs: list[tuple[int, tuple[str, str]]]) -> Linkage:
@@ -47,10 +47,10 @@ def generic_rows(system: System, seed: int) -> tuple[list[SparseRow], list[int],
     placement = general_placement(system, p, seed)
     rows: list[SparseRow] = []
     owners: list[int] = []
-    for c, found in zip(system.connections, placement.located, strict=True):
-        own = [{k: int(v % p) for k, v in row.items() if v % p} for row in rows_of(found) or []]
-        rows += own
-        owners += [c.constraint] * len(own)
+    for c, placed in zip(system.connections, placement.located, strict=True):
+        reduced = [{k: int(v % p) for k, v in row.items() if v % p} for row in rows_of(placed) or []]
+        rows += reduced
+        owners += [c.constraint] * len(reduced)
     return rows, owners, p
 
 

@@ -68,14 +68,14 @@ class Floats:
     def points(self, written: Written, rows: WrittenRows, drawn: bool) -> list[FloatPoint]:
         if drawn:
             return [self._drawn(written, rows)]
-        found: list[FloatPoint] = []
+        sampled: list[FloatPoint] = []
         for k in range(STARTS):
             point = self._newton_end(written, rows, k)
             if point is not None:
-                found.append(point)
-            if len(found) == POINTS:
+                sampled.append(point)
+            if len(sampled) == POINTS:
                 break
-        return found
+        return sampled
 
     def _drawn(self, written: Written, rows: WrittenRows) -> FloatPoint:
         rng = random.Random(f"dofkit floats {self.seed}")
@@ -83,8 +83,8 @@ class Floats:
         reference = written.system.reference or {}
         parameters = {s for value in reference.values() for s in value.symbols}
         symbols |= {s: rng.uniform(0.5, 2) for s in sorted(parameters, key=repr) if s not in symbols}
-        given = FloatPoint(symbols, self.seed)
-        symbols |= {s: float(drawn_value(value, given)) for s, value in reference.items()}
+        place = FloatPoint(symbols, self.seed)
+        symbols |= {s: float(drawn_value(value, place)) for s, value in reference.items()}
         symbols[ex.TIME] = 0.0
         return FloatPoint(symbols, self.seed)
 
@@ -113,36 +113,38 @@ def _look(scene: Scene | System, knobs: Knobs) -> tuple[SampledPoints | None, Fl
 
 def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """Coordinates less the numeric rank, forms that pass Frobenius' test included."""
-    found, numbers = _look(scene, knobs)
-    if found is None:
+    samples, numbers = _look(scene, knobs)
+    if samples is None:
         return MethodReply(CONTRADICTORY, NOWHERE.format(STARTS))
-    sure: Verdict = "numeric" if _is_clear(found, numbers) and independent_at_reference(found, numbers) else "undecided"
-    return MethodReply(freedom(found, numbers), verdict=sure)
+    sure: Verdict = (
+        "numeric" if _is_clear(samples, numbers) and independent_at_reference(samples, numbers) else "undecided"
+    )
+    return MethodReply(freedom(samples, numbers), verdict=sure)
 
 
 def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By Frobenius' test within the tolerance, at a few points."""
-    found, _ = _look(scene, knobs)
-    return MethodReply(None, NOWHERE.format(STARTS)) if found is None else MethodReply(labels(found))
+    samples, _ = _look(scene, knobs)
+    return MethodReply(None, NOWHERE.format(STARTS)) if samples is None else MethodReply(labels(samples))
 
 
 def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By the numeric ranks with and without each constraint."""
-    found, numbers = _look(scene, knobs)
-    return MethodReply(None, NOWHERE.format(STARTS)) if found is None else MethodReply(droppable(found, numbers))
+    samples, numbers = _look(scene, knobs)
+    return MethodReply(None, NOWHERE.format(STARTS)) if samples is None else MethodReply(droppable(samples, numbers))
 
 
-def _is_clear(found: SampledPoints, numbers: Floats) -> bool:
+def _is_clear(sampled: SampledPoints, numbers: Floats) -> bool:
     """Return whether the equations are satisfied and no singular value lies between rounding and the smallest signal.
 
     A tolerance for the geometry, or a sign that rounding may turn, leaves nothing clear.
     """
-    written, sample = found.rows.written, found.samples[0]
-    if written.system.tolerance is not None or any(v.kind == "sign" for v in found.rows.ring.vars):
+    written, sample = sampled.rows.written, sampled.samples[0]
+    if written.system.tolerance is not None or any(v.kind == "sign" for v in sampled.rows.ring.vars):
         return False
     if any(not numbers.vanishes(r, [*row, 1.0]) for r, row in zip(sample.residuals, sample.finite, strict=True)):
         return False
-    matrix = [row[: found.rows.n] for row in sample.rows]
+    matrix = [row[: sampled.rows.n] for row in sample.rows]
     if not matrix or not matrix[0]:
         return True
     singular = singular_values(matrix)

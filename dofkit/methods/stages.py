@@ -176,7 +176,7 @@ def report_of_method(system: System, method: MethodName) -> Report:
         **{name: _verdict(redundancy.verdict if name == "redundant" else dof.verdict, about) for name in fields},
         **{name: _of_entries(name, value, entries) for name, value in whole.items()},
     }
-    told = {
+    changes = {
         "constraints": entries,
         "verdict": weakest(*(e.verdict for e in entries), dof.verdict),
         "method": f"{method} alone: {METHODS[method].cannot}",
@@ -184,7 +184,7 @@ def report_of_method(system: System, method: MethodName) -> Report:
         "warnings": [*system.warnings, *(w for q, r in replies.items() if (w := _warning(method, q, r)))],
         "verdicts": verdicts,
     }
-    return base.model_copy(update={**told, **fields, **whole})
+    return base.model_copy(update={**changes, **fields, **whole})
 
 
 def _reply(system: System, method: MethodName, question: Question) -> MethodReply:

@@ -69,7 +69,7 @@ class Symbols:
 
 def wedge(a: Form, b: Form) -> Form:
     """The exterior product."""
-    found: Form = {}
+    form: Form = {}
     for i, x in a.items():
         for j, y in b.items():
             if set(i) & set(j):
@@ -77,31 +77,31 @@ def wedge(a: Form, b: Form) -> Form:
             order = i + j
             swaps = sum(p > q for p, q in combinations(order, 2))
             key = tuple(sorted(order))
-            found[key] = found.get(key, sympy.Integer(0)) + (-1) ** swaps * x * y
-    return found
+            form[key] = form.get(key, sympy.Integer(0)) + (-1) ** swaps * x * y
+    return form
 
 
 def exterior(form: Form, columns: Sequence[Any]) -> Form:
     """d omega of a one-form."""
-    found: Form = {}
+    derivative: Form = {}
     for (j,), a in form.items():
         for i, s in enumerate(columns):
             if i != j:
                 key, sign = ((i, j), 1) if i < j else ((j, i), -1)
-                found[key] = found.get(key, sympy.Integer(0)) + sign * a.diff(s)
-    return found
+                derivative[key] = derivative.get(key, sympy.Integer(0)) + sign * a.diff(s)
+    return derivative
 
 
 def passing(symbols: Symbols) -> list[bool]:
     """[Frobenius1877]: is d omega_a with all of the system's forms wedged to it simplified to 0?"""
     system = [symbols.differential(g) for _, g in symbols.finite] + [f for _, f in symbols.forms]
-    found = []
+    points = []
     for _, form in symbols.forms:
         product = exterior(form, symbols.columns)
         for other in system:
             product = wedge(product, other)
-        found.append(all(sympy.simplify(a) == 0 for a in product.values()))
-    return found
+        points.append(all(sympy.simplify(a) == 0 for a in product.values()))
+    return points
 
 
 def dof(scene: Scene | System, knobs: Knobs) -> MethodReply:
@@ -120,10 +120,10 @@ def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
     """By wedge products."""
     del knobs
     symbols = Symbols(as_written(scene))
-    told: dict[int, bool] = {}
+    labels: dict[int, bool] = {}
     for (i, _), passes in zip(symbols.forms, passing(symbols), strict=True):
-        told[i] = told.get(i, True) and passes
-    return MethodReply(labelled(symbols.written, told))
+        labels[i] = labels.get(i, True) and passes
+    return MethodReply(labelled(symbols.written, labels))
 
 
 def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:

@@ -41,7 +41,7 @@ class CountedJoint:
 
 
 def joints_of(system: System, equations: Sequence[int]) -> list[CountedJoint]:
-    """The constraints that count as joints; ``equations`` of every constraint."""
+    """Return the constraints that count as joints; ``equations`` of every constraint."""
     moving = set(system.bodies)
     whole = full(system)
     joints = []
@@ -187,7 +187,7 @@ def _kernel(rows: Sequence[SparseRow], size: int, p: int) -> list[SparseRow]:
 
 
 def _loops(joints: Sequence[CountedJoint]) -> list[list[CountedJoint]]:
-    """A basis of the loops: for every joint that closes one, the path between its ends in a spanning tree."""
+    """Return a basis of the loops: for every joint that closes one, the path between its ends in a spanning tree."""
     tree: nx.Graph = nx.Graph()
     trees: nx.utils.UnionFind[str] = nx.utils.UnionFind()
     closing = []

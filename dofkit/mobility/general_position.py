@@ -52,12 +52,12 @@ class General:
 
 
 def has_geometry(system: System) -> bool:
-    """Is a drawing given, and anything connected in it?"""
+    """Return whether there is a drawing, and anything is connected in it."""
     return system.reference is not None and any(c.members for c in system.connections)
 
 
 def in_general_position(system: System, rows: Sequence[Row], setting: Setting) -> General:
-    """The rank of the finite relations ``rows`` with all given geometry random."""
+    """Return the rank of the finite relations ``rows`` with all given geometry random."""
     if any(not isinstance(row.piece, Finite) for row in rows):
         return General(None, why=DIFFERENTIAL)
     particles = set(system.particles)
@@ -96,7 +96,7 @@ def _of_rows(system: System, finite: Sequence[Row], setting: Setting) -> General
 
 
 def _as_texts(system: System, rows: Sequence[Row]) -> list[Row]:
-    """The rows that no connection's geometry says: equations, surfaces, profiles, strings."""
+    """Return the rows that no connection's geometry says: equations, surfaces, profiles, strings."""
     placed = {c.constraint for c in system.connections if c.facts.placed}
     return [row for row in rows if row.constraint not in placed]
 
@@ -136,7 +136,7 @@ def _values(system: System, placement: Placement) -> Mapping[Expr, int]:
 
 @raising_no_value
 def _slopes(system: System, ring: Ring, nodes: Sequence[int], point: FieldPoint) -> list[SparseRow]:
-    """The rows by the coordinates; the rate of a body's Gibbs vector at 0 is half of its angular velocity."""
+    """Return the rows by the coordinates; the rate of a body's Gibbs vector at 0 is half of its angular velocity."""
     at = values(ring, point)
     unit = point.number(ex.ONE.args[0])
     gibbs = {n for r in system.rotations for n in r.names}
@@ -161,7 +161,7 @@ METHOD = "graph of rigid links"
 
 
 def framework_answer(block: Block, setting: Setting) -> Answer | None:
-    """The answer to a block of links in general position; None for any other."""
+    """Return the answer to a block of links in general position; None for any other."""
     pairs = _pairs(block, setting)
     if pairs is None:
         return None
@@ -208,7 +208,7 @@ def unprescribed_links(system: System) -> list[tuple[int, Pair]] | None:
 
 
 def _pairs(block: Block, setting: Setting) -> list[Pair] | None:
-    """The ends of the link that each row is; None where one is no link with a length of its own."""
+    """Return the ends of the link that each row is; None where one is no link with a length of its own."""
     if setting.reference is not None or setting.tolerance is not None or block.conditions or not block.rows:
         return None
     of, places = _places(block.coordinates, setting)
@@ -237,7 +237,7 @@ def _unprescribed(setting: Setting) -> frozenset[Expr]:
 
 
 def _only(e: Expr, ends: set[str]) -> Expr | None:
-    """The one symbol beside some coordinates, which are all that occur."""
+    """Return the one symbol beside some coordinates, which are all that occur."""
     if len(e.symbols) != len(ends) + 1 or coordinates_in(e) != ends:
         return None
     others = [s for s in e.symbols if s.args[0] != "coordinate"]
@@ -245,7 +245,7 @@ def _only(e: Expr, ends: set[str]) -> Expr | None:
 
 
 def _is_length(symbol: Expr, row: Row, setting: Setting) -> bool:
-    """Is a parameter the length of a link, as it stands?"""
+    """Return whether a parameter is the length of a link, as it stands."""
     return [d.squared for d in setting.distances.get(row.constraint, ())] == [ex.power(symbol, ex.TWO)]
 
 
@@ -261,7 +261,7 @@ def _places(coordinates: Iterable[str], setting: Setting) -> tuple[dict[str, str
 
 
 def _rows(pairs: Sequence[Pair], coordinates: Sequence[str], setting: Setting, p: int) -> list[SparseRow]:
-    """The rigidity matrix at random positions modulo p."""
+    """Return the rigidity matrix at random positions modulo p."""
     number = {name: k for k, name in enumerate(coordinates)}
     _, places = _places(coordinates, setting)
     columns = {particle: [number[name] for name in names] for particle, names in places.items()}

@@ -39,7 +39,7 @@ def tree_coordinates(system: System) -> list[str] | None:
 
 
 def _is_tree(system: System, joints: list[Connection]) -> bool:
-    """Does every joint join what was apart, and is there nothing else but couplings and bounds?"""
+    """Return whether every joint joins what was apart, and there is nothing else but couplings and bounds."""
     of_joints = {c.constraint for c in joints}
     for index, c in enumerate(system.connections):
         if index in of_joints or c.rates:
@@ -72,7 +72,7 @@ def _floating(system: System, joints: list[Connection]) -> Iterator[str]:
 
 
 def _coupled(system: System) -> Iterator[dict[str, Fraction]]:
-    """The factors of each coupling by what they belong to; nothing of one whose factors are no numbers."""
+    """Yield the factors of each coupling by what they belong to; nothing of one whose factors are no numbers."""
     for c in system.connections:
         if c.rates and all(rate.slope.op == "num" for rate in c.rates):
             yield {rate.name: rate.slope.args[0] for rate in c.rates}
@@ -107,7 +107,7 @@ class Bridges(NamedTuple):
 
 
 def bridges(system: System) -> Bridges:
-    """The joints that close no loop, of those of a drawing in fractions, by numbers; none without a drawing."""
+    """Return the joints that close no loop, of those of a drawing in fractions, by numbers; none without a drawing."""
     if system.dimension == 1:
         return Bridges()
     joints = {c.constraint: c.members for c in system.connections if _is_drawn(c, system)}
@@ -154,7 +154,7 @@ def _ends_of_bridges(graph: nx.Graph[Node]) -> Counter[Node]:
 
 
 def _is_drawn(c: Connection, system: System) -> bool:
-    """Is a joint of two bodies, whose motion nothing prescribes, drawn in fractions, as its bodies are?"""
+    """Return whether an undriven joint of two bodies is drawn in fractions, as its bodies are."""
     if not (c.facts.freedoms or c.facts.welded) or len(c.members) != 2 or c.driven or c.number is not None:
         return False
     vectors = (*c.places, *c.directions, *(system.starts.get(member, ()) for member in c.members))

@@ -49,7 +49,7 @@ def nearly_dependent(placement: Placement, dimension: int, columns: int, rank: i
 
 
 def _about_middles(j: Any, placement: Placement, dimension: int) -> Any:
-    """The rows by velocities v' of the middles and w' = reach w: v = v' - w x (middle - start)."""
+    """Return the rows by velocities v' of the middles and w' = reach w: v = v' - w x (middle - start)."""
     j = j.copy()
     for member, points in _points(placement).values():
         first, start = member.column, member.start
@@ -67,7 +67,7 @@ def _about_middles(j: Any, placement: Placement, dimension: int) -> Any:
 
 
 def _points(placement: Placement) -> dict[int, tuple[Member, Any]]:
-    """The places at which each member is held, by its first column."""
+    """Return the places at which each member is held, by its first column."""
     held: dict[int, tuple[Member, list[Any]]] = {}
     for connection in placement.located:
         joined = ((member, at) for at in connection.places for member in connection.members)

@@ -64,7 +64,7 @@ def drawn_placement(system: System, positive: frozenset[Expr]) -> Placement | No
 
 
 def measured_placement(system: System) -> Placement | None:
-    """The drawing in floating point, lengths in units of the scene's size; None where it holds parameters."""
+    """Return the drawing in floating point, lengths in units of the scene's size; None where it holds parameters."""
     wanted = {part for vector in _vectors(system) for part in vector}
     wanted |= set(_factors(system))
     numbers = {e: approximate(e) for e in wanted}
@@ -252,7 +252,7 @@ class Located:
         return less(velocity(second, place, d), velocity(first, place, d))
 
     def turn(self) -> list[LinearRow]:
-        """The angular velocity of the second body against the first."""
+        """Return the angular velocity of the second body against the first."""
         return less(self.spin(1), self.spin(0))
 
     def slip(self) -> list[LinearRow]:
@@ -266,12 +266,12 @@ class Located:
         return velocity(*self.points[k], self.dimension)
 
     def origin(self, k: int) -> list[LinearRow]:
-        """The velocity of the origin of the member number ``k``."""
+        """Return the velocity of the origin of the member number ``k``."""
         member = self.members[k]
         return velocity(member, member.start or (0,) * self.dimension, self.dimension)
 
     def spin(self, k: int) -> list[LinearRow]:
-        """The angular velocity of the member number ``k``."""
+        """Return the angular velocity of the member number ``k``."""
         return spin(self.members[k], self.dimension)
 
 
@@ -287,7 +287,7 @@ def rows_of(located: Located) -> list[LinearRow] | None:
 
 
 def velocity(member: Member, at: Numbers, dimension: int) -> list[LinearRow]:
-    """The velocity of the member's point at a place, a row a component: v + w x (at - start)."""
+    """Return the velocity of the member's point at a place, a row a component: v + w x (at - start)."""
     first = member.column
     if first is None:
         return [{} for _ in range(dimension)]
@@ -305,7 +305,7 @@ def velocity(member: Member, at: Numbers, dimension: int) -> list[LinearRow]:
 
 
 def spin(member: Member, dimension: int) -> list[LinearRow]:
-    """The angular velocity, a row a component."""
+    """Return the angular velocity, a row a component."""
     if member.column is None or member.start is None:
         return [{} for _ in range(TURNS[dimension])]
     return [{member.column + dimension + i: 1} for i in range(TURNS[dimension])]

@@ -60,7 +60,7 @@ class Geometry:
         return self.parallel(line.direction, _less(point, line.through))
 
     def meet(self, a: DrawnLine, b: DrawnLine) -> bool:
-        """Have the two lines a point in common (at infinity too)?"""
+        """Return whether the two lines have a point in common, perhaps at infinity."""
         if len(a.through) == 2:
             return True
         return self.zero(_dot(_less(b.through, a.through), cross(a.direction, b.direction)))
@@ -169,7 +169,7 @@ def _of_slides(g: Geometry, members: Sequence[Connection]) -> Iterator[str]:
 
 
 def _links(g: Geometry, members: Sequence[Connection]) -> Iterator[DrawnLine]:
-    """The links between points, those of rigid sets, and in the plane the normals of contacts."""
+    """Yield the links between points, those of rigid sets, and in the plane the normals of contacts."""
     for c in members:
         at = g.placement.located[c.constraint]
         if c.facts.contact and g.system.dimension == 2:
@@ -297,6 +297,6 @@ def _wedge(a: Numbers, b: Numbers) -> list[Any]:
 
 
 def _line(line: DrawnLine) -> tuple[Any, ...]:
-    """The coordinates (a, b, c) of the line a x + b y + c = 0 of the plane."""
+    """Return the coordinates (a, b, c) of the line a x + b y + c = 0 of the plane."""
     (x, y), (u, v) = line.through, line.direction
     return (v, -u, u * y - v * x)

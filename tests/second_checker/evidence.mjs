@@ -172,6 +172,10 @@ export class Evidence {
         const value = this.solved(r, q);
         difference = substitute(difference, new Map([[q, value]]));
       }
+      // a relation that a step introduces is one where that step is right
+      [...c.map(([r]) => r), ...puts.map(([r]) => r), ...(step.of ? [this.relation(step.of)] : [])].forEach((r) => {
+        if (r.step && r.step !== step && ["implied", "integral"].includes(r.step.by)) this.identity(r.step);
+      });
       refuse(!isZero(difference), `the identity of ${step.id} is not one`);
       return { from: [...c.map(([r]) => r.id), ...puts.map(([r]) => r.id)], h, texts: [...c.map(([, t]) => t), ...squares.flat()] };
     });

@@ -54,7 +54,7 @@ export function verdicts(document, certificate) {
       seen.add(String(claim.path));
       refuse(again, "it is claimed twice, or claimed and uncovered");
       const found = check(reading(claim.cayley === true), claim);
-      verified.set(claim.path, { value: claim.value, ...found });
+      verified.set(claim.path, { value: claim.value, about: claim.about, ...found });
       return [claim.path, "accepted", ""];
     } catch (error) {
       if (error instanceof NotCovered) {
@@ -68,12 +68,12 @@ export function verdicts(document, certificate) {
 }
 
 function answer(line) {
-  const { document, certificate } = JSON.parse(line);
   try {
+    const { document, certificate } = JSON.parse(line);
     return { claims: verdicts(document, certificate) };
   } catch (error) {
     if (error instanceof NotCovered) return { uncovered: error.message };
-    if (!(error instanceof Refused) && !(error instanceof TypeError)) throw error;
+    if (!(error instanceof Refused) && !(error instanceof TypeError) && !(error instanceof SyntaxError)) throw error;
     return { refused: error.message };
   }
 }

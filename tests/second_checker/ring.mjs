@@ -8,7 +8,8 @@ let ATOMS = [];
 let BY_KEY = new Map();
 let MEMO = new Map();
 let work = 0;
-const MOST = 3000000;
+let deadline = Infinity;
+const [MOST, SECONDS] = [3000000, 2];
 
 export function reset() {
   ATOMS = [];
@@ -16,11 +17,15 @@ export function reset() {
   MEMO = new Map();
 }
 
-export const restart = () => (work = 0);
+/** Starts to count the work, and the time, of one claim. */
+export function restart() {
+  work = 0;
+  deadline = Date.now() + SECONDS * 1000;
+}
 
 function spend(amount) {
   work += amount;
-  if (work > MOST) throw new NotCovered("an identity is too large for this checker");
+  if (work > MOST || Date.now() > deadline) throw new NotCovered("an identity is too large for this checker");
 }
 
 /** The index of an atom; `rule`: { kind: "sine", cosine } or { kind: "root", order, value }. */
@@ -83,6 +88,7 @@ function reducible(m) {
 
 /** Uses s^2 = 1 - c^2 and r^k = u as long as they apply: a quotient. */
 function reduce(p) {
+  spend(p.size);
   let whole = new Map();
   let rest = null;
   for (const { m, c } of p.values()) {

@@ -134,6 +134,7 @@ export class Rules {
       return [this.e.n - minor.rows.length, minor.point];
     }
     if (bound.rule !== "span") return uncovered(`the bound ${bound.rule}`);
+    refuse(kind === "velocity_dof" && list(bound.words).some((w) => w.length > 1), "a bracket is no velocity");
     const { point, vectors, timed } = this.span(bound, this.e.relations, list(bound.words), bound.columns, claim.covers);
     this.parameters(bound.minor, claim.covers, most);
     return [vectors - (timed ? 1 : 0), point];
@@ -185,8 +186,9 @@ export class Rules {
     refuse(claim.rule !== "point", "another rule");
     const point = this.e.point(claim.at);
     const rest = new Map([...this.e.velocities].map((v) => [v, number(0)]));
-    const exact = new Map([...point.exact, ...rest]);
-    exact.delete("t");
+    const placed = new Map([...[...point.exact].filter(([q]) => this.s.coordinates.includes(q)), ...rest]);
+    const chosen = new Map([...point.exact, ...rest]);
+    chosen.delete("t");
     const others = relations.filter((r) => r.kind !== "finite" || r.tree.has("t"));
     for (const r of relations) {
       if (!others.includes(r)) this.e.needHolds(r, point);
@@ -198,7 +200,7 @@ export class Rules {
       this.e.account(minor, relations.filter((r) => r.kind === "finite"), claim.covers);
     }
     for (const r of others) {
-      const still = substitute(substitute(r.tree, new Map(), point.functions), r.kind === "finite" || !parameters ? exact : rest);
+      const still = substitute(substitute(r.tree, new Map(), point.functions), r.kind === "finite" ? chosen : parameters ? rest : placed);
       this.e.at(r.tree, { ...point, balls: new Map([...[...this.e.velocities].map((v) => [v, this.e.at(number(0), point)]), ...point.balls]), done: new Map() });
       refuse(!isZero(still), `${r.id} does not hold at rest for all t`);
     }
@@ -282,6 +284,7 @@ export class Rules {
     refuse(kind !== "velocity_dof" || claim.rule !== "count", "another rule");
     refuse(this.e.relations.some((r) => r.kind === "velocity"), "there are velocity relations");
     const dof = this.before("/dof");
+    refuse(claim.about !== undefined && claim.about !== dof.about, "/dof is about other points");
     refuse(dof.value !== claim.value, "/dof is another number");
     return { place: dof.place };
   }
@@ -321,7 +324,7 @@ export class Rules {
       const variable = r.kind === "finite" ? q : `${q}dot`;
       const slope = derivative(r.tree, variable);
       const plain = [...slope.symbols].every((one) => this.s.signs.has(one)) && !slope.functions.size;
-      const sure = this.e.constantNotZero(slope) || (plain && minor && this.e.at(slope, minor.point).nonzero);
+      const sure = this.e.constantNotZero(slope) || (plain && minor && isTotal(slope) && this.e.at(slope, minor.point).nonzero);
       refuse(!sure, `${r.id} does not give ${q}`);
     });
     const timed = order.some(([, q]) => q === "t");
@@ -785,7 +788,9 @@ export class Rules {
     this.place(point);
     const step = this.e.relation(claim.step);
     refuse(!step.leaf, "an integral is a step");
-    refuse(!this.e.closure(ids(this.e.relations), point).has(step.id), "the integral does not follow from the scene");
+    refuse(!equations.some((r) => r.kind === "velocity"), "a finite relation has no integral");
+    const before = [...equations, ...this.e.relations.filter((r) => r.kind === "finite")];
+    refuse(!this.e.closure(ids(before), point).has(step.id), "the integral does not follow from the constraint");
     refuse(!this.isConstant(claim.value, step), "the value is another function");
     if (equations.length !== 1) {
       const forms = equations.filter((r) => r.kind === "velocity");
@@ -805,7 +810,7 @@ export class Rules {
     const members = list(claim.value);
     const written = (o) => this.s.owners.indexOf(o);
     refuse(members.some((m) => written(m) < 0 || written(m) >= written(name)), "a circuit holds constraints written before");
-    refuse(members.includes(name) || new Set(members).size < members.length || !members.length, "members are other constraints");
+    refuse(members.includes(name) || new Set(members).size < members.length, "members are other constraints");
     const all = members.flatMap((m) => this.owned(m).filter((r) => r.kind !== "inequality"));
     this.e.relations.forEach((r) => this.e.needHolds(r, point));
     this.e.account({ rows: all, point }, equations, claim.covers);

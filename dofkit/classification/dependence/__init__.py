@@ -6,7 +6,7 @@ Types
 
 Mechanisms, in the order in which they are tried (`redundancy` is the driver)
     1. Each block removes as much freedom as it has equations: none is redundant.
-    2. `circuits`: the rank of the rows over GF(p) and its circuits [Whitney1935]; `block_implication` enlarges a
+    2. `circuits`: the rank of the rows over GF(p) and its circuits [Whitney1935]; `implication` enlarges a
        dependent set of rows until it implies the dependent one near the reference, or at drawn states.
     3. `removal`: constraints are left out of a finite block whose rank does not measure dependence; the freedom and the
        set must stay the same.

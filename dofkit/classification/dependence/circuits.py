@@ -13,7 +13,7 @@ from itertools import combinations
 
 from dofkit.base.deadline import check
 from dofkit.base.libraries import components
-from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets
+from dofkit.classification.dependence.implication import Everywhere, NearDrawing, SufficientSets
 from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing
 from dofkit.relations.answer import Redundancies
 

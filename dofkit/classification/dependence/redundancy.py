@@ -11,9 +11,9 @@ from typing import Literal
 from dofkit.base.deadline import unless_late
 from dofkit.base.libraries import components
 from dofkit.base.verdicts import About
-from dofkit.classification.dependence import block_implication, removal
+from dofkit.classification.dependence import removal
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
-from dofkit.classification.dependence.implication import SLACK
+from dofkit.classification.dependence.implication import SLACK, implication_of
 from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
@@ -279,9 +279,7 @@ def _of_block(
         yield unless_late(removed, undecided) if is_finite else undecided
     else:
         finite = _finite_rows(block)
-        implied = (
-            None if a.supports is not None or nullity <= 0 else block_implication.implication_of(block, a, setting)
-        )
+        implied = None if a.supports is not None or nullity <= 0 else implication_of(block, a, setting)
         yield OwnedRows(matrix, owners, finite, a.modulus, equations, a.supports, implied)
 
 

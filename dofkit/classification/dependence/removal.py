@@ -26,7 +26,7 @@ from typing import NamedTuple
 from dofkit.base.deadline import OutOfTimeError, check, limited
 from dofkit.base.libraries import components
 from dofkit.base.verdicts import Verdict, weakest
-from dofkit.classification.dependence.block_implication import Everywhere, NearDrawing, SufficientSets, is_drawn
+from dofkit.classification.dependence.implication import Everywhere, NearDrawing, SufficientSets, is_drawn
 from dofkit.classification.dependence.implied_constraints import LEAVING_SECONDS
 from dofkit.classification.freedom.block import answer
 from dofkit.classification.freedom.preparation import all_of

@@ -25,7 +25,7 @@ ORDER, RADIUS = 6, 2.0**-90
 
 
 def largest_branch(ball: Manifold, forms: Sequence[Form], wanted: int) -> int | None:
-    """The largest dimension found among the branches of the set through the point; None where none was found.
+    """Return the largest dimension found among the branches of the set through the point; None where none was found.
 
     A branch begins along a real zero of the second-order ``forms`` and is followed towards the point: at each distance
     a real point of the set is brought to high precision, the rank of all relations there is told by a gap, and the
@@ -74,7 +74,7 @@ def _tangents(here: Neighbourhood, forms: Sequence[Form]) -> list[np.ndarray]:
 
 
 def _null(forms: np.ndarray, v: np.ndarray) -> np.ndarray | None:
-    """A unit vector near v on which all forms are 0, by damped steps across v: along v they would lead to 0."""
+    """Return a unit vector near v on which all forms are 0, by damped steps across v: along v they would lead to 0."""
     for _ in range(ITERATIONS):
         v = v / np.linalg.norm(v)
         slopes = forms @ v
@@ -103,7 +103,7 @@ def _dimension_along(here: Neighbourhood, direction: np.ndarray) -> int | None:
 
 
 def _descend(here: Neighbourhood, u: np.ndarray) -> np.ndarray | None:
-    """The nearest point of the set, by damped steps."""
+    """Return the nearest point of the set, by damped steps."""
     for _ in range(ITERATIONS):
         check()
         f, j = here.floats(u, here.ball.nodes)
@@ -117,7 +117,7 @@ def _descend(here: Neighbourhood, u: np.ndarray) -> np.ndarray | None:
 
 
 def _dimension_at(here: Neighbourhood, u: np.ndarray) -> int | None:
-    """The dimension of the set at a regular point near u; None where the point is not seen to be one."""
+    """Return the dimension of the set at a regular point near u; None where the point is not seen to be one."""
     ball = here.ball
     _, j = here.floats(u, ball.nodes)
     rows, columns = independent(j, SOME)
@@ -136,7 +136,7 @@ def _dimension_at(here: Neighbourhood, u: np.ndarray) -> int | None:
 
 
 def _stays(here: Neighbourhood, moved: dict[Expr, arb], rows: Sequence[int], columns: Sequence[int]) -> bool:
-    """Do the dependent equations are satisfied along a random curve through the point?"""
+    """Return whether the dependent equations are satisfied along a random curve through the point."""
     ball = here.ball
     columns_here = set(here.keys)
     point = BallPoint({s: arb(v, RADIUS) if s in columns_here else v for s, v in moved.items()}, 0)

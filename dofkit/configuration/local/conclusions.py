@@ -171,7 +171,7 @@ def branch_followed(germ: Germ) -> Conclusion | None:
 
 
 def _vanishes_on_critical(germ: Germ) -> bool:
-    """Do the dependent relations vanish on N at a distance too?"""
+    """Return whether the dependent relations vanish on N at a distance too."""
     return germ.ball is not None and holds_on_critical(germ.ball, germ.critical, germ.ahead())
 
 

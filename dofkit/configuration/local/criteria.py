@@ -158,7 +158,7 @@ CRITERIA: tuple[Criterion, ...] = (
 
 
 def decision(germ: Germ) -> tuple[Criterion | None, LocalDimension]:
-    """The first criterion that decides, and what it says; None where all are asked and none does."""
+    """Return the first criterion that decides, and what it says; None where all are asked and none does."""
     for criterion in CRITERIA:
         conclusion = criterion.decide(germ)
         if conclusion is None:
@@ -196,7 +196,7 @@ def numeric_dimension(ball: Manifold, rigid: int, time: int | None = None) -> Lo
 def local_at(
     chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, time: int | None = None, drawn: bool = True
 ) -> LocalDimension:
-    """The local dimension at a point of the variety, time counted where it is a column.
+    """Return the local dimension at a point of the variety, time counted where it is a column.
 
     ``time``: the number of that column, where it matters whether time moves on. A point that was ``drawn`` may be one
     where a relation is flat: what is 0 along a curve is looked at from a distance, if balls may be asked.
@@ -219,7 +219,7 @@ def _manifolds(
 
 
 def vanish_near(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: int, rank: int) -> bool | None:
-    """Are the relations of a chart of no higher rank than ``rank`` at the point, and 0 on the manifold of that rank?
+    """Return whether relations have no higher rank than ``rank`` at a point, and are 0 on the manifold of that rank.
 
     The dependent ones are 0 along a random curve of it [SchwartzZippel], or nothing but motions of the whole is left.
     None where they are too high in degree, or could not be followed to a distance, which is asked of a ``ball``.
@@ -234,7 +234,7 @@ def vanish_near(chart: Chart, point: FieldPoint, ball: BallPoint | None, rigid: 
 
 
 def _vanish(germ: Germ) -> bool | None:
-    """Are the dependent relations of a germ 0 on its manifold?"""
+    """Return whether the dependent relations of a germ are 0 on its manifold."""
     with ctx.workprec(max(ctx.prec, precision())):
         if germ.dependent == 0 or germ.m == germ.rigid:
             return True

@@ -64,7 +64,7 @@ class Germ:
 
     @property
     def exact(self) -> bool:
-        """Is there a point over GF(p)?"""
+        """Whether there is a point over GF(p)."""
         return self.field is not None
 
     @property
@@ -97,12 +97,12 @@ class Germ:
 
     @cached_property
     def vanishes(self) -> bool:
-        """Are they 0 along it, to the order?"""
+        """Whether they are 0 along it, to the order."""
         return all(is_zero(s.coefficient(k)) for s in self.series for k in range(self.order))
 
     @cached_property
     def vanishes_away(self) -> bool | None:
-        """Are they 0 at a distance too? None where no curve could be followed that far.
+        """Whether they are 0 at a distance too; None where no curve could be followed that far.
 
         At a random point nothing is flat but what is 0 everywhere [SchwartzZippel]: there nothing more is asked.
         """
@@ -161,20 +161,20 @@ class Germ:
         return leading_signs
 
     def ahead(self) -> list[float]:
-        """A random direction of N in which it is looked at from a distance."""
+        """Return a random direction of N in which it is looked at from a distance."""
         assert self.ball is not None
         return _ahead(self.ball, len(self.critical.free))
 
 
 def random_direction(manifold: Manifold) -> Sequence[Scalar]:
-    """A random direction of the manifold's free columns, in its own numbers."""
+    """Return a random direction of the manifold's free columns, in its own numbers."""
     if isinstance(manifold.sample, arb):
         return [arb(manifold.base.rng.randrange(64, 512)) / 256 for _ in range(manifold.dimension)]
     return [manifold.base.random() for _ in range(manifold.dimension)]
 
 
 def time_moves(manifold: Manifold, time: int, order: int) -> bool:
-    """Does time, the column of that number, change along a random curve of the manifold, to the order?"""
+    """Return whether time, the column of that number, changes along a random curve of the manifold, to the order."""
     path = manifold.line(random_direction(manifold), order).path[time]
     return any(not is_zero(path.coefficient(k)) for k in range(1, order))
 
@@ -188,7 +188,7 @@ def _ahead(ball: Manifold, count: int) -> list[float]:
 
 
 def degree_of(manifold: Manifold) -> int:
-    """A bound on the degree of the dependent relations; columns that no relation gives explicitly count 1."""
+    """Return a bound on the degree of the dependent relations; columns that no relation gives explicitly count 1."""
     weights = _Weights(manifold)
     return max((weights.of(n) for n in manifold.others), default=0)
 
@@ -206,7 +206,7 @@ class _Weights:
         self.known: dict[int, int] = {}
 
     def of(self, node: int) -> int:
-        """The degree of an instruction."""
+        """Return the degree of an instruction."""
         degrees: dict[int, int] = {}
         for i in reversed(reachable(self.ring, [node], through_generators=False)):
             op, payload = self.ring.code[i]

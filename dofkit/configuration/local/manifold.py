@@ -100,18 +100,18 @@ class Manifold:
         return inverse(rows)
 
     def follow(self, direction: Sequence[Scalar], order: int) -> list[Series]:
-        """The other relations along q(s), whose free columns are start + s direction."""
+        """Return the other relations along q(s), whose free columns are start + s direction."""
         curve = self.line(direction, order)
         return [curve.at[n] for n in self.others]
 
     def line(self, direction: Sequence[Scalar], order: int) -> Curve:
-        """The curve whose free columns are start + s direction."""
+        """Return the curve whose free columns are start + s direction."""
         step = Series(monomial(self.like), order)
         starts = [Series(self.like + self.start[c], order) for c in self.frame.free]
         return self.curve([a + step * v for a, v in zip(starts, direction, strict=True)], order)
 
     def curve(self, free: Sequence[Series], order: int) -> Curve:
-        """The curve with the given free columns: the dependent ones are found one order after another.
+        """Return the curve with the given free columns: the dependent ones are found one order after another.
 
         With A the inverse of dg/d(dependent) at the point, the coefficient of s^k is -A [s^k] g, where g is
         evaluated with that coefficient 0: it enters g at s^k by dg/d(dependent) alone.
@@ -135,7 +135,7 @@ class Manifold:
         return point, values(self.ring, point)
 
     def slopes(self, curve: Curve, functions: Sequence[int]) -> list[list[Series]]:
-        """The derivatives by the free columns of ``functions`` on the manifold, along a curve.
+        """Return the derivatives by the free columns of ``functions`` on the manifold, along a curve.
 
         df/d(free) = f_free - l B, with the multipliers l A = f_dep for the rows (A, B) of the independent relations.
         """
@@ -175,7 +175,7 @@ class Manifold:
 
 @raising_no_value
 def inverse(rows: list[list[Scalar]]) -> Any:
-    """The inverse of a square matrix over GF(p) or balls; raises PoleError."""
+    """Return the inverse of a square matrix over GF(p) or balls; raises PoleError."""
     if not rows:
         return None
     if isinstance(rows[0][0], nmod):
@@ -184,7 +184,7 @@ def inverse(rows: list[list[Scalar]]) -> Any:
 
 
 def product(matrix: Any, vector: Sequence[Scalar]) -> list[Scalar]:
-    """The inverse of a matrix times a vector."""
+    """Return the inverse of a matrix times a vector."""
     if isinstance(matrix, FactoredMatrix):
         found_by_parts: list[Scalar] = [nmod(v, matrix.p) for v in matrix.solve([int(v) for v in vector])]
         return found_by_parts
@@ -219,7 +219,7 @@ class Split:
 
 
 def split(forms: Sequence[Form]) -> Split:
-    """A choice of equations and of coordinates that they determine, from forms over GF(p)."""
+    """Return a choice of equations and of coordinates that they determine, from forms over GF(p)."""
     m = len(forms[0])
     p = forms[0][0][0].modulus()
     rows = [(i, j) for i in range(len(forms)) for j in range(m)]
@@ -233,7 +233,7 @@ def split(forms: Sequence[Form]) -> Split:
 def series_on_critical(
     manifold: Manifold, forms: Sequence[Form], critical: Split, direction: Sequence[Scalar], order: int
 ) -> list[Series]:
-    """The dependent relations along the curve of N whose free coordinates are start + s direction."""
+    """Return the dependent relations along the curve of N whose free coordinates are start + s direction."""
     frame = manifold.frame
     path = [Series(manifold.like + manifold.start[c], order) for c in frame.free]
     step = monomial(manifold.like)

@@ -49,7 +49,7 @@ class Neighbourhood:
         self.norm_of = dict(zip(ball.nodes, self.norms, strict=True))
 
     def floats(self, u: np.ndarray, nodes: Sequence[int], weighed: bool = True) -> tuple[np.ndarray, np.ndarray]:
-        """The relations and their derivatives by u, rows scaled to gradients of length 1 at the point."""
+        """Return the relations and their derivatives by u, rows scaled to gradients of length 1 at the point."""
         with ctx.workprec(WIDE):
             point = BallPoint(self.exactly(u), 0)
             at = values(self.ring, point)
@@ -63,7 +63,7 @@ class Neighbourhood:
         return f, j
 
     def exactly(self, u: np.ndarray) -> dict[Expr, arb]:
-        """The symbols at u."""
+        """Return the symbols at u."""
         moved = {
             k: self.middle[k] + arb(float(s)) * arb(float(v)) for k, s, v in zip(self.keys, self.scales, u, strict=True)
         }
@@ -89,18 +89,18 @@ class Neighbourhood:
         return None
 
     def onto(self, symbols: dict[Expr, arb]) -> dict[Expr, arb] | None:
-        """The point of M with the same free columns."""
+        """Return the point of M with the same free columns."""
         if not self.ball.rows:
             return symbols
         return self.newton(symbols, self.ball.rows, self.dependent)
 
     def of_free(self, c: int) -> tuple[Expr, float]:
-        """The symbol and the scale of the free column number ``c``."""
+        """Return the symbol and the scale of the free column number ``c``."""
         i = self.number[self.ball.frame.free[c]]
         return self.keys[i], float(self.scales[i])
 
     def gradients(self, symbols: Mapping[Expr, arb], critical: Split) -> list[arb]:
-        """The derivatives of dependent relations on M by its coordinates, for each equation of N."""
+        """Return the derivatives of dependent relations on M by its coordinates, for each equation of N."""
         ball = self.ball
         point = BallPoint(symbols, 0)
         at = values(self.ring, point)
@@ -120,13 +120,13 @@ class Neighbourhood:
         return [f[used.index(i)][r + j].mid() for i, j in critical.equations]
 
     def residual(self, symbols: Mapping[Expr, arb], nodes: Sequence[int]) -> float:
-        """The largest of the relations, relative to their gradients."""
+        """Return the largest of the relations, relative to their gradients."""
         at = values(self.ring, BallPoint(symbols, 0))
         return max((abs(float(at[n].mid())) / float(self.norm_of[n]) for n in nodes), default=0.0)
 
 
 def holds_away(ball: Manifold, direction: Sequence[float], deep: bool) -> bool | None:
-    """Are the dependent relations 0, to high precision, at a point of M some way along a curve?
+    """Return whether the dependent relations are 0, to high precision, at a point of M some way along a curve.
 
     ``deep``: the curve begins at exact coordinates, so that what is flat there shows to an order of several hundreds.
     None where the curve could not be followed far enough to see.
@@ -157,7 +157,7 @@ def _holds_at(here: Neighbourhood, u: np.ndarray, sure: float) -> bool | None:
 
 
 def holds_on_critical(ball: Manifold, critical: Split, direction: Sequence[float]) -> bool:
-    """Are the dependent relations 0, to high precision, at a point of the critical set N some way along a curve?
+    """Return whether the dependent relations are 0, to high precision, at a point of the critical set N along a curve.
 
     False also where the curve could not be followed far enough to see.
     """
@@ -179,7 +179,7 @@ def holds_on_critical(ball: Manifold, critical: Split, direction: Sequence[float
 def _onto_critical(
     here: Neighbourhood, critical: Split, direction: Sequence[float], reach: float
 ) -> dict[Expr, arb] | None:
-    """The point of N whose free coordinates have moved by ``reach``: Newton's method on the gradients."""
+    """Return the point of N whose free coordinates have moved by ``reach``: Newton's method on the gradients."""
     symbols = dict(here.middle)
     for value, c in zip(direction, critical.free, strict=True):
         if here.ball.frame.free[c] not in here.number:

@@ -28,7 +28,7 @@ DENOMINATORS = (1, 12, 840, 1 << 16)
 
 
 def bound(forms: Sequence[Form], rigid: int) -> int:
-    """An upper bound of the cone's dimension over the complex numbers, from forms over GF(p).
+    """Return an upper bound of the cone's dimension over the complex numbers, from forms over GF(p).
 
     The cone has at most dimension d where a linear subspace of codimension d meets it in 0 alone. On c = m - d
     variables that holds if and only if the forms' multiples span all polynomials of degree c + 1 [Macaulay1902];
@@ -44,12 +44,12 @@ def bound(forms: Sequence[Form], rigid: int) -> int:
 
 
 def rank(rows: Sequence[Sequence[nmod]], p: int) -> int:
-    """The rank of a matrix over GF(p)."""
+    """Return the rank of a matrix over GF(p)."""
     return int(nmod_mat([[int(v) for v in row] for row in rows], p).rank()) if rows and rows[0] else 0
 
 
 def _only_zero(forms: Sequence[Form], c: int, p: int) -> bool:
-    """Have the forms no common zero but 0 on a random subspace of dimension c?"""
+    """Return whether the forms have no common zero but 0 on a random subspace of dimension c."""
     rng = random.Random("dofkit cone")
     m = len(forms[0])
     basis = nmod_mat([[rng.randrange(p) for _ in range(c)] for _ in range(m)], p)
@@ -63,7 +63,7 @@ def _only_zero(forms: Sequence[Form], c: int, p: int) -> bool:
 
 
 def macaulay_matrix(forms: Sequence[Sequence[Sequence[Any]]], c: int) -> list[list[Any]]:
-    """The multiples of degree c + 1 of quadratic forms in c variables, by their coefficients [Macaulay1902]."""
+    """Return the multiples of degree c + 1 of quadratic forms in c variables, by their coefficients [Macaulay1902]."""
     monomials = {exponents: i for i, exponents in enumerate(combinations_with_replacement(range(c), c + 1))}
     rows = []
     for form in forms:
@@ -77,7 +77,7 @@ def macaulay_matrix(forms: Sequence[Sequence[Sequence[Any]]], c: int) -> list[li
 
 
 def definite_combination(forms: Sequence[Form], rank_wanted: int) -> bool:
-    """Is a combination of the forms, over balls, definite of the given rank? True is a proof.
+    """Return whether a combination of the forms, over balls, is definite of a rank; True is a proof.
 
     In linkages: a stress whose form is definite on the flexes (prestress stability [ConnellyWhiteley1996]).
     """
@@ -168,7 +168,7 @@ def signature_of(form: Form) -> tuple[int, int]:
 
 
 def _pivot(work: list[list[arb]], remaining: set[int]) -> tuple[int, int] | None:
-    """A diagonal entry that is not 0, the largest; else an off-diagonal one."""
+    """Return a diagonal entry that is not 0, the largest; else an off-diagonal one."""
     best, size = None, arb(0)
     for i in remaining:
         if not work[i][i].contains(0) and work[i][i].abs_lower() > size:

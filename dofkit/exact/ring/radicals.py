@@ -179,7 +179,7 @@ def inverse_function(ring: Instructions, name: str, e: Expr) -> int:
 
 
 def _minus(u: Expr) -> bool:
-    """Of u and -u, is this the one that is written by the other?"""
+    """Return whether, of u and -u, this is the one that is written by the other."""
     if u.op == "num":
         return bool(u.args[0] < 0)
     return leads_with_minus(u) if u.op in ("add", "mul") else False

@@ -76,13 +76,13 @@ def beside_none(text: str) -> list[str]:
 
 
 def affirms(part: str) -> bool:
-    """Does a part of an answer say yes, or of what is asked that it is so: `it is integrable`?"""
+    """Return whether a part of an answer says yes, or affirms what is asked: `it is integrable`."""
     tokens = _tokens(plain(part))
     return plain(part) in YES or (bool(tokens) and _closed(tokens) and _denial(tokens) == 0 and _names_it(tokens))
 
 
 def _denies(lowered: str, names: Collection[str] = ()) -> bool:
-    """Does a text in small letters say that there is none, in a known phrase or in words of a closed list?"""
+    """Return whether a text in small letters says that there is none, by a phrase or by words of a closed list."""
     if lowered in NONE:
         return True
     tokens = _tokens(lowered)
@@ -110,13 +110,13 @@ def _names_it(tokens: list[str]) -> bool:
 
 
 def _closed(tokens: list[str]) -> bool:
-    """Are all words of the lists?"""
+    """Return whether all words are in the lists."""
     vocabulary = _DENIALS | _WITH_DENIALS | _AROUND | _EVERY | FILLING
     return all(w in vocabulary or _DENIED.fullmatch(w) or _NEEDED.match(w) for w in tokens)
 
 
 def _denial(tokens: list[str]) -> int:
-    """How often it is denied."""
+    """Return the number of denials."""
     prefixed = sum(1 for w in tokens if (m := _DENIED.fullmatch(w)) and m["prefix"])
     denied = sum(w in _DENIALS for w in tokens)
     return prefixed + (denied or int(any(w in _WITH_DENIALS for w in tokens)))

@@ -249,12 +249,12 @@ def _label(text: str) -> tuple[str, bool] | None:
 
 
 def mentions(part: str, answer: Given) -> bool:
-    """Is something said of a part in other words, such as `integrable` or `time`?"""
+    """Return whether a part is described in other words, such as `integrable` or `time`."""
     return isinstance(answer, str) and _ABOUT[part].search(plain(answer)) is not None
 
 
 def word_of(part: str, holds: bool) -> str:
-    """What a part is called."""
+    """Return the name of a part."""
     return TERMS[part].holds if holds else TERMS[part].fails
 
 

@@ -196,7 +196,7 @@ def with_differentials(script: Script) -> Script:
 
 
 def _closed(text: str, start: int) -> int | None:
-    """Where the bracket that opens at a place is closed."""
+    """Return the place where the bracket that opens at ``start`` is closed, or None."""
     depth = 0
     for i in range(start, len(text)):
         depth += (text[i] in "([{") - (text[i] in ")]}")

@@ -160,7 +160,7 @@ def _at_signs(text: str) -> Iterator[tuple[int, int]]:
 
 
 def _within_brackets(before: str) -> bool:
-    """Is a parenthesis open behind a text? One that closes none, as behind an equation's number, counts nothing."""
+    """Return whether a parenthesis is open after a text; one that closes none is ignored."""
     depth = 0
     for char in before:
         depth = max(0, depth + (char == "(") - (char == ")"))
@@ -214,7 +214,7 @@ def _is_declared(word: str, names: Names) -> bool:
 
 
 def _readable(word: str, names: Names) -> bool:
-    """Is a word a name, or a product of names, such as `mgl`?"""
+    """Return whether a word is a name, or a product of names, such as `mgl`."""
     try:
         return bool(read_word(word, names.lookup, 1, False))
     except TextError:
@@ -222,7 +222,7 @@ def _readable(word: str, names: Names) -> bool:
 
 
 def _is_lead(text: str, names: Names) -> bool:
-    """Do words stand here, none of which is a name? A name with a number, such as g1, titles an equation too."""
+    """Return whether these are words, none of which is a name; `g1:` titles an equation too."""
     lead_words = re.findall(r"\w+", text)
     least = 0 if ":" in text else 1
     return not any(len(w) > least and _is_declared(w, names) for w in lead_words) and (
@@ -231,7 +231,7 @@ def _is_lead(text: str, names: Names) -> bool:
 
 
 def _of_coordinates(text: str, names: Names) -> bool:
-    """Does the left side hold coordinates, as `x y = const`?"""
+    """Return whether the left side contains coordinates, as `x y = const`."""
     try:
         relations = parse_relations(re.split(r"[=∈:]", text)[0], names)
     except TextError:

@@ -128,7 +128,7 @@ def plain(text: str) -> str:
 
 
 def takes_back(remark: str) -> bool:
-    """Does a short remark leave open what stands before it: `?`, `not sure`, `maybe 2`?
+    """Return whether a short remark leaves open what precedes it: `?`, `not sure`, `maybe 2`.
 
     >>> takes_back("not sure"), takes_back("it would be 2 without the rod")
     (True, False)
@@ -139,5 +139,5 @@ def takes_back(remark: str) -> bool:
 
 
 def says_nothing(answer: object) -> bool:
-    """Is there no answer: nothing, a dash, a question mark?"""
+    """Return whether there is no answer: nothing, a dash, a question mark."""
     return isinstance(answer, str) and answer.strip().lower() in NOTHING_SAID

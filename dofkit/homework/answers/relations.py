@@ -75,7 +75,7 @@ class AnswerReading(NamedTuple):
 
     @property
     def on_coordinates(self) -> bool:
-        """Does it say something of the scene's coordinates?"""
+        """Return whether it contains coordinates of the scene."""
         symbols = {s for c in self.relations for e in (c.left, c.right) for s in e.symbols}
         return any(s.args[0] != "parameter" and s.args[-1] not in self.undeclared for s in symbols)
 
@@ -140,7 +140,7 @@ class AnswerNames:
         )
 
     def declares(self, word: str) -> bool:
-        """Does a word mean something already?"""
+        """Return whether a word has a meaning already."""
         return (
             (self.euler and word == "e")
             or word in self.undeclared
@@ -185,7 +185,7 @@ class AnswerNames:
         return twins.pop() if len(twins) == 1 else None
 
     def _may_be_own(self, word: str) -> bool:
-        """Is it a short name? ``x_A`` is none where x is declared, as z is none: they are meant for coordinates."""
+        """Return whether it is a short name; z, and ``x_A`` if x is declared, are meant for coordinates."""
         if word in _CARTESIAN:
             return False
         stem, _, index = word.partition("_")

@@ -104,7 +104,7 @@ class Participant:
             yield f"{first} {last}"
 
     def goes_by(self, text: str) -> bool:
-        """Is a text one of their names, or a part of their name of whole words?"""
+        """Return whether a text is one of their names, or whole words of one."""
         whole_words = set(_key(text.replace(",", " ")).split())
         names = [set(_key(name.replace(",", " ")).split()) for name in (self.name, self.student, *self.others)]
         return _key(text) in map(_key, self.called()) or (
@@ -130,15 +130,15 @@ class Roster:
         return by_name
 
     def find(self, text: str) -> Participant | None:
-        """Who goes by a name, an address or a number; None for nobody, and for what two go by."""
+        """Return who has a name, an address or a number; None for nobody, and if two have it."""
         return self._by_name.get(_key(text))
 
     def owners(self, claims: Sequence[str]) -> list[Participant]:
-        """Whom the names of a file and of its folders name, the innermost first; usually one, or nobody."""
+        """Return whom the names of a file and of its folders identify, the innermost first; usually one, or nobody."""
         return list(dict.fromkeys(owner for owner in map(self._owner, claims) if owner is not None))
 
     def _owner(self, claim: str) -> Participant | None:
-        """Whom a name of a file or a folder names, as platforms write it."""
+        """Return whom the name of a file or a folder identifies, as platforms write it."""
         if platform := _MOODLE.match(claim):
             return self.find(platform["who"])
         if platform := _CANVAS.match(claim):
@@ -150,7 +150,7 @@ class Roster:
 
 
 def own_name(claim: str) -> str:
-    """What one is called whom nothing else names but a file or a folder: never as another is.
+    """Return the name of a student who is identified by a file or a folder only: never that of another.
 
     >>> own_name("Ada Lovelace_123_assignsubmission_file_"), own_name("sheet_1_2_ada")
     ('Ada Lovelace_123', 'sheet_1_2_ada')
@@ -203,7 +203,7 @@ def load_roster(path: str | os.PathLike[str]) -> Roster:
 
 
 def _fields(header: list[str], file: str) -> dict[str, int]:
-    """Which column is what."""
+    """Return the column of each field."""
     words = [" ".join(name.lower().split()) for name in header]
     columns: dict[str, int] = {}
     for i, word in enumerate(words):

@@ -65,7 +65,7 @@ class Handed:
 
     @property
     def key(self) -> str:
-        """What tells it from another, in 16 characters."""
+        """Return 16 characters that distinguish it from others."""
         said = self.data if isinstance(self.data, bytes) else repr((self.data, self.error)).encode("utf-8", "replace")
         users = "\0".join(user.student for user in self.users)
         named = f"{self.name}\0{self.place}\0{users}\0".encode("utf-8", "replace")
@@ -188,7 +188,7 @@ def _stream(stream: BinaryIO, file: str, columns: Columns) -> Iterator[Handed]:
 
 
 def _is_line(line: bytes) -> bool:
-    """Is a line all of one JSON object?"""
+    """Return whether a line is one JSON object."""
     text = line.removeprefix(b"\xef\xbb\xbf").strip()
     return text.startswith(b"{") and text.endswith(b"}")
 

@@ -181,7 +181,7 @@ def refused(name: str, place: FilePlace, message: str, hint: str | None = None) 
 
 
 def reason(error: OSError | ValueError) -> str:
-    """Why a file cannot be read."""
+    """Return why a file cannot be read."""
     said = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
     return said[:1].lower() + said[1:]
 

@@ -94,7 +94,7 @@ def _words(script: Script) -> Iterator[Word]:
 
 
 def is_none(answer: object, says: Callable[[str], bool], names: Collection[str] = (), every: bool = False) -> bool:
-    """Is the answer that there is none? ``says``: does a part of it name one all the same?
+    """Return whether the answer is that there is none. ``says``: whether a part of it names one all the same.
 
     ``names``: names that are no words; ``every``: that all are needed says so too. Raises DoubtError where it
     says both.
@@ -109,7 +109,7 @@ def is_none(answer: object, says: Callable[[str], bool], names: Collection[str] 
 
 
 def lists_only(part: str, names: Sequence[str]) -> bool:
-    """Does a part of an answer consist of known names, with words around them that say nothing?"""
+    """Return whether a part of an answer consists of ``known`` names and words that say nothing."""
     table = ChoiceOfNames(names)
     listed = [word.text for word in split_words(part)]
     others = [w for w in listed if not table.meant(w)]

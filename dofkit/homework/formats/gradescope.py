@@ -27,12 +27,12 @@ from dofkit.homework.sentences import Language, in_language
 
 
 def visibility_of(prepared: Prepared | None) -> Visibility:
-    """When students see what their answers are worth; at once where there is no assignment to say it."""
+    """Return when students see their points: at once if there is no assignment."""
     return "visible" if prepared is None else prepared.assignment.points_visibility
 
 
 def document(result: Result, visibility: Visibility = "visible", language: Language = "en") -> dict[str, Any]:
-    """What ``results.json`` says of a submission."""
+    """Return the ``results.json`` of a submission."""
     later = visibility != "visible" and result.error is None
     fields: dict[str, Any] = {
         "score": result.score or 0.0,

@@ -60,7 +60,7 @@ class Question(NamedTuple):
 
     @property
     def doubt(self) -> str:
-        """What to ask of a question whose answers often could not be read; empty where they could."""
+        """Return what to ask of a question whose answers often could not be read, else nothing."""
         if self.unread < FEWEST_UNREAD or self.unread < LEAST_UNREAD * self.answered:
             return ""
         return f"{self.unread} of {self.answered} answers could not be read: is the question clear?"

@@ -77,12 +77,12 @@ def _answer_row(item: Item, asked: str) -> dict[str, Any]:
 
 
 def problem_title(problem: Problem) -> str:
-    """What a problem is called."""
+    """Return the heading of a problem."""
     return problem.id if problem.title is None else f"{problem.id}: {problem.title}"
 
 
 def question_text(question: QuestionBase) -> str:
-    """What a question asks for, in words."""
+    """Return what a question asks for, in words."""
     text = type(question).model_fields["ask"].description or question.kind()
     about = getattr(question, "constraint", None) or getattr(question, "coordinate", None)
     if about:

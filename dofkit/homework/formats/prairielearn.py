@@ -28,7 +28,7 @@ UNGRADED = (
 
 
 def document(result: Result, language: Language = "en") -> dict[str, Any]:
-    """What ``results.json`` says of a submission, in less than a megabyte."""
+    """Return the ``results.json`` of a submission, in less than a megabyte."""
     fields = _document(result, language)
     for most in (MOST_CHARACTERS, MOST_CHARACTERS // 10):
         fields = fields if len(text(fields)) <= MOST_BYTES else _cut(fields, most)

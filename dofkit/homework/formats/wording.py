@@ -142,7 +142,7 @@ class ReadingStop(NamedTuple):
 
 
 def stop_of(item: Item) -> ReadingStop | None:
-    """Where reading of an answer stopped, at most so many characters before and after; None where it did not."""
+    """Return where reading of an answer stopped, with the characters around, or None if it did not."""
     if item.answer is None or item.column is None:
         return None
     place = min(item.column - 1, len(item.answer))

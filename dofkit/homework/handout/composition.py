@@ -44,7 +44,7 @@ class SheetComposer:
 
     @property
     def language(self) -> Language:
-        """What it is written in."""
+        """Return the language of the sheet."""
         return self.prepared.assignment.language
 
     def _text(self, sentence: str, **values: object) -> str:
@@ -92,7 +92,7 @@ class SheetComposer:
         return question.asked(about).translated(self.language)
 
     def _names(self, problem: Problem, key: Key) -> Iterator[str]:
-        """What everything is called, and what holds it."""
+        """Yield the names of the problem, and its constraints."""
         table = coordinate_table(key.scene)
         for owner, group in groupby(table.coordinates, key=lambda c: c.owner):
             symbols = ", ".join(f"${c.name}$" for c in group)
@@ -140,7 +140,7 @@ class SheetComposer:
             yield self._text("{name} may also be written as {names}.", name=f"`{name}`", names=listed)
 
     def _ways(self) -> Iterator[str]:
-        """How answers are written: of every kind of question that the sheet has."""
+        """Yield how answers are written, for every kind of question on the sheet."""
         asked = [question for _, question in self.prepared.questions()]
         kinds = {question.kind(): type(question) for question in asked}
         if {"dof", "k"} & set(kinds):

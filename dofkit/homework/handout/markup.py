@@ -149,7 +149,7 @@ class SheetFigure(NamedTuple):
 
     @property
     def kind(self) -> str:
-        """What a page calls it."""
+        """Return its media type."""
         return KINDS[Path(self.path).suffix.lower()]
 
 

@@ -60,7 +60,7 @@ def _figure(problem: Problem, prepared: Prepared, draw: Draw, whose: str | None)
 
 
 def _path(problem: Problem, whose: str | None) -> str:
-    """Where the picture of a problem stands in the sheet's folder, without its ending; each student has another."""
+    """Return the path of a problem's picture in the sheet's folder, without its ending; each student has another."""
     return "/".join(["figures", *([] if whose is None else [stem(whose)]), stem(problem.id)])
 
 
@@ -96,7 +96,7 @@ def write_sheet(sheet: WrittenSheet, form: str, out: Path) -> None:
 
 
 def remarks(prepared: Prepared) -> Iterator[str]:
-    """What a lecturer should know of a sheet before it is handed out."""
+    """Yield what a lecturer should know about a sheet before it is handed out."""
     for problem in prepared.assignment.problems:
         for text in unset_formulas(problem.text or ""):
             yield f"problem '{problem.id}': the formula ${text}$ cannot be typeset, and is shown as typed"

@@ -62,7 +62,7 @@ class PosedAnswer(NamedTuple):
 
 
 def with_answer(key: Key, read: Read, question: Callable[[PosedAnswer], Found]) -> Found:
-    """What is found of the scene with the answer. Raises TextError where the scene cannot hold it."""
+    """Return what a question finds in the scene with the answer. Raises TextError if the scene cannot contain it."""
     try:
         system = lower(with_equations(key.scene, read, ANSWER)).in_coordinates
         return question(PosedAnswer(system, range(len(key.scene.constraints), len(system.constraints))))
@@ -266,7 +266,7 @@ def _equations(key: Key, name: str) -> str:
 
 
 def _sayable(key: Key, expr: Expr) -> bool:
-    """Are all names in it declared, lengths without a name apart?"""
+    """Return whether all names in it are declared, except lengths without a name."""
     declared = {*key.names.coordinates, *key.names.parameters}
     return all(
         s.args[0] == "time" or str(s.args[-1]) in declared or _UNNAMED.fullmatch(str(s.args[-1])) for s in expr.symbols

@@ -27,7 +27,7 @@ _LEFT_OUT = "The constant of integration is missing: `... = C`."
 
 
 def integral_judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
-    """What one reading of an answer is worth as the integral of the constraint of this name."""
+    """Return what one reading of an answer is worth as the integral of the constraint of this name."""
     way = way.claim if way.derived else way
     if len(way.relations) > 1 and way.undeclared:
         return _in_parameters(way, key, name)
@@ -85,7 +85,7 @@ def _with_constants(way: AnswerReading, key: Key) -> Read:
 
 
 def _leaves(key: Key, read: Read, name: str) -> Leaves:
-    """Is the answer a family of curves or surfaces on which the constraint holds?"""
+    """Return whether the answer is a family of curves or surfaces on which the constraint is satisfied."""
     scene = key.scene
     system = lower(_with_still(scene, read))
     answer_numbers = range(len(scene.constraints), len(scene.constraints) + len(read.texts))

@@ -47,7 +47,7 @@ def same_lagrangian(answer: Expr, right: Expr, motion: RightMotion) -> bool | No
 
 
 def _spanned(forces: Sequence[Expr], motion: RightMotion) -> bool | None:
-    """Are forces sums of those of the constraints, at every state and acceleration that these allow?"""
+    """Return whether forces are sums of those of the constraints, at every state and acceleration that these allow."""
     columns = [ex.sym("acceleration", n) for n in motion.names]
     lines = [linear(motion.on_constraints(e), columns) for e in forces]
     held = [linear(motion.on_constraints(e), columns) for e in motion.rows]
@@ -136,12 +136,12 @@ class AnsweredMotion:
 
     @property
     def decidable(self) -> bool:
-        """Can it be decided at points: is everything linear?"""
+        """Return whether it can be decided at points, because everything is linear."""
         whole = len(self.motion.names) + len(self.motion.multipliers)
         return self.rows is not None and len(self.right) == whole
 
     def follow(self) -> Followed | None:
-        """How each equation compares with those that are right; None where it is open.
+        """Return how each equation compares with those that are right, or None if undecided.
 
         Multipliers of the answer's own may have any value: an equation follows where there is one at which the
         scene's accelerations satisfy all that hold it.
@@ -184,7 +184,7 @@ class PointFindings(NamedTuple):
         return rank_of([row[:n] for row, s in zip(self.rows, sound, strict=True) if s and not any(row[n:-1])], self.p)
 
     def contradictory(self, n: int) -> bool:
-        """Do rows that hold accelerations exclude each other?"""
+        """Return whether rows that contain accelerations exclude each other."""
         moving = [row for row in self.rows if any(row[:n])]
         return rank_of(moving, self.p) > rank_of([row[:-1] for row in moving], self.p)
 

@@ -41,7 +41,7 @@ class Key:
 
     @cached_property
     def report(self) -> Report:
-        """What dofkit says of the scene. An answer's own coordinates, each with its equation, leave that as it is."""
+        """Return the report of the scene, which an answer's own coordinates, each with its equation, do not change."""
         return classify(self.scene) if self.base is None else self.base.report
 
     @cached_property
@@ -64,7 +64,7 @@ class Key:
 
     @cached_property
     def declared(self) -> DeclaredNames:
-        """What an answer's texts may mention."""
+        """Return what an answer's texts may mention."""
         return DeclaredNames.of(self.scene, self.also, self.others)
 
     @property
@@ -92,7 +92,7 @@ class Key:
 
     @cached_property
     def motion(self) -> RightMotion | DofkitError:
-        """What is right of the equations of motion, or why that is not known."""
+        """Return the equations of motion, or why they are unknown."""
         return right_motion_or_why(self.scene)
 
     @cached_property

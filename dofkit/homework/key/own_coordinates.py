@@ -113,7 +113,7 @@ def _follows(key: Key, text: str) -> bool:
 
 
 def faults_of_own(key: Key) -> Iterator[Fault]:
-    """What is wrong with the coordinates that an assignment offers."""
+    """Yield the faults of the coordinates that an assignment offers."""
     for name, text in key.also.items():
         odd = valid_name(name)
         if odd is not None:

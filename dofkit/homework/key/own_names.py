@@ -23,7 +23,7 @@ _SINE, _COSINE = ex.parameter("own sine"), ex.parameter("own cosine")
 
 
 def restrictions(relations: Sequence[Comparison], names: Sequence[str], scene: Scene) -> list[Expr] | None:
-    """What relations that define names of an answer's own say of the coordinates; None where that is not known."""
+    """Return what relations that define names of an answer's own imply for the coordinates, or None if undecided."""
     sums: list[Expr] = [c.left - c.right for c in relations]
     for name in names:
         remaining = _eliminated([substitute(e, {ex.coordinate(name): ex.parameter(name)}) for e in sums],
@@ -73,7 +73,7 @@ def with_constants(relations: Sequence[Comparison], names: Sequence[str], scene:
 
 
 def _defined(c: Comparison, symbol: Expr, names: Sequence[str], scene: Scene) -> Expr | None:
-    """What a constant is by a relation of constants that says it, or its square; None for any other relation."""
+    """Return a constant's value by a relation of constants that states it, or its square, else None."""
     e = c.left - c.right
     others = e.symbols - {symbol}
     if c.relation != "=" or symbol not in e.symbols or any(s.args[0] != "parameter" for s in others):
@@ -191,7 +191,7 @@ def _solved(first: Expr, second: Expr, scene: Scene) -> dict[Expr, Expr] | None:
 
 
 def never_zero(e: Expr, scene: Scene) -> bool:
-    """Is it a number other than 0, or a product of such with parameters that are positive or not 0?"""
+    """Return whether it is a number other than 0, or a product of such with parameters that are positive or nonzero."""
     if e.op == "num":
         return not e.is_zero
     if e.op == "mul":

@@ -144,7 +144,7 @@ def _defining_constants(way: AnswerReading, key: Key) -> AnswerReading:
 
 
 def _of_constants(c: Comparison, bare: bool) -> bool:
-    """Is it a value of constants alone, which defines none?"""
+    """Return whether it is a value of constants alone, which defines none."""
     return bare and all(s.args[0] == "parameter" for s in c.left.symbols)
 
 
@@ -165,7 +165,7 @@ def _names(c: Comparison) -> set[str]:
 
 
 def _defines(c: Comparison, undeclared: Sequence[str]) -> bool:
-    """Is it a relation between names of the answer's own and coordinates, without velocities?"""
+    """Return whether it relates names of the answer's own and coordinates, without velocities."""
     symbols = c.left.symbols | c.right.symbols
     return (
         bool(_names(c) & set(undeclared))

@@ -79,7 +79,7 @@ class RightMotion:
         return replace(self, equations=equations) if all(is_zero(e, self.positive) for e in forces) else None
 
     def zero(self, e: Expr) -> bool | None:
-        """Is an expression 0 where the constraints hold? None where that was not decided."""
+        """Return whether an expression is 0 where the constraints are satisfied, or None if undecided."""
         moved = self.on_constraints(e)
         zero_everywhere = is_zero(moved, self.positive)
         return zero_everywhere if zero_everywhere is not False or not self.relations else self._zero_there(moved)
@@ -113,7 +113,7 @@ def points(ring: Ring, relations: Sequence[Expr]) -> Iterator[tuple[int, Any]]:
 
 
 def right_motion(scene: Scene, whole: bool = False) -> RightMotion:
-    """What is right of a scene; ``whole``: with nothing eliminated. Raises DofkitError without equations of motion."""
+    """Return the motion of a scene; ``whole``: with nothing eliminated. Raises DofkitError if there is none."""
     derived = derive(read(scene).model(ELIMINATIONS[-1])) if whole else derived_of(scene)
     model = derived.model
     rates: dict[Expr, Expr] = {}
@@ -170,7 +170,7 @@ def is_zero(e: Expr, positive: frozenset[Expr]) -> bool | None:
 
 
 def right_motion_or_why(scene: Scene, whole: bool = False) -> RightMotion | DofkitError:
-    """What is right of a scene, or why it is not known."""
+    """Return the motion of a scene, or why it is unknown."""
     try:
         return right_motion(scene, whole)
     except DofkitError as error:

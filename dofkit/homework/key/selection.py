@@ -24,7 +24,7 @@ from dofkit.system import System
 
 
 def determine(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
-    """Does nothing move when these coordinates are held: is what is finite in the scene, with dq = 0 for them, rigid?
+    """Return whether nothing moves if these coordinates are fixed: with dq = 0 for them the system is rigid.
 
     ``report``: of the scene, or without its last constraints, which define coordinates. Time stands still, so what it
     prescribes does not move. None where that was not decided. Non-holonomic constraints are left out: they do not fix
@@ -82,7 +82,7 @@ def _finite(normals: Sequence[Normal]) -> tuple[Normal, ...]:
 
 
 def can_be_dropped(scene: Scene, names: Sequence[str], report: Report) -> bool | None:
-    """Is the set of motions the same without the constraints of these names?
+    """Return whether the set of motions is the same without the constraints of these names.
 
     They follow from the others, or, near a drawn or generic pose, all is finite and as free there without them.
     """

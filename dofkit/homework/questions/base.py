@@ -61,7 +61,7 @@ class QuestionBase(WrittenModel):
 
     @classmethod
     def kind(cls) -> str:
-        """What it asks for, as written."""
+        """Return what it asks for, as written."""
         return _kind(cls)
 
     @property
@@ -82,7 +82,7 @@ class QuestionBase(WrittenModel):
         return f"a question that asks for '{cls.kind()}'"
 
     def faults(self, key: Key) -> Iterator[Fault]:
-        """What is wrong with the question for this scene, each at a path within the question."""
+        """Yield the faults of the question for this scene, each at a path within the question."""
         del key
         yield from ()
 
@@ -99,11 +99,11 @@ class QuestionBase(WrittenModel):
         return shown_text_of(self.readings(answer, names))
 
     def reveals(self, judgement: Judgement) -> bool:
-        """Would an example that is judged so tell of the answer? What is half right does."""
+        """Return whether an example that is judged so reveals the answer, as one that is half right does."""
         return judgement.status not in ("wrong", "unreadable")
 
     def solution(self, key: Key) -> Sentence:
-        """What is right, in words; empty where dofkit does not know it."""
+        """Return the correct answer in words, or nothing if it is unknown."""
         raise NotImplementedError
 
     def number(self, answer: Given) -> Fraction | None:

@@ -121,7 +121,7 @@ _DIFFERENTIAL = re.compile(r"(?<![^\W\d_])[d∂](?=[^\W\d_]|\s?\\)|dot|∧|\\(?:
 
 
 def _says_relation(part: str) -> bool:
-    """Is a part of an answer a finite relation?"""
+    """Return whether a part of an answer is a relation between coordinates."""
     return "=" in part and _DIFFERENTIAL.search(part) is None
 
 

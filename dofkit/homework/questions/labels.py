@@ -102,7 +102,7 @@ class LabelQuestion(QuestionBase):
         return replace(review, ways=tuple(ways))
 
     def _judged(self, claims: Labels, key: Key) -> Judgement:
-        """What labels are worth of which each part has one or none."""
+        """Return what labels are worth of which each part has one or none."""
         entry = key.constraints[self.constraint]
         truth = truths(entry)
         good = [p for p in self.parts if claims.get(p) == frozenset({truth[p]})]
@@ -118,5 +118,5 @@ class LabelQuestion(QuestionBase):
 
 
 def truths(entry: ConstraintEntry) -> dict[str, bool | None]:
-    """What holds of a constraint, by part."""
+    """Return the labels of a constraint, by part."""
     return {"holonomic": entry.holonomic, "scleronomic": entry.scleronomic, "bilateral": entry.bilateral}

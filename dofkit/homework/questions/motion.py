@@ -219,7 +219,7 @@ class MotionQuestion(_MotionQuestion):
         return right(text)
 
     def _of_another(self, row: Sequence[Expr], answered: AnsweredMotion, motion: RightMotion, place: int) -> bool:
-        """Is the row a multiple of another coordinate's equation, and not of the one asked for?"""
+        """Return whether the row is a multiple of another coordinate's equation, and not of the one asked for."""
         proportional = [_proportional(row[:-1], other[:-1], motion.positive) for other in answered.right]
         return not proportional[place] and any(proportional)
 
@@ -269,6 +269,6 @@ def _all(followed: Followed, motion: RightMotion, text: str) -> Judgement:
 
 
 def _proportional(a: Sequence[Expr], b: Sequence[Expr], positive: frozenset[Expr]) -> bool:
-    """Are two rows multiples of each other?"""
+    """Return whether two rows are multiples of each other."""
     pairs = [(i, j) for i in range(len(a)) for j in range(i)]
     return all(is_zero(a[i] * b[j] - a[j] * b[i], positive) for i, j in pairs)

@@ -56,11 +56,11 @@ class NumberQuestion(QuestionBase):
         return None
 
     def clash(self, key: Key) -> str:
-        """What to say of the other convention's number."""
+        """Return what to say about the other convention's number."""
         return _CONVENTIONS[key.convention]
 
     def advice(self, key: Key) -> str:
-        """How the number is counted: what to say of one that no known error explains."""
+        """Return how the number is counted: what to say about one that no known error explains."""
         raise NotImplementedError
 
     def consequences(self, key: Key, earlier: Earlier) -> Iterator[Fraction]:

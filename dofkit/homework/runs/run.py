@@ -69,12 +69,12 @@ class GradingOptions:
 
     @property
     def in_folder(self) -> bool:
-        """Does the format write a folder there?"""
+        """Return whether the format writes a folder there."""
         return self.out is not None and self.format.folder(self.out)
 
     @property
     def review(self) -> ReviewPaths | None:
-        """Where the review stands. Raises FormatError."""
+        """Return the paths of the review. Raises FormatError."""
         return None if self.out is None or self.check_only else ReviewPaths.of_output(self.out, self.in_folder)
 
     @property

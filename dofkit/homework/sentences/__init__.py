@@ -22,7 +22,7 @@ def catalogue() -> dict[str, dict[str, str]]:
 
 @cache
 def _reading(language: Language) -> list[tuple[re.Pattern[str], str]]:
-    """What matches an English text of why reading stopped, and the same in a language with the names that it found."""
+    """Return patterns of English texts of why reading stopped, each with the text in a language."""
     data = files("dofkit.homework.sentences").joinpath("reading.yaml").read_bytes()
     rows: list[dict[str, str]] = read_document(data, "reading").value
     return [(_pattern(row["en"]), row[language]) for row in rows]
@@ -39,7 +39,7 @@ _PLACE = re.compile(r"\{(\w+)\}")
 
 
 def stopped(text: str, language: Language) -> str:
-    """Why reading stopped, or what to do, in a language; in English where it has no such text.
+    """Return why reading stopped, or what to do, in a language; in English if it has no such text.
 
     >>> stopped("`q` is not declared", "fr")
     "`q` n'est pas déclaré"

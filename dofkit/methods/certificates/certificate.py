@@ -15,7 +15,7 @@ from dofkit.methods.certificates.contradictions import (
     is_of_largest_part,
     is_told_of_less,
     other_reports,
-    refutation,
+    refutations,
 )
 from dofkit.methods.certificates.numerics import NoEstimateError
 from dofkit.methods.certificates.room import ClaimTrial, Room, Told, empty_certificate
@@ -92,19 +92,19 @@ class Certifying:
                 self.trial.admit(room.scenery)
         except CheckError:
             self.rooms = []
-        left = []
+        unshown = []
         for path, value, make in sorted(_asked(self.report), key=lambda asked: asked[0] in LAST):
             claim = self._made(path, value, make)
             if claim is None and self._is_proved(path):
                 self.found["uncovered"].append(path)
-                left.append((path, value, make))
+                unshown.append((path, value, make))
             elif claim is None:
                 self.contradictions.pop(path, None)
             else:
                 self.found["claims"].append(claim)
                 self._compare_about(path, claim)
         written = without_spare_parts({**self.found})  # what is searched for below adds parts to the lists
-        for path, value, make in left:
+        for path, value, make in unshown:
             self._look_for_others(path, value, make)
         written["uncovered"] = [path for path in written["uncovered"] if path not in self.contradictions]
         return written
@@ -118,26 +118,25 @@ class Certifying:
         """Write down why a claim without evidence cannot be, where something shows it."""
         if path not in self.contradictions and path in LAST:
             self._made(path, value, make)
+        asked_path, asked_value = path, value
+        if path == "/generalized_coordinates":  # there are as many as degrees of freedom
+            asked_path, asked_value = "/dof", len(value)
         for room in self.rooms:
-            for value_shown in _guarded(self._others(room, path, value)):
-                self.contradictions.setdefault(path, f"the evidence gives {value_shown!r}, not {str(value)[:80]!r}")
+            for other in _guarded(self._others(room, asked_path, asked_value)):
+                self.contradictions.setdefault(path, f"the evidence gives {other!r}, not {str(asked_value)[:80]!r}")
                 return
-            for why in _guarded(self._refutations(room, path, value)):
+            for why in _guarded(refutations(room, self.report, path, value)):
                 self.contradictions.setdefault(path, why)
 
     def _others(self, room: Room, path: str, value: Any) -> Iterator[Any]:
         """Other values of a claim that are shown where the claim is made."""
         for report in other_reports(self.report, path, value, len(room.problem.coordinates)):
-            asked = next(one for one in _asked(report) if one[0] == path)
-            for evidence in _guarded(asked[2](as_if(room, report))):
-                claim = self._claim(room, path, asked[1], evidence)
+            freedom_asked = path, report.dof, NUMBERS["dof"]
+            _, other, make = next((entry for entry in _asked(report) if entry[0] == path), freedom_asked)
+            for evidence in _guarded(make(as_if(room, report))):
+                claim = self._claim(room, path, other, evidence)
                 if is_decisive(room, claim) and self.trial and self.trial.outcome(claim) == "shown":
-                    yield asked[1]
-
-    def _refutations(self, room: Room, path: str, value: Any) -> Iterator[str]:
-        dof = self.trial.verifier.verified.get("/dof") if self.trial else None
-        if why := refutation(room, self.report, path, value, dof):
-            yield why
+                    yield other
 
     @staticmethod
     def _claim(room: Room, path: str, value: Any, evidence: Told) -> Told:
@@ -168,8 +167,8 @@ class Certifying:
         path = claim["path"]
         if is_told_of_less(room, path[1:]):
             return False
-        told = self.report.verdicts.get(path[1:])
-        whole = told is not None and told.about == "everywhere"
+        verdict = self.report.verdicts.get(path[1:])
+        whole = verdict is not None and verdict.about == "everywhere"
         if path == "/dof" and whole and self.trial and not room.problem.reference:
             number = self.trial.reasons[path].removeprefix("the evidence gives ").partition(",")[0]
             if number.isdigit() and int(number) > claim["value"]:
@@ -192,18 +191,22 @@ def _guarded(candidates: Iterator[Candidate]) -> Iterator[Candidate]:
         return
 
 
-def without_spare_parts(found: dict[str, Any]) -> dict[str, Any]:
+def without_spare_parts(certificate: dict[str, Any]) -> dict[str, Any]:
     """The certificate with only the parts that its claims use."""
-    used = _texts_in(found["claims"])
+    used = _texts_in(certificate["claims"])
     for part in ("covers", "minors", "fields", "points"):
-        found[part] = [one for one in found[part] if one["id"] in used]
-        used |= _texts_in(found[part])
+        certificate[part] = [part_entry for part_entry in certificate[part] if part_entry["id"] in used]
+        used |= _texts_in(certificate[part])
     kept: set[str] = set()
-    while wanted := [one for one in found["relations"] if one["id"] not in kept and _needed(one, used)]:
-        kept |= {one["id"] for one in wanted}
+    while wanted := [
+        part_entry
+        for part_entry in certificate["relations"]
+        if part_entry["id"] not in kept and _needed(part_entry, used)
+    ]:
+        kept |= {part_entry["id"] for part_entry in wanted}
         used |= _texts_in(wanted)
-    found["relations"] = [one for one in found["relations"] if one["id"] in kept]
-    return found
+    certificate["relations"] = [part_entry for part_entry in certificate["relations"] if part_entry["id"] in kept]
+    return certificate
 
 
 def _needed(step: Told, used: set[str]) -> bool:
@@ -216,20 +219,20 @@ def _texts_in(value: Any) -> set[str]:
     if isinstance(value, str):
         return {value}
     if isinstance(value, dict):
-        return set(value) | {text for one in value.values() for text in _texts_in(one)}
-    return {text for one in value for text in _texts_in(one)} if isinstance(value, list) else set()
+        return set(value) | {text for item in value.values() for text in _texts_in(item)}
+    return {text for item in value for text in _texts_in(item)} if isinstance(value, list) else set()
 
 
-def _rooms(document: Mapping[str, Any], report: Report, found: dict[str, Any]) -> list[Room]:
+def _rooms(document: Mapping[str, Any], report: Report, certificate: dict[str, Any]) -> list[Room]:
     """The readings that evidence is looked for in: with Cayley parameters first, where a drawing is given."""
     plain = read_problem(document)
-    rooms = [Room(report, document, Scenery(plain, False, found))]
+    rooms = [Room(report, document, Scenery(plain, False, certificate))]
     bodies = frozenset(_names(document.get("bodies")))
     if plain.world.dimension == 3 and bodies and plain.reference:
         chart = _with_cayley(document, bodies)
         if chart is not None:
-            found["cayley"] = sorted(bodies)
-            rooms.insert(0, Room(report, document, Scenery(chart, True, found)))
+            certificate["cayley"] = sorted(bodies)
+            rooms.insert(0, Room(report, document, Scenery(chart, True, certificate)))
     return rooms
 
 
@@ -247,15 +250,15 @@ def _with_cayley(document: Mapping[str, Any], bodies: frozenset[str]) -> Problem
 
 def _asked(report: Report) -> Iterator[tuple[str, Any, Maker]]:
     """The claims that are said to be proved, or numbers that are probable: path, value, how evidence is looked for."""
-    told = report.model_dump(mode="json")
+    document = report.model_dump(mode="json")
     for field, verdict in report.verdicts.items():
         if verdict.verdict in ("proved", "probable") and field in NUMBERS:
-            yield f"/{field}", told[field], NUMBERS[field]
+            yield f"/{field}", document[field], NUMBERS[field]
         elif verdict.verdict == "proved":
-            yield f"/{field}", told[field], _nothing
-    for entry, values in zip(report.constraints, told["constraints"], strict=True):
+            yield f"/{field}", document[field], _nothing
+    for entry, values in zip(report.constraints, document["constraints"], strict=True):
         name = entry.name.replace("~", "~0").replace("/", "~1")
-        for field, verdict in sorted(entry.verdicts.items(), key=lambda told: told[0] == "scleronomic"):
+        for field, verdict in sorted(entry.verdicts.items(), key=lambda item: item[0] == "scleronomic"):
             if verdict.verdict == "proved":
                 yield f"/constraints/{name}/{field}", values[field], _label_maker(entry, field)
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from copy import copy
-from itertools import takewhile
 from typing import Any
 
 from dofkit.checker.evidence import admissible, field_named
@@ -39,7 +38,7 @@ def as_if(room: Room, report: Report) -> Room:
 def other_reports(report: Report, path: str, value: Any, coordinates: int) -> Iterator[Report]:
     """Reports that tell other values under a path."""
     name, field = _parts(path)
-    for other in _other_values(field, name, value, coordinates, report):
+    for other in _other_values(field, value, coordinates, report):
         if not name:
             yield report.model_copy(update={field: other})
             continue
@@ -50,24 +49,22 @@ def other_reports(report: Report, path: str, value: Any, coordinates: int) -> It
 
 def _parts(path: str) -> tuple[str, str]:
     """The constraint's name, or "", and the field."""
-    parts = [part.replace("~1", "/").replace("~0", "~") for part in path.split("/")]
-    return (parts[2], parts[3]) if len(parts) == 4 else ("", parts[-1])
+    keys = [part.replace("~1", "/").replace("~0", "~") for part in path.split("/")]
+    return (keys[2], keys[3]) if len(keys) == 4 else ("", keys[-1])
 
 
 def _with_labels(report: Report, names: Sequence[str], field: str, value: Any) -> Report:
-    told = [e.model_copy(update={field: value}) if e.name in names else e for e in report.constraints]
-    return report.model_copy(update={"constraints": told})
+    entries = [e.model_copy(update={field: value}) if e.name in names else e for e in report.constraints]
+    return report.model_copy(update={"constraints": entries})
 
 
-def _other_values(field: str, name: str, value: Any, coordinates: int, report: Report) -> Iterator[Any]:
+def _other_values(field: str, value: Any, coordinates: int, report: Report) -> Iterator[Any]:
     if isinstance(value, bool):
         yield not value
     elif field in ("dof", "velocity_dof"):
         yield from (k for k in range(coordinates + 1) if k != value)
     elif field in ("circuit", "conflicting") and value:
-        yield from ([one for one in value if one != other] for other in value)
-        before = list(takewhile(lambda one: one != name, (entry.name for entry in report.constraints)))
-        yield from ([one for one in before if one in (*value, other)] for other in before if other not in value)
+        yield from ([member for member in value if member != other] for other in value)
     elif field == "redundant":
         spared = [entry.name for entry in report.constraints if entry.independent == 0 and entry.equations]
         yield from (other for other in ([], spared) if len(other) != len(value))
@@ -132,33 +129,48 @@ def is_one_part(room: Room) -> bool:
     fibres of the largest rank alone (Sard). Linear relations with rational coefficients leave an affine space.
     """
     evidence = room.scenery.evidence
-    analytic = all(evidence.has_value_everywhere(evidence.relation(one).left) for one in evidence.equations)
+    analytic = all(evidence.has_value_everywhere(evidence.relation(name).left) for name in evidence.equations)
     if not analytic or room.problem.world.names.functions:
         return False
-    slopes = (evidence.slope(one, q) for one in evidence.finite for q in room.problem.coordinates)
+    slopes = (evidence.slope(name, q) for name in evidence.finite for q in room.problem.coordinates)
     if all(map(evidence.own_symbol, evidence.finite)) or all(evidence.ring.rational(s) is not None for s in slopes):
         return True
     return not graph_order(room, list(evidence.finite))[1]
 
 
-def refutation(room: Room, report: Report, path: str, value: Any, dof: int | None) -> str:
-    """Return why a claim of another kind is false, or "": a number of coordinates, an integral.
+def refutations(room: Room, report: Report, path: str, value: Any) -> Iterator[str]:
+    """Yield why a claim is false of which no other value is looked for.
 
-    There are as many generalized coordinates as ``dof``, where that was verified. A function that a velocity changes
-    which all relations allow is no integral.
+    No row of a constraint is independent of its circuit. A function that an admissible velocity changes is no integral.
     """
     name, field = _parts(path)
-    standing, evidence = room.standing, room.scenery.evidence
-    if not speaks_for_all(room) or standing is None:
-        return ""
-    if field == "generalized_coordinates" and dof not in (None, len(value)):
-        return f"the evidence gives {dof} degrees of freedom, not {len(value)}"
-    entry = next((one for one in report.constraints if one.name == name), None)
+    if not speaks_for_all(room):
+        return
+    entry = next((entry for entry in report.constraints if entry.name == name), None)
+    if entry is not None and field == "circuit" and value is not None:
+        evidence = room.scenery.evidence
+        members = [row for member in value for row in evidence.owned(member)]
+        if any(_is_apart(room, row, members) for row in evidence.owned(name)):
+            yield "the evidence gives a row that is independent of the circuit"
     text = integral_text(entry) if entry is not None and field == "integral" else None
-    fields = tangent_fields(room, standing) if text and standing.accounted else None
-    if text is None or not fields:
-        return ""
-    given = {"at": standing.point.name, "fields": fields, "rows": standing.rows, "minor": room.minor(standing)}
-    point, function = admissible(evidence, given, evidence.equations)[0], evidence.text(text)
-    moved = any(not_zero(point.value(along(field_named(evidence, one), function))) for one in fields)
-    return "the evidence gives a velocity that changes it" if moved else ""
+    if text and _is_changed(room, text):
+        yield "the evidence gives a velocity that changes it"
+
+
+def _is_apart(room: Room, name: str, members: Sequence[str]) -> bool:
+    """Return whether a row is independent of relations, all of which follow from those that are independent there."""
+    standing = room.accounted([*members, name])
+    if standing is None or name not in standing.rows or not standing.accounted:
+        return False
+    return len(room.scenery.evidence.minor(room.minor(standing)).rows) == len(standing.rows)
+
+
+def _is_changed(room: Room, text: str) -> bool:
+    """Return whether a velocity that all relations allow changes a function."""
+    standing, evidence = room.standing, room.scenery.evidence
+    fields = tangent_fields(room, standing) if standing is not None and standing.accounted else None
+    if standing is None or not fields:
+        return False
+    claim = {"at": standing.point.name, "fields": fields, "rows": standing.rows, "minor": room.minor(standing)}
+    point, function = admissible(evidence, claim, evidence.equations)[0], evidence.text(text)
+    return any(not_zero(point.value(along(field_named(evidence, field), function))) for field in fields)

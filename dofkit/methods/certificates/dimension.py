@@ -27,16 +27,16 @@ Samples = list[dict[str, float]]
 
 def families(room: Room, size: int) -> Iterator[Told]:
     """The rule `family` with so many freedoms, for some motions through the main point."""
-    size_of_all = sum(one.left.size for one in room.problem.relations) * len(room.problem.coordinates)
+    size_of_all = sum(relation.left.size for relation in room.problem.relations) * len(room.problem.coordinates)
     if room.point is None or room.scenery.evidence.moving or size_of_all > MOST_FOLLOWED:
         return
     for seed in range(2):
         try:
-            found = _family(room, size, seed)
+            family = _family(room, size, seed)
         except (CheckError, NoEstimateError):
             continue
-        if found is not None:
-            yield found
+        if family is not None:
+            yield family
 
 
 def _family(room: Room, size: int, seed: int) -> Told | None:
@@ -52,8 +52,8 @@ def _family(room: Room, size: int, seed: int) -> Told | None:
     standing = room.standing_of([*assumed, *scenery.evidence.finite])
     if standing is None or len(standing.rows) != len(room.problem.coordinates) - size:
         return None
-    left = [name for name in standing.dependent if name not in assumed]
-    if not all(accounted(scenery, name, standing.rows, point, f"family {seed}") for name in left):
+    others = [name for name in standing.dependent if name not in assumed]
+    if not all(accounted(scenery, name, standing.rows, point, f"family {seed}") for name in others):
         return None
     minor = {"at": point.name, "rows": standing.rows, "columns": standing.columns}
     return {"rule": "family", "minor": minor}
@@ -61,7 +61,7 @@ def _family(room: Room, size: int, seed: int) -> Told | None:
 
 def _samples(room: Room, seed: int) -> Samples:
     """Configurations along a motion that leaves the main point: as many as span its linear hull."""
-    drawn, found = random.Random(seed), Samples()
+    drawn, samples = random.Random(seed), Samples()
     coordinates = room.problem.coordinates
     now = before = dict(room.point.floats) if room.point is not None else {}
     for place in range(len(coordinates) + 4):
@@ -73,9 +73,9 @@ def _samples(room: Room, seed: int) -> Samples:
         start = {name: Fraction(value) for name, value in {**now, **moved}.items()}
         reached = room.search.approached(start, room.equations, set(coordinates))
         if reached is not None:
-            found.append(reached)
+            samples.append(reached)
             before, now = now, reached
-    return found
+    return samples
 
 
 def _linear_relations(room: Room, samples: Samples) -> Iterator[str]:
@@ -83,7 +83,7 @@ def _linear_relations(room: Room, samples: Samples) -> Iterator[str]:
     point, coordinates = room.point, room.problem.coordinates
     if point is None or not samples:
         return
-    rows = [{q: one[q] - point.floats[q] for q in coordinates} for one in samples]
+    rows = [{q: sample[q] - point.floats[q] for q in coordinates} for sample in samples]
     basis = reduced_rows(rows)
     for q in coordinates:
         if q in basis:
@@ -91,8 +91,8 @@ def _linear_relations(room: Room, samples: Samples) -> Iterator[str]:
         terms = {p: row.get(q, 0.0) for p, row in basis.items()}
         short = {p: Fraction(value).limit_denominator(DENOMINATOR) for p, value in terms.items()}
         if all(abs(float(short[p]) - value) < 1e-6 for p, value in terms.items()):
-            parts = [(q, Fraction(1)), *((p, -value) for p, value in short.items() if value)]
-            yield " + ".join(f"({number_text(c)})*{_from(point.values[p], p)}" for p, c in parts)
+            coefficients = [(q, Fraction(1)), *((p, -value) for p, value in short.items() if value)]
+            yield " + ".join(f"({number_text(c)})*{_from(point.values[p], p)}" for p, c in coefficients)
 
 
 def _from(value: str, q: str) -> str:
@@ -101,21 +101,21 @@ def _from(value: str, q: str) -> str:
 
 def reduced_rows(rows: Samples) -> dict[str, dict[str, float]]:
     """A basis of what rows span, by pivots: in each row the pivot's entry is 1, and those of the other pivots are 0."""
-    found: dict[str, dict[str, float]] = {}
+    basis: dict[str, dict[str, float]] = {}
     for pivot in echelon(rows).pivots:
         row = dict(rows[pivot.row])
-        for column, other in found.items():
+        for column, other in basis.items():
             factor = row.get(column, 0.0)
             row = {q: value - factor * other.get(q, 0.0) for q, value in row.items()}
         lead = row[pivot.column]
         if abs(lead) < SMALL:
             continue
         row = {q: value / lead for q, value in row.items()}
-        for column, other in found.items():
+        for column, other in basis.items():
             factor = other[pivot.column]
-            found[column] = {q: value - factor * row[q] for q, value in other.items()}
-        found[pivot.column] = row
-    return found
+            basis[column] = {q: value - factor * row[q] for q, value in other.items()}
+        basis[pivot.column] = row
+    return basis
 
 
 # Evidence that no part of the set is larger: graphs, single relations, relations with symbols of their own.
@@ -130,10 +130,10 @@ def everywhere(room: Room) -> Iterator[Told]:
         yield from _of_set(room, room.standing)
         return
     for local in orbit(room):
-        for parts in _of_forms(room):
-            yield {**local, **parts}
-        for parts in _of_set(room, finite) if finite is not None else ():
-            yield {**local, **parts}
+        for cover in _of_forms(room):
+            yield {**local, **cover}
+        for cover in _of_set(room, finite) if finite is not None else ():
+            yield {**local, **cover}
 
 
 def velocities_everywhere(room: Room) -> Iterator[Told]:
@@ -147,15 +147,15 @@ def _of_forms(room: Room) -> Iterator[Told]:
     evidence, standing = room.scenery.evidence, room.standing
     if standing is None or not standing.accounted:
         return
-    found = {"rule": "everywhere", "about": "everywhere", "minor": room.minor(standing)}
-    order, left = graph_order(room, _needed(standing, evidence.equations))
+    claim = {"rule": "everywhere", "about": "everywhere", "minor": room.minor(standing)}
+    order, unordered = graph_order(room, _needed(standing, evidence.equations))
     moving = _needed(standing, evidence.moving)
-    if not left:
-        yield {**found, "order": order}
+    if not unordered:
+        yield {**claim, "order": order}
     elif len(moving) == 1:
-        order, left = graph_order(room, _needed(standing, evidence.finite))
-        if not left:
-            yield {**found, "order": order, "blocks": moving}
+        order, unordered = graph_order(room, _needed(standing, evidence.finite))
+        if not unordered:
+            yield {**claim, "order": order, "blocks": moving}
 
 
 def _needed(standing: Standing, names: Sequence[str]) -> list[str]:
@@ -167,22 +167,27 @@ def _of_set(room: Room, standing: Standing) -> Iterator[Told]:
     """What the geometric equations define."""
     evidence = room.scenery.evidence
     finite = _needed(standing, evidence.finite)
-    order, left = graph_order(room, finite, columns=["t"])
-    found: Told = {"rule": "everywhere", "about": "everywhere"}
-    if not left:
-        yield {**found, "order": order}
-    found["minor"] = room.minor(standing)
-    if not left:
-        yield {**found, "order": order}
-    own = own_symbols(room)
+    order, unordered = graph_order(room, finite, columns=["t"])
+    claim: Told = {"rule": "everywhere", "about": "everywhere"}
+    if not unordered:
+        yield {**claim, "order": order}
+    claim["minor"] = room.minor(standing)
+    if not unordered:
+        yield {**claim, "order": order}
+    symbols = own_symbols(room)
     if not standing.dependent or standing.accounted:
         for tried in (order, given_in_order(finite, room.scenery, partial(_gives, room)), []):
-            rest = [name for name in finite if all(name != given for given, _ in tried)]
-            blocks, generic = _split(room, tried, rest, own)
-            if all(name in own for name in generic):
-                yield {**found, "order": tried, "blocks": blocks, "generic": [[name, own[name]] for name in generic]}
-    if all(name in own for name in evidence.finite) and (backed := backing(room, standing)):
-        yield {**found, "generic": [[name, own[name]] for name in evidence.finite], **backed}
+            remaining = [name for name in finite if all(name != chosen for chosen, _ in tried)]
+            blocks, generic = _split(room, tried, remaining, symbols)
+            if all(name in symbols for name in generic):
+                yield {
+                    **claim,
+                    "order": tried,
+                    "blocks": blocks,
+                    "generic": [[name, symbols[name]] for name in generic],
+                }
+    if all(name in symbols for name in evidence.finite) and (backed := backing(room, standing)):
+        yield {**claim, "generic": [[name, symbols[name]] for name in evidence.finite], **backed}
 
 
 def graph_order(room: Room, names: Sequence[str] | None = None, columns: Sequence[str] = ()) -> tuple[Order, list[str]]:
@@ -190,36 +195,36 @@ def graph_order(room: Room, names: Sequence[str] | None = None, columns: Sequenc
 
     ``names``: the finite ones where it is left out; ``columns``: what may be given besides coordinates.
     """
-    left, columns = (
+    remaining, columns = (
         list(room.scenery.evidence.finite if names is None else names),
         [*room.problem.coordinates, *columns],
     )
-    held = {name: _moved(room, name) for name in left}
+    held = {name: _moved(room, name) for name in remaining}
     order: Order = []
-    found: list[str] | None = []
-    while left and found is not None:
-        found = next(
+    pair: list[str] | None = []
+    while remaining and pair is not None:
+        pair = next(
             (
                 [name, q]
                 for q in columns
-                for name in left
+                for name in remaining
                 if q in held[name]
-                and not any(q in held[other] for other in left if other != name)
+                and not any(q in held[other] for other in remaining if other != name)
                 and _gives(room, name, q)
             ),
             None,
         )
-        if found is not None:
-            order.insert(0, found)
-            left.remove(found[0])
-    return order, left
+        if pair is not None:
+            order.insert(0, pair)
+            remaining.remove(pair[0])
+    return order, remaining
 
 
 def _moved(room: Room, name: str) -> set[str]:
     """The variables of a finite relation; those with velocities in another."""
-    one = room.scenery.evidence.relation(name)
-    held = one.left.symbols
-    if one.kind == "finite":
+    equation = room.scenery.evidence.relation(name)
+    held = equation.left.symbols
+    if equation.kind == "finite":
         return set(held) & set(room.scenery.evidence.variables)
     return {q for q in room.problem.coordinates if f"{q}dot" in held}
 
@@ -242,29 +247,35 @@ def _gives(room: Room, name: str, q: str) -> bool:
 def own_symbols(room: Room) -> dict[str, str]:
     """For each relation a generic symbol or parameter that occurs in no other."""
     relations = room.problem.relations
-    held = {one.name: one.left.symbols for one in relations}
-    found: dict[str, str] = {}
-    for one in relations:
+    held = {relation.name: relation.left.symbols for relation in relations}
+    chosen: dict[str, str] = {}
+    for relation in relations:
         for symbol in (*room.problem.world.generic, *room.problem.world.signs):
-            if symbol in held[one.name] and not any(symbol in held[other] for other in held if other != one.name):
-                found.setdefault(one.name, symbol)
-    return found
+            if symbol in held[relation.name] and not any(
+                symbol in held[other] for other in held if other != relation.name
+            ):
+                chosen.setdefault(relation.name, symbol)
+    return chosen
 
 
-def _split(room: Room, order: Order, left: list[str], own: dict[str, str]) -> tuple[list[str], list[str]]:
+def _split(
+    room: Room, order: Order, remaining: list[str], own_symbols_of: dict[str, str]
+) -> tuple[list[str], list[str]]:
     """What is left as single relations, and those that share coordinates."""
-    given: dict[str, frozenset[str]] = {}
+    dependencies: dict[str, frozenset[str]] = {}
     coordinates = set(room.problem.coordinates)
 
     def free(name: str) -> frozenset[str]:
         held = room.scenery.evidence.relation(name).left.symbols & coordinates
-        return frozenset().union(*(given.get(q, frozenset((q,))) for q in held))
+        return frozenset().union(*(dependencies.get(q, frozenset((q,))) for q in held))
 
     for name, q in order:
-        given[q] = free(name) - {q}
-    sets = {name: free(name) for name in left}
-    alone = [name for name in left if all(sets[name].isdisjoint(sets[other]) for other in left if other != name)]
-    return alone, [name for name in left if name not in alone]
+        dependencies[q] = free(name) - {q}
+    sets = {name: free(name) for name in remaining}
+    alone = [
+        name for name in remaining if all(sets[name].isdisjoint(sets[other]) for other in remaining if other != name)
+    ]
+    return alone, [name for name in remaining if name not in alone]
 
 
 # Evidence where rows are stationary at the main point: what is isolated along a curve, and what crosses itself.
@@ -302,8 +313,8 @@ def _isolated(room: Room, standing: Standing) -> Iterator[Told]:
             for way in ways:
                 if abs(_bends(room, standing, zero, way, order)) > FAR:
                     speeds = {q: str(value) for q, value in way.items()}
-                    given = {"minor": room.minor(standing), "zero": zero, "speeds": speeds}
-                    yield {"rule": "isolated", **given, "order": order}
+                    rows = {"minor": room.minor(standing), "zero": zero, "speeds": speeds}
+                    yield {"rule": "isolated", **rows, "order": order}
                     return
 
 

@@ -17,26 +17,26 @@ MOST_MONOMIALS = 400
 
 def inconsistent(room: Room) -> Iterator[Told]:
     """No configuration, or no motion, meets the equations."""
-    yield from refutations(room, [one.name for one in room.problem.relations])
+    yield from refutations(room, [relation.name for relation in room.problem.relations])
 
 
 def conflicting(room: Room) -> Iterator[Told]:
     """The constraints that cannot be met together, each of them needed."""
     evidence, members = room.scenery.evidence, room.report.conflicting
     kinds = ("finite", "velocity", "inequality")
-    for found in refutations(room, [one for name in members for one in evidence.owned(name, kinds)]):
+    for refutation in refutations(room, [relation for name in members for relation in evidence.owned(name, kinds)]):
         minimal: Told = {}
         for name in members:
-            others = [one for other in members if other != name for one in evidence.owned(other)]
-            if others and (told := _met(room, name, others)):
-                minimal[name] = told
-        yield {"rule": "conflict", "refutation": found, "minimal": minimal}
+            others = [relation for other in members if other != name for relation in evidence.owned(other)]
+            if others and (witness := _met(room, name, others)):
+                minimal[name] = witness
+        yield {"rule": "conflict", "refutation": refutation, "minimal": minimal}
 
 
 def _met(room: Room, name: str, others: Sequence[str]) -> Told | None:
     """What shows that the others can be met without one."""
     relation = room.scenery.evidence.relation
-    finite = [one for one in others if relation(one).kind == "finite"]
+    finite = [other for other in others if relation(other).kind == "finite"]
     point = room.search.somewhere(finite, room.problem.coordinates, 300)
     if point is None:
         return None
@@ -56,8 +56,8 @@ def refutations(room: Room, names: Sequence[str]) -> Iterator[Told]:
         rate for name in equations if evidence.relation(name).kind == "finite" and (rate := rate_of(room.scenery, name))
     ]
     for chosen in (equations, [*equations, *rates]):
-        if (found := combination(room, chosen)) is not None:
-            yield found
+        if (claim := combination(room, chosen)) is not None:
+            yield claim
     for name in names:
         yield from _by_squares(room, name)
 
@@ -90,14 +90,14 @@ def combination(room: Room, names: Sequence[str]) -> Told | None:
 
 def _by_squares(room: Room, name: str) -> Iterator[Told]:
     """Yield evidence that one relation is never satisfied: it is a positive number and squares, or their negative."""
-    one = room.scenery.evidence.relation(name)
+    checked = room.scenery.evidence.relation(name)
     for sign in (1, -1):
-        positive = positive_sum(one.left, Fraction(sign))
+        positive = positive_sum(checked.left, Fraction(sign))
         if positive is None:
             continue
         squares = [[c, text_of(base)] for c, base in positive[1]]
         claim: Told = {"rule": "nullstellensatz", "number": positive[0], "sos": squares}
-        if one.kind != "inequality":
+        if checked.kind != "inequality":
             yield {**claim, "c": {name: number_text(-sign)}}
         elif sign == -1:
             yield {**claim, "inequality": {name: [["1", "1"]]}}

@@ -21,16 +21,16 @@ _AXES = "xyz"
 
 def places_of(document: Mapping[str, Any], dimension: int) -> list[tuple[list[str], str]]:
     """The coordinates of every particle and body of the plane: its place, and its angle or ""."""
-    found = []
+    places = []
     for key in ("particles", "bodies"):
         for entry in document.get(key) or []:
-            given = {"name": entry} if isinstance(entry, str) else entry
+            owner = {"name": entry} if isinstance(entry, str) else entry
             roles = _AXES[:dimension] if dimension < 3 or key == "particles" else ""
-            names = given.get("coordinates") or [f"{role}_{given['name']}" for role in roles]
-            angle = (given.get("coordinates") or [f"theta_{given['name']}"])[-1] if key == "bodies" else ""
+            names = owner.get("coordinates") or [f"{role}_{owner['name']}" for role in roles]
+            angle = (owner.get("coordinates") or [f"theta_{owner['name']}"])[-1] if key == "bodies" else ""
             if roles:
-                found.append((list(names[:dimension]), angle if dimension == 2 else ""))
-    return found
+                places.append((list(names[:dimension]), angle if dimension == 2 else ""))
+    return places
 
 
 def motions(document: Mapping[str, Any], dimension: int) -> list[dict[str, str]]:
@@ -38,12 +38,12 @@ def motions(document: Mapping[str, Any], dimension: int) -> list[dict[str, str]]
     places = places_of(document, dimension)
     if dimension == 3 and document.get("bodies"):
         return []
-    found = [{place[i]: "1" for place, _ in places} for i in range(dimension)]
+    fields = [{place[i]: "1" for place, _ in places} for i in range(dimension)]
     for i in range(dimension):
         for j in range(i):
             turn = {place[j]: f"-{place[i]}" for place, _ in places} | {place[i]: place[j] for place, _ in places}
-            found.append(turn | {angle: "1" for _, angle in places if angle})
-    return found
+            fields.append(turn | {angle: "1" for _, angle in places if angle})
+    return fields
 
 
 def backing(room: Room, standing: Standing | None) -> Told | None:
@@ -54,11 +54,11 @@ def backing(room: Room, standing: Standing | None) -> Told | None:
         return {}
     if (blocks := covering(room, standing)) is None:
         return None
-    covers, given = room.scenery.parts["covers"], {"minor": room.minor(standing), "blocks": blocks}
-    for one in covers:
-        if all(one[key] == value for key, value in given.items()):
-            return {"covers": [one["id"]]}
-    covers.append({"id": f"cover{len(covers)}", **given})
+    covers, cover = room.scenery.parts["covers"], {"minor": room.minor(standing), "blocks": blocks}
+    for entry in covers:
+        if all(entry[key] == value for key, value in cover.items()):
+            return {"covers": [entry["id"]]}
+    covers.append({"id": f"cover{len(covers)}", **cover})
     return {"covers": [covers[-1]["id"]]}
 
 
@@ -66,19 +66,19 @@ def covering(room: Room, standing: Standing) -> list[Told] | None:
     """Blocks of relations whose rank is told by how many there are, or by rigid motions."""
     scenery, blocks = room.scenery, []
     candidates = motions(room.document, room.problem.world.dimension)
-    known = {*standing.rows, *standing.dependent}
-    finite = [name for name in scenery.evidence.finite if name in known]
+    accounted = {*standing.rows, *standing.dependent}
+    finite = [name for name in scenery.evidence.finite if name in accounted]
     for names in parts_of(scenery, finite):
         rank = sum(row in names for row in standing.rows)
         if rank == len(names):
             blocks.append({"rows": names, "fields": [], "columns": []})
             continue
         held = {symbol for name in names for symbol in scenery.evidence.relation(name).left.symbols}
-        own = [q for q in room.problem.coordinates if q in held]
-        fields = [{q: text for q, text in one.items() if q in held} for one in candidates]
+        variables = [q for q in room.problem.coordinates if q in held]
+        fields = [{q: text for q, text in motion.items() if q in held} for motion in candidates]
         columns = _chosen(scenery, fields, standing)
         ids = [field_id(scenery, {"components": fields[place]}) for place, _ in columns]
-        if len(own) - rank != len(ids) or not _kept(scenery, ids, names):
+        if len(variables) - rank != len(ids) or not _kept(scenery, ids, names):
             return None
         blocks.append({"rows": names, "fields": ids, "columns": [column for _, column in columns]})
     return blocks
@@ -88,10 +88,10 @@ def kept_motions(room: Room, columns: Sequence[str]) -> dict[str, str]:
     """Motions of all together that keep all finite relations, each with a column: independent at the main point."""
     scenery, estimates = room.scenery, Estimates(room.point.floats if room.point else {})
     finite = list(scenery.evidence.finite)
-    ids = [field_id(scenery, {"components": one}) for one in motions(room.document, room.problem.world.dimension)]
-    kept = [one for one in ids if _kept(scenery, [one], finite)]
-    fields = [field_named(scenery.evidence, one) for one in kept]
-    rows = [{q: estimates.value(tree) for q, tree in one.items() if q in columns} for one in fields]
+    ids = [field_id(scenery, {"components": motion}) for motion in motions(room.document, room.problem.world.dimension)]
+    kept = [motion for motion in ids if _kept(scenery, [motion], finite)]
+    fields = [field_named(scenery.evidence, motion) for motion in kept]
+    rows = [{q: estimates.value(tree) for q, tree in motion.items() if q in columns} for motion in fields]
     return {kept[p.row]: p.column for p in echelon(rows).pivots}
 
 
@@ -109,7 +109,7 @@ def parts_of(scenery: Scenery, names: Sequence[str]) -> list[list[str]]:
 def _chosen(scenery: Scenery, fields: list[dict[str, str]], standing: Standing) -> list[tuple[int, str]]:
     """Independent fields at the point, each with a column."""
     estimates = Estimates(standing.point.floats)
-    rows = [{q: estimates.value(scenery.evidence.text(text)) for q, text in one.items()} for one in fields]
+    rows = [{q: estimates.value(scenery.evidence.text(text)) for q, text in field.items()} for field in fields]
     return [(p.row, p.column) for p in echelon(rows).pivots]
 
 
@@ -126,13 +126,13 @@ def _kept(scenery: Scenery, ids: Sequence[str], names: Sequence[str]) -> bool:
         return False
 
 
-def field_id(scenery: Scenery, given: Told) -> str:
+def field_id(scenery: Scenery, field: Told) -> str:
     """The id of a field, new or known."""
     fields = scenery.parts["fields"]
-    for one in fields:
-        if all(one.get(key) == value for key, value in given.items()):
-            return str(one["id"])
-    fields.append({"id": f"X{len(fields)}", **given})
+    for entry in fields:
+        if all(entry.get(key) == value for key, value in field.items()):
+            return str(entry["id"])
+    fields.append({"id": f"X{len(fields)}", **field})
     return str(fields[-1]["id"])
 
 
@@ -160,14 +160,14 @@ def tangent_fields(room: Room, standing: Standing) -> list[str] | None:
     evidence = scenery.evidence
     timed = any(not {"t", "tdot"}.isdisjoint(evidence.relation(row).left.symbols) for row in standing.rows)
     free = [q for q in (*room.problem.coordinates, *(["t"] if timed else [])) if q not in pairs.values()]
-    found = []
-    for one in free:
-        touched = _touched(room, standing, one)
+    ids = []
+    for coordinate in free:
+        touched = _touched(room, standing, coordinate)
         if len(touched) > LARGEST_CRAMER:
             return None
-        components = _by_cramer(evidence, touched, [pairs[row] for row in touched], one)
-        found.append(field_id(scenery, {"components": components}))
-    return found
+        components = _by_cramer(evidence, touched, [pairs[row] for row in touched], coordinate)
+        ids.append(field_id(scenery, {"components": components}))
+    return ids
 
 
 def _by_cramer(evidence: CheckedEvidence, rows: Sequence[str], columns: Sequence[str], free: str) -> dict[str, str]:
@@ -176,20 +176,20 @@ def _by_cramer(evidence: CheckedEvidence, rows: Sequence[str], columns: Sequence
     def minor(names: Sequence[str]) -> Tree:
         return determinant([[evidence.slope(row, name) for name in names] for row in rows])
 
-    found = {free: minor(columns)}
+    components = {free: minor(columns)}
     for place, column in enumerate(columns):
-        found[column] = negative(minor([*columns[:place], free, *columns[place + 1 :]]))
-    return {name: text_of(tree) for name, tree in found.items() if tree != ZERO}
+        components[column] = negative(minor([*columns[:place], free, *columns[place + 1 :]]))
+    return {name: text_of(tree) for name, tree in components.items() if tree != ZERO}
 
 
 def _touched(room: Room, standing: Standing, free: str) -> list[str]:
     """The rows that move together when one free coordinate moves."""
     evidence = room.scenery.evidence
-    parts = parts_of(room.scenery, standing.rows)
+    groups = parts_of(room.scenery, standing.rows)
     if free == "t":
-        moved = [part for part in parts if any(_holds(evidence.relation(row).left, "t") for row in part)]
+        moved = [part for part in groups if any(_holds(evidence.relation(row).left, "t") for row in part)]
     else:
-        moved = [part for part in parts if any(_holds(evidence.relation(row).left, free) for row in part)]
+        moved = [part for part in groups if any(_holds(evidence.relation(row).left, free) for row in part)]
     return [row for row in standing.rows if any(row in part for part in moved)]
 
 
@@ -206,8 +206,8 @@ def words_of(room: Room, standing: Standing, most: int) -> Words | None:
             room.words[key] = _grown(room, standing, fields, most) if fields else None
         except (CheckError, NoEstimateError, RecursionError):
             room.words[key] = None
-    found: Words | None = room.words[key]
-    return found
+    grown: Words | None = room.words[key]
+    return grown
 
 
 def reach(room: Room) -> int:
@@ -220,9 +220,9 @@ def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Word
     estimates = Estimates(standing.point.floats, slopes=False)
     chosen = room.scenery.chosen
     bases: dict[str, VelocityField] = {
-        one: {q: chosen(tree) for q, tree in field_named(room.scenery.evidence, one).items()} for one in fields
+        name: {q: chosen(tree) for q, tree in field_named(room.scenery.evidence, name).items()} for name in fields
     }
-    level = [([one], bases[one]) for one in fields]
+    level = [([name], bases[name]) for name in fields]
     words: list[list[str]] = []
     vectors: list[dict[str, float]] = []
     columns: list[str] = []
@@ -241,10 +241,10 @@ def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Word
         if len(words) >= most or not fresh:
             break
         level = [
-            ([*word, one], bracket(room.scenery.evidence, value, bases[one]))
+            ([*word, name], bracket(room.scenery.evidence, value, bases[name]))
             for word, value in fresh
-            for one in fields
-            if word != [one]
+            for name in fields
+            if word != [name]
         ]
         level = level[:MOST_WORDS]
     return Words(fields, list(standing.rows), words, columns, vectors, levels)
@@ -252,19 +252,19 @@ def _grown(room: Room, standing: Standing, fields: list[str], most: int) -> Word
 
 def orbit(room: Room) -> Iterator[Told]:
     """dof of a scene with forms: from below what brackets reach, from above finite rows and what integrates."""
-    standing, told = room.standing, room.report.dof
-    if standing is None or not standing.accounted or told is None or room.nonlinear:
+    standing, freedom = room.standing, room.report.dof
+    if standing is None or not standing.accounted or freedom is None or room.nonlinear:
         return
-    least = _least(room, standing, told)
+    least = _least(room, standing, freedom)
     if least is None:
         return
-    for most in _most(room, told):
+    for most in _most(room, freedom):
         yield {"rule": "squeeze", "most": most, "least": least, "about": room.about}
 
 
-def _least(room: Room, standing: Standing, told: int) -> Told | None:
+def _least(room: Room, standing: Standing, dof: int) -> Told | None:
     size = len(room.problem.coordinates)
-    if told == size - len(standing.rows):
+    if dof == size - len(standing.rows):
         return {"rule": "regular", "minor": room.minor(standing)}
     words = words_of(room, standing, reach(room))
     if words is None:
@@ -275,8 +275,8 @@ def _least(room: Room, standing: Standing, told: int) -> Told | None:
         "at": standing.point.name,
         "fields": words.fields,
         "rows": words.rows,
-        "words": words.words[: told + moves],
-        "columns": _columns(words, told + moves),
+        "words": words.words[: dof + moves],
+        "columns": _columns(words, dof + moves),
     }
 
 
@@ -284,9 +284,9 @@ def _columns(words: Words, count: int) -> list[str]:
     return [p.column for p in echelon(words.vectors[:count]).pivots]
 
 
-def _most(room: Room, told: int) -> Iterator[Told]:
+def _most(room: Room, dof: int) -> Iterator[Told]:
     finite = room.finite_standing
-    if finite is not None and told >= len(room.problem.coordinates) - len(finite.rows):
+    if finite is not None and dof >= len(room.problem.coordinates) - len(finite.rows):
         yield {"rule": "minor", "minor": room.minor(finite)}
     yield from involutive_rows(room, integrable_names(room))
 
@@ -294,7 +294,11 @@ def _most(room: Room, told: int) -> Iterator[Told]:
 def integrable_names(room: Room) -> list[str]:
     """The finite relations, and the forms that are said to be holonomic."""
     owners = {entry.name for entry in room.report.constraints if entry.holonomic}
-    return [one.name for one in room.problem.relations if one.kind != "inequality" and one.owner in owners]
+    return [
+        relation.name
+        for relation in room.problem.relations
+        if relation.kind != "inequality" and relation.owner in owners
+    ]
 
 
 def involutive_rows(room: Room, names: Sequence[str], columns: Sequence[str] | None = None) -> Iterator[Told]:
@@ -310,17 +314,17 @@ def involutive_rows(room: Room, names: Sequence[str], columns: Sequence[str] | N
 
 def growth_vector(room: Room) -> Iterator[Told]:
     """Words for every entry, of as many entries as are claimed, and until nothing new comes."""
-    standing, told = room.standing, room.report.growth_vector
-    if standing is None or not standing.accounted or not told or room.nonlinear:
+    standing, vector = room.standing, room.report.growth_vector
+    if standing is None or not standing.accounted or not vector or room.nonlinear:
         return
     words = words_of(room, standing, reach(room))
     if words is None:
         return
-    given = {"rule": "span", "at": standing.point.name, "fields": words.fields, "rows": words.rows}
-    given["minor"] = room.minor(standing)
-    for steps in sorted({len(told), len(words.levels)}, reverse=True):
+    claim = {"rule": "span", "at": standing.point.name, "fields": words.fields, "rows": words.rows}
+    claim["minor"] = room.minor(standing)
+    for steps in sorted({len(vector), len(words.levels)}, reverse=True):
         levels = [*words.levels, *words.levels[-1:] * steps][:steps]
-        yield {**given, "spans": [{"words": words.words[:k], "columns": _columns(words, k)} for k in levels]}
+        yield {**claim, "spans": [{"words": words.words[:k], "columns": _columns(words, k)} for k in levels]}
 
 
 def pairing(room: Room, name: str, point: FoundPoint, vector: dict[str, float]) -> float:
@@ -333,8 +337,8 @@ def determinant(rows: list[list[Tree]]) -> Tree:
     """A small determinant."""
     if not rows:
         return ONE
-    parts = []
+    terms = []
     for j, entry in enumerate(rows[0]):
-        rest = determinant([[*row[:j], *row[j + 1 :]] for row in rows[1:]])
-        parts.append(times(entry, rest) if j % 2 == 0 else negative(times(entry, rest)))
-    return add(*parts)
+        minor = determinant([[*row[:j], *row[j + 1 :]] for row in rows[1:]])
+        terms.append(times(entry, minor) if j % 2 == 0 else negative(times(entry, minor)))
+    return add(*terms)

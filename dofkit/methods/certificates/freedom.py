@@ -29,14 +29,14 @@ def consistent(room: Room) -> Iterator[Told]:
 
 def _inequalities(room: Room) -> dict[str, str] | None:
     """Return for every inequality a point where it holds, as an equality where no other was reached; else None."""
-    found: dict[str, str] = {}
-    for one in room.problem.relations:
-        if one.kind == "inequality":
-            point = room.search.meeting([one.name]) or room.search.touching(one.name, 70)
+    places: dict[str, str] = {}
+    for relation in room.problem.relations:
+        if relation.kind == "inequality":
+            point = room.search.meeting([relation.name]) or room.search.touching(relation.name, 70)
             if point is None:
                 return None
-            found[one.name] = room.add_point(point)
-    return found
+            places[relation.name] = room.add_point(point)
+    return places
 
 
 def dof(room: Room) -> Iterator[Told]:
@@ -80,10 +80,10 @@ def instantaneous(room: Room) -> Iterator[Told]:
     standing = room.standing if room.at_reference else None
     if standing is None:
         return
-    found: dict[str, Any] = {"rule": "rank", "at": standing.point.name}
+    claim: dict[str, Any] = {"rule": "rank", "at": standing.point.name}
     if not standing.dependent and standing.rows:
-        yield {**found, "minor": room.minor(standing)}
-    yield found
+        yield {**claim, "minor": room.minor(standing)}
+    yield claim
 
 
 def counted(room: Room) -> Iterator[Told]:
@@ -122,16 +122,15 @@ def generalized_coordinates(room: Room) -> Iterator[Told]:
     others = [q for q in room.problem.coordinates if q not in chosen]
     solving = room.standing_of(finite.rows, others) if len(others) == len(finite.rows) else None
     if solving is not None and not solving.dependent:
-        found: Told = {"rule": "minor", "minor": room.minor(solving)}
-        yield found
+        minor: Told = {"rule": "minor", "minor": room.minor(solving)}
+        yield minor
         alone = {q for name in solving.rows if len(row := room.row(name, solving.point)) == 1 for q in row}
         tilts = {angles[1] for angles in room.problem.turns if not {*angles} <= alone}
         turned = room.standing_of(solving.rows, [q for q in room.problem.coordinates if q not in tilts])
         if turned is not None and not turned.dependent:
-            yield {**found, "beside": room.minor(turned)}
+            yield {**minor, "beside": room.minor(turned)}
     if room.scenery.evidence.moving:
-        for found in involutive_rows(room, integrable_names(room), others):
-            yield found
+        yield from involutive_rows(room, integrable_names(room), others)
 
 
 def independent(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
@@ -159,15 +158,15 @@ def circuit(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     members, evidence = entry.circuit, room.scenery.evidence
     if members is None or room.point is None:
         return
-    own = list(evidence.owned(entry.name))
+    equations = list(evidence.owned(entry.name))
     rows = {name: list(evidence.owned(name)) for name in members}
-    whole = room.accounted([*(row for name in members for row in rows[name]), *own])
+    whole = room.accounted([*(row for name in members for row in rows[name]), *equations])
     backed = backing(room, whole)
     minimal = {}
     for name in members:
         others = [row for other in members if other != name for row in rows[other]]
-        for one in own:
-            standing = room.standing_of([*others, one])
+        for equation in equations:
+            standing = room.standing_of([*others, equation])
             if standing is not None and not standing.dependent:
                 minimal[name] = {"minor": room.minor(standing)}
                 break
@@ -181,18 +180,18 @@ def feasible(room: Room) -> Iterator[Told]:
     if not room.report.feasible or standing is None:
         return
     yield {"rule": "point", "at": room.add_point(standing.point)}
-    inequalities = [one.name for one in room.problem.relations if one.kind == "inequality"]
+    inequalities = [relation.name for relation in room.problem.relations if relation.kind == "inequality"]
     if (point := room.search.meeting(inequalities, 200)) is not None:
         yield {"rule": "point", "at": room.add_point(point)}
 
 
 def integrable_part(room: Room) -> Iterator[Told]:
     """Finite rows, and integrals for the texts of the basis."""
-    told, finite = room.report.integrable_part, room.finite_standing
-    if told is None or finite is None:
+    part, finite = room.report.integrable_part, room.finite_standing
+    if part is None or finite is None:
         return
     yield {"rule": "integrals", "minor": room.minor(finite), "steps": []}
-    steps = [step for text in told.basis or [] if (step := integral_of_text(room, text))]
+    steps = [step for text in part.basis or [] if (step := integral_of_text(room, text))]
     standing = room.standing_of([*finite.rows, *steps])
     if steps and standing is not None:
         yield {"rule": "integrals", "minor": room.minor(standing), "steps": steps}

@@ -28,8 +28,8 @@ Components = dict[str, Tree]
 
 def integral_of_text(room: Room, text: str) -> str | None:
     """A step for a text such as ``x*y = C`` or ``g = 0``."""
-    left, _, right = text.rpartition("=")
-    return combined_integral(room, left.strip()) if right.strip() != "0" else None
+    function, _, right = text.rpartition("=")
+    return combined_integral(room, function.strip()) if right.strip() != "0" else None
 
 
 def combined_integral(room: Room, function: str, alone: str = "") -> str | None:
@@ -50,12 +50,12 @@ def combined_integral(room: Room, function: str, alone: str = "") -> str | None:
 
 def moving_rows(room: Room) -> list[str]:
     """The velocity relations, and the rates of the finite ones."""
-    found = []
+    rows = []
     for name in room.equations:
         finite = room.scenery.evidence.relation(name).kind == "finite"
         row = rate_of(room.scenery, name) if finite else name
-        found += [row] if row else []
-    return found
+        rows += [row] if row else []
+    return rows
 
 
 def follows_from_integrals(room: Room, name: str, steps: Sequence[str], alone: bool = False) -> bool:
@@ -64,7 +64,7 @@ def follows_from_integrals(room: Room, name: str, steps: Sequence[str], alone: b
     if room.scenery.has_step(step):
         return True
     sources = [*steps, *(() if alone else room.scenery.evidence.finite)]
-    rates = [rate for one in sources if (rate := rate_of(room.scenery, one))]
+    rates = [rate for source in sources if (rate := rate_of(room.scenery, source))]
     return _combined(room, {"id": step, "by": "implied", "of": name}, components(room, name), rates)
 
 
@@ -77,18 +77,18 @@ def integral_alone(room: Room, entry: ConstraintEntry, name: str) -> str | None:
 
 def _combined(room: Room, step: Told, target: Components, sources: Sequence[str]) -> bool:
     """Whether a step stands up with cofactors, where need be after coordinates that relations give are put in."""
-    rows = {one: components(room, one) for one in sources}
+    rows = {source: components(room, source) for source in sources}
     for order in ([], puts(room.scenery, room.scenery.evidence.finite)):
-        placed = {one: _placed(room, row, order) for one, row in rows.items()}
-        found = cofactors(room, _placed(room, target, order), placed)
-        if found is None:
+        placed = {source: _placed(room, row, order) for source, row in rows.items()}
+        combination = cofactors(room, _placed(room, target, order), placed)
+        if combination is None:
             continue
-        h, factors = found
+        h, factors = combination
         used = [*target.values(), h, *factors.values(), *(tree for row in factors for tree in rows[row].values())]
-        told = {"h": text_of(h), "c": {row: text_of(factor) for row, factor in factors.items()}}
+        multipliers = {"h": text_of(h), "c": {row: text_of(factor) for row, factor in factors.items()}}
         put = needed_puts(room.scenery, used, order)
         try:
-            room.scenery.add_step({**step, **told, **({"put": put} if put else {})})
+            room.scenery.add_step({**step, **multipliers, **({"put": put} if put else {})})
         except CheckError:
             continue
         return True
@@ -114,8 +114,8 @@ def variables_of(form: Components) -> frozenset[str]:
 
 def components(room: Room, name: str) -> Components:
     """The components of a linear relation of velocities."""
-    left = room.scenery.evidence.relation(name).left
-    return {v: derivative(left, f"{v}dot") for v in room.scenery.evidence.variables}
+    tree = room.scenery.evidence.relation(name).left
+    return {v: derivative(tree, f"{v}dot") for v in room.scenery.evidence.variables}
 
 
 def cofactors(room: Room, target: Components, rows: dict[str, Components]) -> tuple[Tree, dict[str, Tree]] | None:
@@ -131,16 +131,16 @@ def cofactors(room: Room, target: Components, rows: dict[str, Components]) -> tu
     matrix = [[rows[row][column] for row in chosen] for column in columns]
     right = [target[column] for column in columns]
     h = determinant(matrix)
-    found = {
+    multipliers = {
         row: determinant([[*line[:i], b, *line[i + 1 :]] for line, b in zip(matrix, right, strict=True)])
         for i, row in enumerate(chosen)
     }
     ring = room.scenery.evidence.ring
     for v in room.scenery.evidence.variables:
-        total = add(*(times(factor, rows[row][v]) for row, factor in found.items()))
+        total = add(*(times(factor, rows[row][v]) for row, factor in multipliers.items()))
         if not ring.vanishes(add(times(h, target[v]), negative(total))):
             return None
-    return h, found
+    return h, multipliers
 
 
 def _chosen(room: Room, target: Components, rows: dict[str, Components]) -> tuple[list[str], list[str]]:
@@ -150,13 +150,13 @@ def _chosen(room: Room, target: Components, rows: dict[str, Components]) -> tupl
     for shift in (0.0, 0.0625):
         moved = {name: value + shift * (1 + i % 5) for i, (name, value) in enumerate(floats.items())}
         estimates = Estimates(moved)
-        numbers = {row: _floats(room, estimates, one) for row, one in rows.items()}
+        numbers = {row: _floats(room, estimates, components) for row, components in rows.items()}
         pivots = echelon(list(numbers.values())).pivots
         kept = [list(rows)[p.row] for p in pivots]
         goal = _floats(room, estimates, target)
         square = [{row: numbers[row].get(p.column, 0.0) for row in kept} for p in pivots]
-        found = solved(square, [goal.get(p.column, 0.0) for p in pivots], kept) or {}
-        used |= {row for row, value in found.items() if abs(value) > 1e-9}
+        solution = solved(square, [goal.get(p.column, 0.0) for p in pivots], kept) or {}
+        used |= {row for row, value in solution.items() if abs(value) > 1e-9}
     chosen = [row for row in rows if row in used]
     estimates = Estimates(floats)
     pivots = echelon([_floats(room, estimates, rows[row]) for row in chosen]).pivots
@@ -184,13 +184,13 @@ def holonomic(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     if alone and len(names) == 1 and getattr(entry, field) is True:
         yield {"rule": "wedge"}
     if getattr(entry, field) is False:
-        if alone and len(names) == 1 and (found := _wedge(room, names[0])):
-            yield found
-        if found := _reached(room, entry.name, alone):
-            yield found
+        if alone and len(names) == 1 and (claim := _wedge(room, names[0])):
+            yield claim
+        if claim := _reached(room, entry.name, alone):
+            yield claim
         return
-    if found := _integrated(room, entry):
-        yield found
+    if claim := _integrated(room, entry):
+        yield claim
     yield from involutive_rows(room, names if alone else integrable_names(room))
 
 
@@ -202,8 +202,8 @@ def _wedge(room: Room, name: str) -> Told | None:
         return None
     for triple in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 3):
         i, j, k = triple
-        parts = ((i, j, k), (j, k, i), (k, i, j))
-        tree = add(*(times(form.get(a, number(0)), curl(form, b, c)) for a, b, c in parts))
+        cycles = ((i, j, k), (j, k, i), (k, i, j))
+        tree = add(*(times(form.get(a, number(0)), curl(form, b, c)) for a, b, c in cycles))
         if room.scenery.differs(tree, point.floats):
             return {"rule": "wedge", "at": point.name, "triple": list(triple)}
     return None
@@ -228,7 +228,7 @@ def _reached(room: Room, owner: str, alone: bool) -> Told | None:
         for word, vector in zip(words.words, words.vectors, strict=True):
             if len(word) > 1 and abs(pairing(room, name, standing.point, vector)) > FAR:
                 used = {"fields": words.fields, "rows": words.rows, "word": word, "pairs": name}
-                if any(map(evidence.is_open, (evidence.relation(one).left for one in evidence.finite))):
+                if any(map(evidence.is_open, (evidence.relation(other).left for other in evidence.finite))):
                     used["minor"] = room.minor(standing)
                 return {"rule": "bracket", "at": standing.point.name, **used}
     return None
@@ -253,21 +253,21 @@ def integral(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
     function = integral_text(entry)
     if len(names) != 1 or room.point is None or function is None:
         return
-    found = {"rule": "integral", "at": room.point.name}
+    claim = {"rule": "integral", "at": room.point.name}
     if alone := integral_alone(room, entry, names[0]):
-        yield {**found, "step": alone}
+        yield {**claim, "step": alone}
         if other := room.search.somewhere(room.scenery.evidence.finite, room.problem.coordinates, seed=1):
-            yield {**found, "step": alone, "at": room.add_point(other)}
+            yield {**claim, "step": alone, "at": room.add_point(other)}
     if (step := combined_integral(room, function)) is None:
         return
     if follows_from_integrals(room, names[0], [step]):
-        yield {**found, "step": step}
-    texts = [one for other in room.report.constraints if (one := integral_text(other))]
-    others = [one for text in texts if (one := combined_integral(room, text)) and one != step]
+        yield {**claim, "step": step}
+    texts = [step_id for other in room.report.constraints if (step_id := integral_text(other))]
+    others = [step_id for text in texts if (step_id := combined_integral(room, text)) and step_id != step]
     others = list(dict.fromkeys(others))
     standing = room.standing_of([*room.scenery.evidence.finite, *others, names[0]])
     if follows_from_integrals(room, names[0], [step, *others]) and standing is not None and names[0] in standing.rows:
-        yield {**found, "step": step, "integrals": others, "minor": room.minor(standing)}
+        yield {**claim, "step": step, "integrals": others, "minor": room.minor(standing)}
 
 
 def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
@@ -282,8 +282,8 @@ def exact(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
         form = form_or_none(room, name) or {}
         for i, j in combinations([v for v in room.scenery.evidence.variables if v in variables_of(form)], 2):
             if room.scenery.differs(curl(form, i, j), point.floats):
-                told = {"relation": name} if len(names) > 1 else {}
-                yield {"rule": "not exact", "at": point.name, "pair": [i, j], **told}
+                which = {"relation": name} if len(names) > 1 else {}
+                yield {"rule": "not exact", "at": point.name, "pair": [i, j], **which}
                 break
 
 
@@ -294,8 +294,8 @@ def scleronomic(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told
         return
     evidence = room.scenery.evidence
     for name in evidence.owned(entry.name, ("finite", "velocity", "inequality")):
-        for found in _turning(room, name, field):
-            yield {"rule": "turns", "relation": name, **found}
+        for place in _turning(room, name, field):
+            yield {"rule": "turns", "relation": name, **place}
 
 
 def timeless(room: Room, entry: ConstraintEntry, field: str) -> Iterator[Told]:
@@ -330,9 +330,9 @@ def _turning_form(room: Room, name: str, field: str) -> Iterator[Told]:
     form, point = form_or_none(room, name), room.point
     if point is None:
         return
-    left = room.scenery.left(name)
-    rates = {v: times(symbol(v), derivative(left, v)) for v in room.scenery.evidence.velocities if v in left.symbols}
-    turned = form.get("t", number(0)) if form else derivative(left, "t")
+    tree = room.scenery.left(name)
+    rates = {v: times(symbol(v), derivative(tree, v)) for v in room.scenery.evidence.velocities if v in tree.symbols}
+    turned = form.get("t", number(0)) if form else derivative(tree, "t")
     if field == "catastatic" and form is None:
         turned = add(*rates.values())
     if room.scenery.differs(turned, point.floats):

@@ -34,9 +34,9 @@ _DEGREES = re.compile(
 
 def document_of_scene(scene: Scene) -> dict[str, Any]:
     """The document of a scene as JSON has it: what was written, in standard words, its angles in radians."""
-    found: dict[str, Any] = scene.model_dump(mode="json", by_alias=True, exclude_unset=True)
+    document: dict[str, Any] = scene.model_dump(mode="json", by_alias=True, exclude_unset=True)
     unit = partial(_unit, scene)
-    return {"name": scene.name, **{key: part if key in SAID else _plain(part, unit) for key, part in found.items()}}
+    return {"name": scene.name, **{key: part if key in SAID else _plain(part, unit) for key, part in document.items()}}
 
 
 def _unit(scene: Scene, match: re.Match[str]) -> str:

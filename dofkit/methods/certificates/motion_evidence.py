@@ -30,19 +30,19 @@ def certificate_of_motion(scene: Scene, motion: Mapping[str, Any], report: Repor
     ``report``: what the equations rest on.
     """
     document = document_of_scene(scene)
-    found = empty_certificate(report.scene, document) | {"uncovered": [PATH]}
+    certificate = empty_certificate(report.scene, document) | {"uncovered": [PATH]}
     try:
         problem = read_problem(document)
-        room = Room(report, document, Scenery(problem, False, found))
-        trial = ClaimTrial(document, found, problem)
+        room = Room(report, document, Scenery(problem, False, certificate))
+        trial = ClaimTrial(document, certificate, problem)
         trial.admit(room.scenery)
         for evidence in MotionEvidence(room, {name: motion[name] for name in MOTION_FIELDS}).found():
             if trial.outcome(evidence) == "shown":
-                found |= {"claims": [evidence], "uncovered": []}
+                certificate |= {"claims": [evidence], "uncovered": []}
                 break
     except HINDRANCES:
         pass
-    return without_spare_parts(found)
+    return without_spare_parts(certificate)
 
 
 class MotionEvidence:
@@ -57,13 +57,13 @@ class MotionEvidence:
 
     def _constants(self) -> dict[str, str]:
         """Names in the eliminated coordinates that are none of the scene's: constants of integration."""
-        found: dict[str, str] = {}
+        constants: dict[str, str] = {}
         for text in self.told["eliminated"].values():
             for k in range(1, 5):
                 for name in (f"C{k}", f"C_{k}", "C"):
                     if name in text and name not in (*self.problem.world.signs, *self.problem.coordinates):
-                        found[name] = "0"
-        return found
+                        constants[name] = "0"
+        return constants
 
     def read(self, text: str) -> Tree:
         """A text of the report."""
@@ -96,21 +96,21 @@ class MotionEvidence:
         rates = {**{q: symbol(f"{q}dot") for q in self.problem.coordinates}, "t": ONE}
         put: dict[str, Tree] = {"tdot": ONE, **self.places}
         put |= {f"{q}dot": along(rates, tree) for q, tree in self.places.items()}
-        found, ring = {}, self.evidence.ring
+        multiples, ring = {}, self.evidence.ring
         for name in self.evidence.equations:
-            left = substituted(self.evidence.relation(name).left, put)
-            for multiplier, tree in self.limits.items() if not ring.vanishes(left) else ():
-                ratio = ring.rational(times(left, power(tree, MINUS)))
+            residue = substituted(self.evidence.relation(name).left, put)
+            for multiplier, tree in self.limits.items() if not ring.vanishes(residue) else ():
+                ratio = ring.rational(times(residue, power(tree, MINUS)))
                 if ratio is not None:
-                    found[name] = {multiplier: number_text(Fraction(int(ratio.p), int(ratio.q)))}
-        return found
+                    multiples[name] = {multiplier: number_text(Fraction(int(ratio.p), int(ratio.q)))}
+        return multiples
 
     def points(self) -> Iterator[FoundPoint]:
         """The configuration; else points whose eliminated coordinates are put in, or any."""
         search = self.room.search
         if self.problem.reference:
-            if (found := search.reference()) is not None:
-                yield found
+            if (configuration := search.reference()) is not None:
+                yield configuration
             return
         if not self.limits:
             yield from filter(None, map(self._put_in, range(MOST_POINTS)))

@@ -38,8 +38,8 @@ def echelon(rows: Sequence[Row], prefer: Callable[[int, str], float] | None = No
     kept: list[tuple[str, dict[str, float]]] = []
     pivots: list[Pivot] = []
     dependent: list[int] = []
-    for place, given in enumerate(rows):
-        row = {name: value for name, value in given.items() if value}
+    for place, entries in enumerate(rows):
+        row = {name: value for name, value in entries.items() if value}
         size = max(map(abs, row.values()), default=0.0)
         for column, other in kept:
             factor = row.get(column)
@@ -111,13 +111,13 @@ class Estimates:
 
     def value_and_gradient(self, tree: Tree) -> Estimate:
         """Value and gradient."""
-        known = self._done.get(id(tree))
-        if known is None:
+        estimate = self._done.get(id(tree))
+        if estimate is None:
             try:
-                known = self._done[id(tree)] = tree, self._read(tree)
+                estimate = self._done[id(tree)] = tree, self._read(tree)
             except (ValueError, OverflowError, ZeroDivisionError, KeyError):
                 raise NoEstimateError(tree.head) from None
-        return known[1]
+        return estimate[1]
 
     def _read(self, tree: Tree) -> Estimate:
         head = tree.head
@@ -143,13 +143,13 @@ class Estimates:
         return value, combined([(slope, below[0][1])])
 
 
-def combined(parts: list[tuple[float, Gradient]]) -> Gradient:
+def combined(terms: list[tuple[float, Gradient]]) -> Gradient:
     """A linear combination of gradients."""
-    found: Gradient = {}
-    for factor, slope in parts:
+    gradient: Gradient = {}
+    for factor, slope in terms:
         for name, part in slope.items():
-            found[name] = found.get(name, 0.0) + factor * part
-    return found
+            gradient[name] = gradient.get(name, 0.0) + factor * part
+    return gradient
 
 
 def _product(below: list[Estimate]) -> Estimate:
@@ -165,10 +165,10 @@ def _power(base: Estimate, exponent: Estimate) -> Estimate:
     value = b**e
     if isinstance(value, complex):
         raise NoEstimateError("power")
-    parts = [(e * b ** (e - 1) if e else 0.0, db)]
+    terms = [(e * b ** (e - 1) if e else 0.0, db)]
     if de:
-        parts.append((value * math.log(b), de))
-    return value, combined(parts)
+        terms.append((value * math.log(b), de))
+    return value, combined(terms)
 
 
 def _elementary(head: str, u: float) -> tuple[float, float]:

@@ -32,12 +32,12 @@ class FoundPoint:
 
     def entry(self) -> dict[str, Any]:
         """The point as a certificate writes it."""
-        found: dict[str, Any] = {"id": self.name, "values": self.values}
+        entry_of_point: dict[str, Any] = {"id": self.name, "values": self.values}
         if self.functions:
-            found["functions"] = self.functions
+            entry_of_point["functions"] = self.functions
         if self.columns:
-            found |= {"rows": self.rows, "columns": self.columns, "radius": RADIUS}
-        return found
+            entry_of_point |= {"rows": self.rows, "columns": self.columns, "radius": RADIUS}
+        return entry_of_point
 
 
 # From floats to a point that can be checked: short numbers, exact where they do, else a box for interval Newton.
@@ -61,17 +61,17 @@ def solved_rows(
     scenery: Scenery, floats: Mapping[str, float], rows: Sequence[str], columns: Sequence[str]
 ) -> dict[str, float] | None:
     """Return the floats with the columns solved for by Newton's method on as many rows, or None."""
-    found, wanted = dict(floats), set(columns)
+    solution, wanted = dict(floats), set(columns)
     for _ in range(ITERATIONS):
-        estimates = Estimates(found)
+        estimates = Estimates(solution)
         pairs = [estimates.value_and_gradient(scenery.left(name)) for name in rows]
         matrix = [{n: s for n, s in slope.items() if n in wanted} for _, slope in pairs]
         step = solved(matrix, [value for value, _ in pairs], columns)
         if step is None or any(abs(change) > 1e6 for change in step.values()):
             return None
-        found |= {name: found[name] - change for name, change in step.items()}
+        solution |= {name: solution[name] - change for name, change in step.items()}
         if max(map(abs, step.values()), default=0.0) < 1e-13:
-            return found
+            return solution
     return None
 
 
@@ -82,13 +82,13 @@ def refined(
     estimates = Estimates(floats)
     wanted = set(columns)
     lefts: list[Tree] = [scenery.left(name) for name in rows]
-    matrix = [{n: s for n, s in estimates.gradient(left).items() if n in wanted} for left in lefts]
+    matrix = [{n: s for n, s in estimates.gradient(tree).items() if n in wanted} for tree in lefts]
     with ctx.workprec(PRECISION):
         balls = {n: arb(fmpq(v.numerator, v.denominator)) for n, v in exact.items()}
         balls |= {name: arb(floats[name]) for name in columns}
         balls["tdot"] = arb(1)
         for _ in range(6):
-            values = [evaluated(left, balls, scenery.effort).mid() for left in lefts]
+            values = [evaluated(tree, balls, scenery.effort).mid() for tree in lefts]
             size = max((abs(float(v)) for v in values), default=0.0)
             if size < 1e-60:
                 break
@@ -130,8 +130,8 @@ class PointSearch:
         for attempt in range(seed, seed + ATTEMPTS):
             try:
                 start = self._start(attempt, unknowns)
-                found = self.approached(start, names, set(unknowns))
-                point = self.settled(found, names, set(unknowns)) if found is not None else None
+                reached = self.approached(start, names, set(unknowns))
+                point = self.settled(reached, names, set(unknowns)) if reached is not None else None
             except (NoEstimateError, CheckError):
                 continue
             if point is not None and (best is None or point.rank == wanted):
@@ -162,8 +162,8 @@ class PointSearch:
 
     def touching(self, name: str, seed: int) -> FoundPoint | None:
         """A point at which a relation is 0, an inequality too, whatever the others say."""
-        one = self.scenery.evidence.relation(name)
-        names = [name] if one.kind == "inequality" else self.scenery.evidence.finite
+        checked = self.scenery.evidence.relation(name)
+        names = [name] if checked.kind == "inequality" else self.scenery.evidence.finite
         point = self.somewhere(names, self.problem.coordinates, seed)
         if point is not None:
             point.name = f"P{seed} {name}"
@@ -171,22 +171,22 @@ class PointSearch:
 
     def _start(self, attempt: int, unknowns: Sequence[str]) -> dict[str, Fraction]:
         drawn = random.Random(1000 + attempt)
-        found = dict(self.scenery.parameters)
+        values = dict(self.scenery.parameters)
         if attempt == 0:
-            found |= {name: self.witness[name].limit_denominator(64) for name in found if name in self.witness}
+            values |= {name: self.witness[name].limit_denominator(64) for name in values if name in self.witness}
         if self.scenery.timed:
-            known = attempt == 0 and "t" in self.witness
-            found["t"] = self.witness["t"].limit_denominator(64) if known else Fraction(drawn.randint(1, 8), 8)
+            witnessed = attempt == 0 and "t" in self.witness
+            values["t"] = self.witness["t"].limit_denominator(64) if witnessed else Fraction(drawn.randint(1, 8), 8)
         for name in (*self.problem.coordinates, *self.problem.world.generic, *unknowns):
-            if name not in found:
-                found[name] = Fraction(drawn.choice([-1, 1]) * drawn.randint(3, 24), 8)
+            if name not in values:
+                values[name] = Fraction(drawn.choice([-1, 1]) * drawn.randint(3, 24), 8)
         if attempt == 0:
-            found |= {name: self.witness[name] for name in self.problem.coordinates if name in self.witness}
+            values |= {name: self.witness[name] for name in self.problem.coordinates if name in self.witness}
         elif attempt == 1:
-            found |= {name: abs(found[name]) for name in self.problem.coordinates}
+            values |= {name: abs(values[name]) for name in self.problem.coordinates}
         elif attempt >= 100 and attempt % 100 >= AFAR:
-            found |= {name: found[name] / 16 for name in self.problem.coordinates}
-        return found | {tilt: Fraction(1) for _, tilt, _ in self.problem.turns if found.get(tilt) == 0}
+            values |= {name: values[name] / 16 for name in self.problem.coordinates}
+        return values | {tilt: Fraction(1) for _, tilt, _ in self.problem.turns if values.get(tilt) == 0}
 
     def approached(
         self, start: Mapping[str, Fraction], names: Sequence[str], unknowns: set[str]
@@ -214,16 +214,16 @@ class PointSearch:
         estimates = Estimates(dict(floats))
         for name in names if generic else ():
             value, slope = estimates.value_and_gradient(self.scenery.left(name))
-            own = [symbol for symbol in slope if symbol in generic]
-            if len(own) == 1:
-                floats[own[0]] -= value / slope[own[0]]
+            symbols = [symbol for symbol in slope if symbol in generic]
+            if len(symbols) == 1:
+                floats[symbols[0]] -= value / slope[symbols[0]]
         return floats
 
     def pivots(self, floats: Mapping[str, float], names: Sequence[str], unknowns: set[str]) -> list[Pivot]:
         """Independent rows, with columns that are easily solved for."""
         estimates = Estimates(floats)
         lefts = [self.scenery.left(name) for name in names]
-        rows = [{n: s for n, s in estimates.gradient(left).items() if n in unknowns} for left in lefts]
+        rows = [{n: s for n, s in estimates.gradient(tree).items() if n in unknowns} for tree in lefts]
         generic = set(self.problem.world.generic)
 
         def weight(place: int, column: str) -> float:
@@ -233,23 +233,25 @@ class PointSearch:
 
         return echelon(rows, weight).pivots
 
-    def settled(self, found: dict[str, float], names: Sequence[str], unknowns: set[str]) -> FoundPoint | None:
+    def settled(self, reached: dict[str, float], names: Sequence[str], unknowns: set[str]) -> FoundPoint | None:
         """All that is no column rounded to short numbers, the columns found again."""
-        pivots = self.pivots(found, names, unknowns)
+        pivots = self.pivots(reached, names, unknowns)
         rows, columns = [names[p.row] for p in pivots], [p.column for p in pivots]
         for most in _ROUNDINGS:
-            exact = {name: Fraction(round(value * most), most) for name, value in found.items() if name not in columns}
+            exact = {
+                name: Fraction(round(value * most), most) for name, value in reached.items() if name not in columns
+            }
             exact |= {name: value for name, value in self.scenery.parameters.items() if name in exact}
             if any(s != "real" and exact.get(n, 1) <= 0 for n, s in self.problem.world.signs.items()):
                 continue
-            floats = {**found, **floats_of(exact)}
+            floats = {**reached, **floats_of(exact)}
             try:
                 floats_again = solved_rows(self.scenery, floats, rows, columns)
             except NoEstimateError:
                 continue
             if floats_again is None or residual(self.scenery, floats_again, names) > NEAR:
                 continue
-            if all(abs(floats_again[c] - found[c]) < 1 + abs(found[c]) for c in columns):
+            if all(abs(floats_again[c] - reached[c]) < 1 + abs(reached[c]) for c in columns):
                 return self._written(exact, floats_again, rows, columns)
         return None
 

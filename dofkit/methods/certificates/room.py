@@ -24,8 +24,8 @@ Outcome = Literal["shown", "contradicted", "open"]
 def empty_certificate(name: str, document: Mapping[str, Any]) -> dict[str, Any]:
     """Return a certificate of a scene without parts, claims, or what is uncovered."""
     scene = {"name": name, "sha256": sha256_of(document), "document": canonical(document)}
-    parts: dict[str, list[dict[str, Any]]] = {part: [] for part in PARTS}
-    return {"certificate": 1, "scene": scene, "cayley": [], **parts, "claims": [], "uncovered": []}
+    lists: dict[str, list[dict[str, Any]]] = {part: [] for part in PARTS}
+    return {"certificate": 1, "scene": scene, "cayley": [], **lists, "claims": [], "uncovered": []}
 
 
 class ClaimTrial:
@@ -41,24 +41,24 @@ class ClaimTrial:
 
     def outcome(self, claim: dict[str, Any]) -> Outcome:
         """Whether a claim is shown; ``contradicted`` where the evidence gives another value."""
-        known = {cayley: len(one.consequences) for cayley, one in self.verifier.evidences.items()}
+        counts = {cayley: len(evidence.consequences) for cayley, evidence in self.verifier.evidences.items()}
         try:
             self.verifier.check(claim)
         except FAULTS as error:
             self.reasons[claim["path"]] = told(error)
-            self._forget(known)
+            self._forget(counts)
             return "contradicted" if told(error).startswith("the evidence gives") else "open"
         return "shown"
 
-    def _forget(self, known: Mapping[bool, int]) -> None:
+    def _forget(self, counts: Mapping[bool, int]) -> None:
         """Leave out what follows by covers of a claim that is not written down: who reads the others has it not."""
-        for cayley, one in self.verifier.evidences.items():
-            number = known.get(cayley, len(one.consequences))
-            if number < len(one.consequences):
-                del one.consequences[number:]
-                gone = [key for key in one.seen if key[0] == "covers" or (key[0] == "met" and key[1] >= number)]
+        for cayley, evidence in self.verifier.evidences.items():
+            number = counts.get(cayley, len(evidence.consequences))
+            if number < len(evidence.consequences):
+                del evidence.consequences[number:]
+                gone = [key for key in evidence.seen if key[0] == "covers" or (key[0] == "met" and key[1] >= number)]
                 for key in gone:
-                    del one.seen[key]
+                    del evidence.seen[key]
 
 
 # What one certificate is made of while it is made: both readings of the scene, the main point, rows and columns.
@@ -95,19 +95,19 @@ class Room:
     def add_point(self, point: FoundPoint) -> str:
         """The id of a further point, written into the certificate."""
         entries = self.scenery.parts["points"]
-        if all(one["id"] != point.name for one in entries):
+        if all(point_entry["id"] != point.name for point_entry in entries):
             entries.append(point.entry())
         return point.name
 
     def minor(self, standing: Standing) -> str:
         """Return the id of the minor of the rows and columns."""
-        given = {"at": standing.point.name, "rows": standing.rows, "columns": standing.columns}
+        entries = {"at": standing.point.name, "rows": standing.rows, "columns": standing.columns}
         minors = self.scenery.parts["minors"]
-        for one in minors:
-            if all(one[key] == value for key, value in given.items()):
-                return str(one["id"])
+        for minor_entry in minors:
+            if all(minor_entry[key] == value for key, value in entries.items()):
+                return str(minor_entry["id"])
         name = f"M{len(minors)}"
-        minors.append({"id": name, **given})
+        minors.append({"id": name, **entries})
         return name
 
     @property
@@ -149,13 +149,13 @@ class Room:
         """The main point, written into the certificate when it is first asked for."""
         if not self.small:
             return None
-        found = self._reference or self._searched()
-        if found is not None and self._squared and not self.scenery.timed:
-            found.values |= dict.fromkeys((f"{q}dot" for q in self.problem.coordinates), "0")
-        if found is not None:
-            found.name = f"{self.scenery.label}{found.name}"
-            self.scenery.parts["points"].append(found.entry())
-        return found
+        place = self._reference or self._searched()
+        if place is not None and self._squared and not self.scenery.timed:
+            place.values |= dict.fromkeys((f"{q}dot" for q in self.problem.coordinates), "0")
+        if place is not None:
+            place.name = f"{self.scenery.label}{place.name}"
+            self.scenery.parts["points"].append(place.entry())
+        return place
 
     def _searched(self) -> FoundPoint | None:
         problem = self.problem
@@ -172,11 +172,13 @@ class Room:
     @cached_property
     def equations(self) -> list[str]:
         """All finite and velocity relations in their order, or what they were reduced to."""
-        return reduced(self.scenery, [one.name for one in self.problem.relations if one.kind != "inequality"])
+        return reduced(
+            self.scenery, [relation.name for relation in self.problem.relations if relation.kind != "inequality"]
+        )
 
     def owner(self, name: str) -> str:
         """The constraint of a relation, or of what it was reduced from."""
-        owners = {one.name: one.owner for one in self.problem.relations}
+        owners = {relation.name: relation.owner for relation in self.problem.relations}
         return owners.get(name) or owners[self.scenery.reduced_from[name]]
 
     def standing_of(
@@ -192,10 +194,10 @@ class Room:
                 matrix = [{q: value for q, value in row.items() if q in columns} for row in matrix]
         except (NoEstimateError, CheckError):
             return None
-        found = echelon(matrix)
-        rows = [names[p.row] for p in found.pivots]
-        dependent = [names[i] for i in found.dependent]
-        return Standing(point, rows, [p.column for p in found.pivots], dependent, order=list(names))
+        reduction = echelon(matrix)
+        rows = [names[p.row] for p in reduction.pivots]
+        dependent = [names[i] for i in reduction.dependent]
+        return Standing(point, rows, [p.column for p in reduction.pivots], dependent, order=list(names))
 
     def row(self, name: str, point: FoundPoint) -> dict[str, float]:
         """The entries of a row in floats: by coordinates, or by their velocities."""
@@ -228,8 +230,8 @@ class Room:
 
     def accounted(self, names: Sequence[str]) -> Standing | None:
         """Independent rows in an order of their own, the others by steps where that is possible."""
-        found = self.standing_of(names)
-        if found is not None and found.dependent:
-            shown = [accounted(self.scenery, name, found.rows, found.point) for name in found.dependent]
-            found.accounted = all(shown)
-        return found
+        standing = self.standing_of(names)
+        if standing is not None and standing.dependent:
+            followed = [accounted(self.scenery, name, standing.rows, standing.point) for name in standing.dependent]
+            standing.accounted = all(followed)
+        return standing

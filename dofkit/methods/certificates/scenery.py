@@ -67,10 +67,10 @@ _CHOICES = tuple(map(Fraction, ("2", "3", "3/2", "5/2", "4/3", "7/4", "5/3", "9/
 class Scenery:
     """A problem with its evidence so far, and values for parameters, unknown functions and time."""
 
-    def __init__(self, problem: Problem, cayley: bool, parts: dict[str, list[dict[str, Any]]]) -> None:
-        self.problem, self.cayley, self.parts = problem, cayley, parts
+    def __init__(self, problem: Problem, cayley: bool, lists: dict[str, list[dict[str, Any]]]) -> None:
+        self.problem, self.cayley, self.parts = problem, cayley, lists
         self.effort = Effort(WORK)
-        self._view = dict(parts)
+        self._view = dict(lists)
         self.evidence = CheckedEvidence(problem, self._view, self.effort)
         self._prepared: dict[str, Tree] = {}
         self.reduced_from: dict[str, str] = {}
@@ -85,13 +85,14 @@ class Scenery:
     def functions(self) -> dict[str, dict[str, Any]]:
         """A polynomial for every unknown function."""
         return {
-            name: _polynomial(len(own), i) for i, (name, own) in enumerate(self.problem.world.names.functions.items())
+            name: _polynomial(len(arguments), i)
+            for i, (name, arguments) in enumerate(self.problem.world.names.functions.items())
         }
 
     @cached_property
     def parameters(self) -> dict[str, Fraction]:
         """A value for every parameter that occurs."""
-        used = {name for one in self.problem.relations for name in one.left.symbols}
+        used = {name for relation in self.problem.relations for name in relation.left.symbols}
         used |= {name for tree in self.problem.reference.values() for name in tree.symbols}
         names = [name for name in self.problem.world.signs if name in used]
         return {name: _CHOICES[i % len(_CHOICES)] for i, name in enumerate(names)}
@@ -99,7 +100,7 @@ class Scenery:
     @cached_property
     def timed(self) -> bool:
         """Whether time occurs in any relation, inequalities included."""
-        return any(not {"t", "tdot"}.isdisjoint(one.left.symbols) for one in self.problem.relations)
+        return any(not {"t", "tdot"}.isdisjoint(relation.left.symbols) for relation in self.problem.relations)
 
     def linear(self, name: str) -> bool:
         """Whether a relation is a linear form in the velocities; False where that cannot be told."""

@@ -30,15 +30,15 @@ Step = dict[str, object]
 
 def reduced(scenery: Scenery, names: Sequence[str]) -> list[str]:
     """Relations, each one that is a power or a sum of squares replaced by its bases."""
-    return [one for name in names for one in _reduced(scenery, name)]
+    return [base for name in names for base in _reduced(scenery, name)]
 
 
 def _reduced(scenery: Scenery, name: str) -> list[str]:
-    known = [one for one, source in scenery.reduced_from.items() if source == name]
-    if known:
-        return known
-    left = scenery.evidence.relation(name).left
-    steps = _steps(scenery.label, name, left)
+    bases = [base for base, source in scenery.reduced_from.items() if source == name]
+    if bases:
+        return bases
+    tree = scenery.evidence.relation(name).left
+    steps = _steps(scenery.label, name, tree)
     if not steps or not _stand(scenery, *steps):
         return [name]
     ids = [str(step["id"]) for step in steps if "function" in step]
@@ -57,23 +57,23 @@ def _stand(scenery: Scenery, *steps: Step) -> bool:
     return True
 
 
-def _steps(label: str, name: str, left: Tree) -> list[Step]:
+def _steps(label: str, name: str, tree: Tree) -> list[Step]:
     """Steps to the bases of a power or a sum of squares, and back; none where it is no such thing."""
-    squares = [_square(term) for term in _operands(left, "sum")]
+    squares = [_square(term) for term in _operands(tree, "sum")]
     pairs = [pair for pair in squares if pair is not None]
     signs = {coefficient > 0 for coefficient, *_ in pairs}
     if len(pairs) < len(squares) or len(signs) > 1 or (len(pairs) > 1 and any(k != 2 for *_, k in pairs)):
         return []
-    sign, found = "1" if signs == {True} else "-1", list[Step]()
+    sign, made = "1" if signs == {True} else "-1", list[Step]()
     ids = [f"{label}root {i} of {name}" for i in range(1, len(pairs) + 1)]
     for i, (coefficient, base, exponent) in enumerate(pairs):
         others = [[number_text(abs(c)), text_of(a)] for j, (c, a, _) in enumerate(pairs) if j != i]
-        told = {"function": text_of(base), "power": exponent, "h": number_text(abs(coefficient)), "c": {name: sign}}
-        found.append({"id": ids[i], "by": "implied", **told, **({"sos": others} if others else {})})
+        root = {"function": text_of(base), "power": exponent, "h": number_text(abs(coefficient)), "c": {name: sign}}
+        made.append({"id": ids[i], "by": "implied", **root, **({"sos": others} if others else {})})
     cofactors = {
-        one: text_of(times(number(c), power(a, number(k - 1)))) for one, (c, a, k) in zip(ids, pairs, strict=True)
+        step: text_of(times(number(c), power(a, number(k - 1)))) for step, (c, a, k) in zip(ids, pairs, strict=True)
     }
-    return [*found, {"id": f"{label}{name} from its roots", "by": "implied", "of": name, "c": cofactors}]
+    return [*made, {"id": f"{label}{name} from its roots", "by": "implied", "of": name, "c": cofactors}]
 
 
 def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
@@ -94,18 +94,18 @@ def _square(term: Tree) -> tuple[Fraction, Tree, int] | None:
 
 def without_factor(scenery: Scenery, name: str) -> str:
     """The id of a step that drops a factor that is a positive number plus squares; the relation's own without one."""
-    step, left = f"{scenery.label}{name} without its factor", scenery.evidence.relation(name).left
+    step, tree = f"{scenery.label}{name} without its factor", scenery.evidence.relation(name).left
     if scenery.has_step(step):
         return step
-    terms = [_operands(term, "product") for term in _operands(left, "sum")]
+    terms = [_operands(term, "product") for term in _operands(tree, "sum")]
     for factor in terms[0]:
         positive = positive_sum(factor)
         if positive is None or not all(factor in term for term in terms):
             continue
         places = [term.index(factor) for term in terms]
-        rest = add(*(times(*term[:i], *term[i + 1 :]) for term, i in zip(terms, places, strict=True)))
-        made = {"id": step, "by": "implied", "function": text_of(rest), "c": {name: text_of(rest)}, "power": 2}
-        sos = [[c, text_of(times(base, rest))] for c, base in positive[1]]
+        quotient = add(*(times(*term[:i], *term[i + 1 :]) for term, i in zip(terms, places, strict=True)))
+        made = {"id": step, "by": "implied", "function": text_of(quotient), "c": {name: text_of(quotient)}, "power": 2}
+        sos = [[c, text_of(times(base, quotient))] for c, base in positive[1]]
         back: dict[str, object] = {"id": f"{step}, and back", "by": "implied", "of": name, "c": {step: text_of(factor)}}
         if _stand(scenery, {**made, "h": positive[0], "sos": sos}, back):
             return step
@@ -114,7 +114,7 @@ def without_factor(scenery: Scenery, name: str) -> str:
 
 def _operands(tree: Tree, head: str) -> list[Tree]:
     """Return the terms of a sum or the factors of a product, those of sums in sums and products in products too."""
-    return [one for part in tree.below for one in _operands(part, head)] if tree.head == head else [tree]
+    return [operand for part in tree.below for operand in _operands(part, head)] if tree.head == head else [tree]
 
 
 def positive_sum(tree: Tree, sign: Fraction = Fraction(1)) -> tuple[str, list[tuple[str, Tree]]] | None:
@@ -125,9 +125,9 @@ def positive_sum(tree: Tree, sign: Fraction = Fraction(1)) -> tuple[str, list[tu
     constant = sum((sign * term.value for term in terms if isinstance(term.value, Fraction)), Fraction(0))
     squares = [_square(term) for term in terms if not isinstance(term.value, Fraction)]
     positive = [
-        (number_text(sign * one[0]), power(one[1], number(one[2] // 2)))
-        for one in squares
-        if one is not None and sign * one[0] > 0
+        (number_text(sign * square[0]), power(square[1], number(square[2] // 2)))
+        for square in squares
+        if square is not None and sign * square[0] > 0
     ]
     if tree.head != "sum" or len(positive) < len(squares) or constant <= 0:
         return None
@@ -184,39 +184,42 @@ def with_puts(scenery: Scenery, tree: Tree, order: Order) -> Tree:
 
 def needed_puts(scenery: Scenery, trees: Iterable[Tree], order: Order) -> Order:
     """Those that change trees."""
-    held, found = frozenset[str]().union(*(tree.symbols for tree in trees)), Order()
+    held, needed = frozenset[str]().union(*(tree.symbols for tree in trees)), Order()
     for name, q in order:
         if q in held:
-            found.append([name, q])
+            needed.append([name, q])
             held |= scenery.evidence.relation(name).left.symbols
-    return found
+    return needed
 
 
 def solved_pairs(scenery: Scenery, names: Sequence[str], point: FoundPoint) -> list[str]:
     """Steps by which coordinates are 0: of two relations that are linear in them, and hold nothing beside."""
-    found = []
+    ids = []
     short = [name for name in names if scenery.evidence.relation(name).left.size <= LARGEST_OF_PAIR]
     for pair in combinations(short, 2):
         for step in _pair_steps(scenery, pair, point):
             if _stand(scenery, step):
-                found.append(str(step["id"]))
-    return found
+                ids.append(str(step["id"]))
+    return ids
 
 
 def _pair_steps(scenery: Scenery, pair: tuple[str, str], point: FoundPoint) -> Iterator[dict[str, object]]:
     lefts = [scenery.evidence.relation(name).left for name in pair]
     shared = lefts[0].symbols & lefts[1].symbols
-    for one, other in combinations([q for q in scenery.problem.coordinates if q in shared], 2):
-        parts = [linear_in(left, (one, other)) for left in lefts]
-        if any(part is None or not scenery.evidence.ring.vanishes(part[1]) for part in parts):
+    for first, other in combinations([q for q in scenery.problem.coordinates if q in shared], 2):
+        linear = [linear_in(tree, (first, other)) for tree in lefts]
+        if any(part is None or not scenery.evidence.ring.vanishes(part[1]) for part in linear):
             continue
-        (a, b), (c, d) = ([part[0].get(q, ZERO) for q in (one, other)] for part in parts if part is not None)
+        (a, b), (c, d) = ([part[0].get(q, ZERO) for q in (first, other)] for part in linear if part is not None)
         h = difference(times(a, d), times(b, c))
         if not scenery.differs(h, point.floats):
             continue
-        for q, factors in ((one, (d, negative(b))), (other, (negative(c), a))):
-            told = {"h": text_of(h), "c": {name: text_of(part) for name, part in zip(pair, factors, strict=True)}}
-            yield {"id": f"{scenery.label}{q} by {' and '.join(pair)}", "by": "implied", "function": q, **told}
+        for q, factors in ((first, (d, negative(b))), (other, (negative(c), a))):
+            multipliers = {
+                "h": text_of(h),
+                "c": {name: text_of(part) for name, part in zip(pair, factors, strict=True)},
+            }
+            yield {"id": f"{scenery.label}{q} by {' and '.join(pair)}", "by": "implied", "function": q, **multipliers}
 
 
 # Rows that follow from others: cofactors by linear algebra over the rationals.
@@ -224,16 +227,16 @@ def _pair_steps(scenery: Scenery, pair: tuple[str, str], point: FoundPoint) -> I
 
 def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint, what: str = "others") -> bool:
     """Whether a step was found by which a relation follows from others near the point."""
-    own = scenery.evidence.relation(name)
-    kinds = [row for row in rows if scenery.evidence.relation(row).kind == own.kind]
-    if own.kind == "velocity":
+    dependent = scenery.evidence.relation(name)
+    kinds = [row for row in rows if scenery.evidence.relation(row).kind == dependent.kind]
+    if dependent.kind == "velocity":
         kinds += [rate for row in rows if row not in kinds and (rate := rate_of(scenery, row))]
     step = f"{scenery.label}{name} from {what}"
     if scenery.has_step(step):
         return True
     try:
-        for found in combined(scenery, name, kinds, point):
-            scenery.add_step({"id": step, "by": "implied", "of": name, **found})
+        for cofactors in combined(scenery, name, kinds, point):
+            scenery.add_step({"id": step, "by": "implied", "of": name, **cofactors})
             return True
     except (CheckError, NoEstimateError):
         return False
@@ -242,29 +245,29 @@ def accounted(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoin
 
 def combined(scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint) -> Iterator[dict[str, Any]]:
     """Cofactors that are numbers, as they seem; and those after coordinates that relations give are put in."""
-    found = _combination(scenery, name, rows, point, [])
-    if found is not None:
-        yield found
+    combination = _combination(scenery, name, rows, point, [])
+    if combination is not None:
+        yield combination
     finite = [row for row in rows if scenery.evidence.relation(row).kind == "finite"]
     order = puts(scenery, [*solved_pairs(scenery, finite, point), *finite])
-    found = _combination(scenery, name, rows, point, order) if order else None
-    if found is not None:
-        yield found
+    combination = _combination(scenery, name, rows, point, order) if order else None
+    if combination is not None:
+        yield combination
 
 
 def _combination(
     scenery: Scenery, name: str, rows: Sequence[str], point: FoundPoint, order: Order
 ) -> dict[str, Any] | None:
     """Numbers by which a relation is a sum of multiples of others, once coordinates that relations give are put in."""
-    trees = {one: with_puts(scenery, scenery.left(one), order) for one in (name, *rows)}
+    trees = {row_name: with_puts(scenery, scenery.left(row_name), order) for row_name in (name, *rows)}
     put = {row for row, _ in order}
-    left = trees.pop(name)
-    factors = constant_cofactors(scenery, left, {row: tree for row, tree in trees.items() if row not in put}, point)
+    target = trees.pop(name)
+    factors = constant_cofactors(scenery, target, {row: tree for row, tree in trees.items() if row not in put}, point)
     if factors is None:
         return None
-    found: dict[str, Any] = {"c": {row: number_text(value) for row, value in factors.items()}}
-    used = [scenery.evidence.relation(one).left for one in (name, *factors)]
-    return {**found, "put": needed_puts(scenery, used, order)} if order else found
+    combination: dict[str, Any] = {"c": {row: number_text(value) for row, value in factors.items()}}
+    used = [scenery.evidence.relation(row_name).left for row_name in (name, *factors)]
+    return {**combination, "put": needed_puts(scenery, used, order)} if order else combination
 
 
 def rate_of(scenery: Scenery, name: str) -> str:
@@ -274,7 +277,7 @@ def rate_of(scenery: Scenery, name: str) -> str:
 
 
 def constant_cofactors(
-    scenery: Scenery, left: Tree, trees: Mapping[str, Tree], point: FoundPoint
+    scenery: Scenery, goal: Tree, trees: Mapping[str, Tree], point: FoundPoint
 ) -> dict[str, Fraction] | None:
     """Numbers c with left = sum c_i tree_i, as they seem from the point and one other; None where there are none."""
     rows = list(trees)
@@ -283,21 +286,22 @@ def constant_cofactors(
     estimates = Estimates({**rates, **point.floats})
     wanted = set(coordinates)
     entries = [{s: v for s, v in estimates.gradient(tree).items() if s in wanted} for tree in trees.values()]
-    target = {s: v for s, v in estimates.gradient(left).items() if s in wanted}
+    target = {s: v for s, v in estimates.gradient(goal).items() if s in wanted}
     pivots = echelon(entries).pivots
     chosen = [rows[p.row] for p in pivots]
     transposed = [
-        {one: entries[p.row].get(q.column, 0.0) for one, p in zip(chosen, pivots, strict=True)} for q in pivots
+        {chosen_row: entries[p.row].get(q.column, 0.0) for chosen_row, p in zip(chosen, pivots, strict=True)}
+        for q in pivots
     ]
-    found = solved(transposed, [target.get(q.column, 0.0) for q in pivots], chosen)
-    if found is None:
+    solution = solved(transposed, [target.get(q.column, 0.0) for q in pivots], chosen)
+    if solution is None:
         return None
-    short = {one: Fraction(value).limit_denominator(1000) for one, value in found.items()}
-    if any(abs(float(short[one]) - value) > 1e-7 for one, value in found.items()):
+    short = {chosen_row: Fraction(value).limit_denominator(1000) for chosen_row, value in solution.items()}
+    if any(abs(float(short[chosen_row]) - value) > 1e-7 for chosen_row, value in solution.items()):
         return None
     shifted = {s: value + 0.137 * (1 + i % 7) for i, (s, value) in enumerate({**rates, **point.floats}.items())}
     other = Estimates(shifted)
-    rest = sum(float(value) * other.value(trees[one]) for one, value in short.items() if value)
-    if abs(other.value(left) - rest) > 1e-6 * (1 + abs(rest)):
+    total = sum(float(value) * other.value(trees[chosen_row]) for chosen_row, value in short.items() if value)
+    if abs(other.value(goal) - total) > 1e-6 * (1 + abs(total)):
         return None
-    return {one: value for one, value in short.items() if value}
+    return {chosen_row: value for chosen_row, value in short.items() if value}

@@ -64,11 +64,11 @@ def _written(scene: SceneLike | None) -> Mapping[str, Any] | str | None:
         return document_of_scene(scene)
     if isinstance(scene, Mapping):
         return document_of_scene(load(scene)) if _in_other_words(scene) else scene
-    found = find(scene)
-    if is_model(found.data):
+    source = find(scene)
+    if is_model(source.data):
         return document_of_scene(load(scene))
-    text = found.data if isinstance(found.data, str) else found.data.decode("utf-8")
-    value = read_document(found.data, found.name).value
+    text = source.data if isinstance(source.data, str) else source.data.decode("utf-8")
+    value = read_document(source.data, source.name).value
     return document_of_scene(load(scene)) if _in_other_words(value) else text
 
 

@@ -32,7 +32,7 @@ class RigidBlocks:
         return block
 
     def is_same(self, g: int, h: int) -> bool:
-        """Are both the same block, and none of them `NONE`?"""
+        """Return whether both are the same block, and neither is `NONE`."""
         return g >= 0 and h >= 0 and (g == h or self.now(g) == self.now(h))
 
     def holding(self, v: int) -> set[int]:
@@ -42,7 +42,7 @@ class RigidBlocks:
         return {self.now(self.of[v])} if self.of[v] >= 0 else set()
 
     def common(self, v: int, w: int) -> int:
-        """The block that holds two joints."""
+        """Return the block that holds two joints."""
         of, several = self.of, self.several
         if v not in several and w not in several:
             return self.now(of[v]) if self.is_same(of[v], of[w]) else NONE
@@ -63,7 +63,7 @@ class RigidBlocks:
             self.of[v] = block
 
     def _merged(self, joints: Iterable[int]) -> int:
-        """The blocks that hold two of the joints, as one; a new one where there is none."""
+        """Return the blocks that hold two of the joints, as one; a new one where there is none."""
         once, block = set[int](), NONE
         for v in joints:
             for g in self.holding(v):
