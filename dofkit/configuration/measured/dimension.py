@@ -4,8 +4,8 @@ Columns of lengths are divided by the scene's size and rows by their gradients, 
 fraction of the size an equation can be satisfied otherwise. Those below the tolerance (times `SLACK`) count as 0. What
 is then dependent is taken to be exactly dependent in the geometry that was measured. An infinitesimal motion is finite
 where it is continued within the tolerance; it is not where the second order of that geometry, or the residuals along
-it, exclude it by more than the tolerance can hide. A motion that the geometry exactly as written does not have is left
-open, and so is all else.
+it, exclude it by more than the tolerance can hide. Where that leaves it open, the geometry exactly as written may
+decide, as it is one of those that the tolerance allows. All else is undecided.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from functools import cached_property
 from typing import Any
 
 from dofkit.base.libraries import np
-from dofkit.configuration.at_reference import at_reference
+from dofkit.configuration.at_reference import AtReference, at_reference
 from dofkit.configuration.local.germ import Conclusion
 from dofkit.configuration.measured.continuation import BEYOND, LONGEST, Path, follow, is_motion, reach_of
 from dofkit.configuration.measured.equations import (
@@ -47,6 +47,7 @@ MISSED = (
     "tolerance is meaningful only near it"
 )
 OPEN = "some infinitesimal motions are not finite motions; which ones was not decided"
+AS_WRITTEN = "with the numbers exactly as written the equations are dependent, which decides: {}"
 STOPPED = (
     "the infinitesimal motion extends to a finite motion within the tolerance but not for the geometry "
     "as written, so the tolerance leaves it open"
@@ -59,7 +60,8 @@ class MeasuredFreedom:
 
     ``dependencies``: a matrix over GF(2) with the pattern of dependent rows that the Jacobian has within the tolerance:
     independent rows are unit vectors, the others sums of those they depend on. ``columns`` are dependent coordinates.
-    ``gap``: between the least singular value that counts and the largest that does not.
+    ``gap``: between the least singular value that counts and the largest that does not. ``bound``: an upper bound of
+    the dimension where it is undecided.
     """
 
     instantaneous: int | None
@@ -68,6 +70,7 @@ class MeasuredFreedom:
     columns: tuple[int, ...]
     gap: float
     reason: str
+    bound: int | None = None
 
 
 def measured_freedom(chart: Chart, pose: Mapping[Expr, Expr], setting: Setting) -> MeasuredFreedom | None:
@@ -76,13 +79,25 @@ def measured_freedom(chart: Chart, pose: Mapping[Expr, Expr], setting: Setting) 
     if at is None:
         return None
     freedom = _within_tolerance(chart, at, setting)
-    if freedom.reason != FOLLOWED or chart.time is not None:
+    if freedom.reason not in (OPEN, FOLLOWED) or chart.time is not None:
         return freedom
     exact = at_reference(chart, pose)
-    same_rank = exact is not None and exact.instantaneous == freedom.instantaneous
-    if exact is None or not same_rank or exact.local.dimension in (None, freedom.dimension):
+    return freedom if exact is None else _compared_with_exact(freedom, exact)
+
+
+def _compared_with_exact(freedom: MeasuredFreedom, exact: AtReference) -> MeasuredFreedom:
+    """Return what the geometry exactly as written says of a measured freedom, if its rank is the same.
+
+    It decides a motion of as many dimensions as the tolerance allows; it leaves open a motion that it does not have.
+    """
+    dimension = exact.local.dimension
+    if exact.instantaneous != freedom.instantaneous or dimension in (None, freedom.dimension):
         return freedom
-    return replace(freedom, dimension=None, reason=STOPPED)
+    if freedom.dimension is not None:
+        return replace(freedom, dimension=None, reason=STOPPED)
+    if dimension is None or dimension <= exact.rigid or freedom.bound is None or dimension < freedom.bound:
+        return freedom
+    return replace(freedom, dimension=dimension, reason=AS_WRITTEN.format(exact.local.reason))
 
 
 def _within_tolerance(chart: Chart, at: Mapping[Expr, float], setting: Setting) -> MeasuredFreedom:
@@ -115,6 +130,7 @@ def _within_tolerance(chart: Chart, at: Mapping[Expr, float], setting: Setting) 
         tuple(greedy_pivots(j.T, rank)),
         gap,
         conclusion.reason,
+        problem.bound if conclusion.reason == OPEN else None,
     )
 
 
@@ -132,6 +148,11 @@ class _Problem:
     def forms(self) -> StressForms:
         """The second order."""
         return StressForms(self.pose)
+
+    @property
+    def bound(self) -> int:
+        """An upper bound of the dimension where not all of its infinitesimal motions are finite."""
+        return min(self.first - 1, self.rigid + self.forms.cone_bound)
 
     @cached_property
     def paths(self) -> list[tuple[Path, Path]]:
