@@ -67,6 +67,8 @@ export class Rational {
 
   pow(k) {
     const e = BigInt(Math.abs(k));
+    const bits = Math.max(this.n.toString(16).length, this.d.toString(16).length) * 4 * Math.abs(k);
+    if (bits > 100000 && abs(this.n) + this.d > 2n) throw new NotCovered("a number is too large");
     return k >= 0 ? new Rational(this.n ** e, this.d ** e) : Rational.of(this.d ** e, this.n ** e);
   }
 
@@ -93,6 +95,8 @@ export const R1 = new Rational(1n);
 // -- intervals: both ends are multiples of 2^-BITS -------------------------------------------------
 
 const BITS = 320n;
+/** The largest power that is worked out. */
+export const LONGEST = 5000;
 const UNIT = 1n << BITS;
 const LIMIT = 1n << 4000n;
 
@@ -165,6 +169,7 @@ export class Interval {
   }
 
   repeated(k) {
+    if (k > LONGEST) throw new NotCovered("a power is too large");
     let found = this;
     for (let i = 1; i < k; i += 1) found = found.mul(this);
     return found;

@@ -1,7 +1,7 @@
 // Normal forms: quotients of polynomials over the rationals in atoms (symbols, sines, cosines, roots, exponentials,
 // and what is opaque), with s^2 + c^2 = 1 and r^k = u. What has the numerator 0 is 0.
 
-import { Interval, NotCovered, R0, R1, Rational, Refused, refuse } from "./numbers.mjs";
+import { Interval, LONGEST, NotCovered, R0, R1, Rational, Refused, refuse } from "./numbers.mjs";
 import * as tr from "./trees.mjs";
 
 let ATOMS = [];
@@ -165,6 +165,7 @@ function inverseF(a) {
 }
 
 function powF(a, k) {
+  if (Math.abs(k) > LONGEST) throw new NotCovered("a power is too large");
   if (k < 0) return powF(inverseF(a), -k);
   let found = one();
   for (let i = 0; i < k; i += 1) found = mulR(found, a);

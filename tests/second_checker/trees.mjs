@@ -4,6 +4,8 @@ import * as num from "./numbers.mjs";
 import { Interval, NotCovered, R0, R1, Rational, refuse } from "./numbers.mjs";
 
 const TREES = new Map();
+let size = 0;
+const LARGEST = 4000000;
 
 /** heads: number, symbol, pi, sum, product, power, call (a built-in function), apply (a declared one). */
 export class Tree {
@@ -32,7 +34,8 @@ function make(head, value, args = []) {
   const key = args.length ? `${head[0]}${head[1]}(${label};${args.map((a) => a.id).join(",")})` : `${head}:${label}`;
   let found = TREES.get(key);
   if (!found) {
-    if (TREES.size > 400000) throw new NotCovered("too many expressions");
+    size += 1 + args.length;
+    if (size > LARGEST) throw new NotCovered("too many expressions");
     found = new Tree(head, value, args, key);
     found.id = TREES.size;
     TREES.set(key, found);
@@ -40,7 +43,11 @@ function make(head, value, args = []) {
   return found;
 }
 
-export const reset = () => TREES.clear();
+/** Forgets all expressions. */
+export function reset() {
+  TREES.clear();
+  size = 0;
+}
 
 export const number = (value) => make("number", value instanceof Rational ? value : Rational.of(value));
 export const symbol = (name) => make("symbol", name);
