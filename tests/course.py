@@ -26,7 +26,7 @@ from dofkit.homework.assignment import load_assignment
 from dofkit.homework.key.compared_equations import equations_of
 from dofkit.homework.key.key import Key
 from dofkit.homework.questions.labels import truths
-from dofkit.homework.variants import own
+from dofkit.homework.variants import sheet_of
 
 STUDENTS, SEED = 50, "autumn"
 #: One in so many hands in late, when the first review is done.
@@ -164,7 +164,7 @@ def hand_ins(assignment: Path, folder: Path, students: Sequence[str], rng: rando
     folder.mkdir(exist_ok=True)
     prepared = load_assignment(assignment)
     for number, student in enumerate(students):
-        mine = own(prepared, student)
+        mine = sheet_of(prepared, student)
         answers: dict[str, dict[str, str]] = {}
         for problem, question in mine.questions():
             right = right_answer(mine.keys[problem.id], question)

@@ -11,7 +11,7 @@ from dofkit.base.wording import gap_in_words
 from dofkit.configuration.at_reference import at_reference, ball_matrix
 from dofkit.configuration.generic_points import field_jacobian
 from dofkit.configuration.measured.dimension import MISSED, MeasuredFreedom, measured_freedom
-from dofkit.configuration.measured.equations import is_measured, pose_of_block
+from dofkit.configuration.measured.equations import is_measured, is_tree, pose_of_block
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety, of_real_point, of_reference
 from dofkit.exact.matrices.certified import ball_part, dependencies
@@ -43,14 +43,16 @@ def finite_answer(block: Block, setting: Setting) -> Answer:
     """The answer to a block of finite relations, at the reference where it satisfies them and else generically."""
     chart = make_chart(block, setting)
     measured = is_measured(block, setting)
-    result = _within_tolerance(chart, setting) if measured else _finite_answer(chart, setting)
+    result = _within_tolerance(block, chart, setting) if measured else _finite_answer(chart, setting)
     result.doubt = doubt(chart.ring)
     return result
 
 
-def _within_tolerance(chart: Chart, setting: Setting) -> Answer:
-    """Return the answer of a block with measured geometry."""
+def _within_tolerance(block: Block, chart: Chart, setting: Setting) -> Answer:
+    """Return the answer of a block with measured geometry; numbers do not matter in a tree without positions."""
     pose = pose_of_block(chart, setting)
+    if pose is None and is_tree(block, setting):
+        return _finite_answer(chart, setting)
     if "balls" not in setting.engines:
         return Answer(None, verdict="undecided", reasons=["measured geometry has no points over GF(p)"])
     freedom = None if pose is None else measured_freedom(chart, pose, setting)

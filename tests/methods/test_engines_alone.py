@@ -41,13 +41,13 @@ KNOWN: dict[tuple[str, MethodName], tuple[tuple[str, ...], str]] = {
 OPEN: dict[MethodName, str] = {
     "field": """
         appell-hamel-in-a-plane appell_hamel constant-speed cube-with-four-space-diagonals double-watt
-        double-watt-alike dubins-car-by-its-speed equal-speeds four-bar-change-point four-bar-stretched
-        four-wheels-with-ackermann hoist
+        double-watt-alike dubins-car-by-its-speed equal-speeds five-particles-on-sphere four-bar-change-point
+        four-bar-stretched four-wheels-with-ackermann hoist
         isosceles-slider-crank jansen-leg kite-folded linear-triple-in-3d measured-bennett miura-vertex-flat
         omnidirectional-robot parallel-velocities parallelogram-flattened perpendicular-velocities
         plate-on-four-threads platform-on-parallel-legs rhombus-folded sarrus-folded sarrus-stretched speed-by-height
         spherical-four-bar-stretched three-cranks-in-line three-masses-on-one-rod trap_circles_tangent
-        waterbomb-vertex-flat wren-platform
+        two-particles-on-sphere waterbomb-vertex-flat wren-platform
     """,
     "balls": """
         double-watt double-watt-alike holonomic-definition miura-vertex-flat plate-on-four-threads

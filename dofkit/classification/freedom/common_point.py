@@ -17,7 +17,10 @@ from flint import arb
 from dofkit.base.errors import TextError
 from dofkit.base.libraries import components
 from dofkit.base.verdicts import weakest
+from dofkit.configuration.components import explicit_relations
+from dofkit.configuration.generic_dimension import BALL_COLUMNS
 from dofkit.configuration.variety import Witness, of_real_point
+from dofkit.exact.analyticity import is_analytic
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.expressions import tree as ex
@@ -257,9 +260,21 @@ def simultaneous(blocks: Sequence[Block], answers: Sequence[Answer]) -> list[Ans
         group = [i for i in numbers if shared[i]]
         if len(group) < 2 or _is_common([result[i].witness for i in group], [shared[i] for i in group]):
             continue
-        for i in group:
+        restricting = [i for i in group if _may_restrict(blocks[i], result[i])]
+        for i in restricting if len(restricting) > 1 else ():
             result[i] = Answer(None, verdict="undecided", reasons=[APART], method=result[i].method)
     return result
+
+
+def _may_restrict(block: Block, a: Answer) -> bool:
+    """Return whether a block may be satisfied at some times, or for some parameters, only."""
+    if a.linear or not (block.finite or a.hidden or block.nonlinear or block.conditions):
+        return False
+    relations = [*(row.piece.expr for row in block.finite if isinstance(row.piece, Finite)), *a.hidden]
+    if block.nonlinear or block.conditions or len(relations) > BALL_COLUMNS:
+        return True
+    smooth = all(is_analytic(g, g.symbols, poles=False) for g in relations)
+    return not smooth or bool(explicit_relations(relations).implicit)
 
 
 def _shared_symbols(block: Block) -> frozenset[Expr]:
