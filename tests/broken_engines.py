@@ -42,8 +42,8 @@ BUGS: Mapping[str, Bug] = {
     ),
     "rank of sparse rows": Bug(
         "exact/matrices/sparse.py",
-        "            if rest:\n                self._add(i, rest, used)",
-        "            if len(rest) > 1:\n                self._add(i, rest, used)",
+        "            if residual:\n                self._add(i, residual, used)",
+        "            if len(residual) > 1:\n                self._add(i, residual, used)",
         "tests/scenes/mechanisms/rssp-linkage.yaml",
     ),
     "ring": Bug(
