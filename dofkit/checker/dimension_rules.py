@@ -178,9 +178,12 @@ def redundant(evidence: CheckedEvidence, claim: Told, verified: Told) -> list[st
 
 
 def _depend_plainly(evidence: CheckedEvidence, minor: CheckedMinor, others: set[str]) -> None:
-    """`CheckError` unless relations depend on rows by numbers, or one does by cofactors that are not 0.
+    """`CheckError` unless the ``others`` depend on the rows of the minor wherever they are satisfied, near its point.
 
-    Where every relation is linear or has a generic length of its own, all ranks are constant near almost every point.
+    A relation that is a combination of rows with constant coefficients is dependent everywhere. One relation alone may
+    have coefficients that are functions, not 0 at the point: then row and relation can be exchanged near it. Where
+    every relation is linear or has a generic length that no other has, all ranks are constant near almost every point,
+    and there is nothing to check.
     """
     if not evidence.moving and all(_is_general(evidence, name) for name in evidence.finite):
         return

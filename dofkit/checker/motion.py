@@ -210,10 +210,12 @@ def motion(evidence: CheckedEvidence, claim: Told, verified: Told) -> Told:
 
 
 def _leaves(evidence: CheckedEvidence, claim: Told, put: Told, places: Told, limits: Told) -> None:
-    """`CheckError` unless the told set is all that the relations allow near a point.
+    """`CheckError` unless the set of the claim is all that the relations of the scene allow near a point.
 
-    They are all multiples of the told constraints on it, and as many as there are eliminated coordinates and told
-    constraints are independent at a point of it: it has the dimension of what they allow.
+    ``places``: what each eliminated coordinate is; ``put``: the same with its rates, to be put in; ``limits``: the
+    constraints that remain, by name. With ``put`` every relation is a combination of the remaining constraints, so the
+    set is part of what the relations allow. As many relations as there are eliminated coordinates and remaining
+    constraints are independent at a point of it, so both have the same dimension there.
     """
     used = list[Tree]()
     for checked in map(evidence.relation, evidence.equations):

@@ -136,7 +136,11 @@ class ImpliedRelations:
 
 
 def _on_manifold(chart: Chart, pose: Mapping[Expr, Expr], rank: int, afar: bool) -> bool | None:
-    """Return whether the relations cut out a manifold of codimension ``rank``, that of all but one of them."""
+    """Return whether the relations cut out a manifold of codimension ``rank`` near the reference configuration.
+
+    ``rank`` is that of the relations without the one that is tested: where the answer is True that one is implied. None
+    where it is not decided. ``afar``: points at a distance are looked at too, with interval arithmetic.
+    """
     if "field" not in chart.engines:
         return None
     small, free = smaller(chart)

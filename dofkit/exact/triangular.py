@@ -250,7 +250,7 @@ class TriangularSolver:
         planner = Planner(ring, fixed, seed)
         self.plan = planner.plan_for([*relations, *root_relations(ring, list(relations))])
         self.degree = planner.degree
-        if self.plan.stuck:
+        if self.plan.stuck:  # planning appends expressions to the ring: without a plan they are of no use
             ring.forget(size)
 
     def draw(self, seed: int) -> FieldPoint | None:

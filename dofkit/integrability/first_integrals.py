@@ -291,7 +291,11 @@ class BorderedMinors:
         self._cofactors: dict[int, dict[int, Poly]] = {}
 
     def vanish(self, f: Expr) -> bool | None:
-        """Return whether the minors of df vanish identically, or None where they are not written out."""
+        """Return whether df depends on the forms: all minors of the forms together with df are 0.
+
+        None where the minors are too long to be written out, and where one is not 0 beside finite relations, on which
+        it may vanish all the same.
+        """
         if not self.short:
             return None
         try:

@@ -236,13 +236,17 @@ def _joint_block(slot: RewrittenRow, blocks: Sequence[Block], numbers: Sequence[
 
 
 def with_reductions_checked(
-    slots: Sequence[RewrittenRow], blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
+    rewritten: Sequence[RewrittenRow], blocks: Sequence[Block], answers: Sequence[Answer], setting: Setting
 ) -> list[Answer]:
-    """The answers, but undecided where a relation as written does not hold at the states that its reduction leaves."""
+    """Return the answers, undecided where a relation as written does not hold at the states that its reduction leaves.
+
+    A reduction writes a relation more simply, such as (xdot - ydot)^2 = 0 as xdot = ydot. Blocks without a state cannot
+    leave one, and are not checked.
+    """
     checked = list(answers)
-    for slot in slots:
-        numbers = blocks_of(slot, blocks)
-        if any(not checked[k].consistent for k in numbers) or _holds(slot, blocks, numbers, checked, setting):
+    for row in rewritten:
+        numbers = blocks_of(row, blocks)
+        if any(not checked[k].consistent for k in numbers) or _holds(row, blocks, numbers, checked, setting):
             continue
         for k in numbers:
             checked[k] = Answer(None, verdict="undecided", reasons=[*checked[k].reasons, NOT_EQUIVALENT])

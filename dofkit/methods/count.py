@@ -43,7 +43,11 @@ def integrability(scene: Scene | System, knobs: Knobs) -> MethodReply:
 
 
 def redundancy(scene: Scene | System, knobs: Knobs) -> MethodReply:
-    """None where as much is left as can move for certain: all of a frame that nothing holds to the ground."""
+    """Return no redundant constraint where the count leaves at least the freedom that is certain; else None.
+
+    Certain is the motion of the whole as a rigid body, d(d+1)/2, where nothing holds it to the ground. A count that
+    leaves less proves that something is redundant, and cannot name it.
+    """
     del knobs
     written = as_written(scene)
     number, least = naive(written), least_freedom(written)

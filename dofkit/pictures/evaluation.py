@@ -56,7 +56,10 @@ def _value(e: Expr, values: Values, memo: dict[Expr, Array]) -> Array | float:
 
 
 def _example(e: Expr, values: Values, memo: dict[Expr, Array]) -> Array:
-    """Return u/2 + 0.4 sin(w u + p), summed over the arguments u, or a derivative of that."""
+    """Return the values of the function that is drawn for an unknown one: sums of u/2 + 0.4 sin(w u + p).
+
+    The sum is over its arguments u, the phase p comes from its name; a derivative is that of the same function.
+    """
     name, orders, arguments = e.args
     phase = 0.7 * (sum(map(ord, name)) % 9)
     total = np.asarray(0.0)

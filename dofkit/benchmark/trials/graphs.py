@@ -145,7 +145,7 @@ def trees_on_a_line(quick: bool) -> Iterator[KnownScene]:
 
 
 def union(vertices: Iterable[T], edges: Iterable[tuple[T, T]]) -> tuple[int, list[tuple[T, T]]]:
-    """Return how many connected components a graph has, and the edges that close a circle with those before."""
+    """Return how many connected components a graph has, and the edges that close a cycle with those before them."""
     classes: UnionFind = UnionFind(vertices)
     closing = []
     for a, b in edges:

@@ -156,7 +156,11 @@ class _Judge:
         return Feasibility(False, part.numbers, verdict="proved")
 
     def _problems(self, part: Part) -> Iterator[StateProblem]:
-        """Where a point is looked for; measured geometry, and joints that also close turned over, are left open."""
+        """Yield the problems of which a solution is searched, one or more for each choice of branches.
+
+        Nothing where geometry is measured with a tolerance, or where a part is no list of equations and inequalities.
+        Where a joint can also close turned over only the reference configuration is tried: ``drawn_only``.
+        """
         measured = self.setting.tolerance is not None and any(r.normals for r in part.reduced)
         if measured or not part.readable:
             return

@@ -139,6 +139,7 @@ class _Arms:
         return self._evaluated(at)[1]
 
     def _evaluated(self, at: Point) -> tuple[Any, Any]:
+        """Return the arms as a vector over the columns and their derivatives by all columns; 0 where there is none."""
         n = len(self.symbols)
         arms, slopes = np.zeros(n), np.zeros((n, n))
         if self.rows:

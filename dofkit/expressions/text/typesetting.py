@@ -178,7 +178,7 @@ class _Setter:
         return taken
 
     def formula(self) -> str:
-        """Return sums with relations and commas between them."""
+        """Return the LaTeX of a whole formula: sums with the signs of relations, or commas, between them."""
         pieces = [self.sums()]
         while self.next.kind == "relation":
             sign = self.take().text

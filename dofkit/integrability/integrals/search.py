@@ -335,7 +335,8 @@ def _scaled(work: Algebra, pair: Pair) -> Iterator[Pair]:
 
 
 def _constant(e: Expr) -> Expr:
-    """Return the factor of ``e`` free of coordinates and time; of a sum, its rational content with the first sign."""
+    """Return a constant factor of ``e``: the factors of a product that hold parameters only, or the rational content of
+    a sum, negative where the coefficients of all its terms are. An integral is written without it."""
     if e.op == "mul":
         return ex.mul(*(f for f in e.args if all(s.args[0] == "parameter" for s in f.symbols)))
     if e.op != "add":

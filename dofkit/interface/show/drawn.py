@@ -140,6 +140,7 @@ def latex_of(value: object) -> str | None:
 
 
 def _formulas(value: object) -> Iterator[str]:
+    """Yield the formulas of a value that a notebook shows typeset."""
     if isinstance(value, MotionReport):
         yield f"L = {value.lagrangian}"
         yield from value.equations

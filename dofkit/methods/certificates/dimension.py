@@ -143,7 +143,12 @@ def velocities_everywhere(room: Room) -> Iterator[Told]:
 
 
 def _of_forms(room: Room) -> Iterator[Told]:
-    """All relations in an order; or the finite ones, and a single form."""
+    """Yield claims by the rule `everywhere`: each relation gives a coordinate that those before do not hold.
+
+    Then the rank is the number of relations at all points. All relations are in such an order; or the finite ones are,
+    and a single form stands beside them. ``standing`` is the point at which the relations are known to hold, with the
+    rows that account for all.
+    """
     evidence, standing = room.scenery.evidence, room.standing
     if standing is None or not standing.accounted:
         return

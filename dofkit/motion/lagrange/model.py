@@ -254,7 +254,12 @@ def _reduced(energy: Energy, elimination: Elimination, kept: Sequence[str], sett
 
 
 def independent(names: Sequence[str], pieces: Sequence[Remaining], setting: Setting) -> list[Remaining] | None:
-    """Relations of which each is independent of those before it, and on which all others depend; None if undecided."""
+    """Return a largest independent set of the remaining constraints, each of which has its multiplier; or None.
+
+    A block of one relation, or of relations nonlinear in velocities, is taken as it is. In any other the independent
+    rows of the matrix at a random point are kept; relations that the block hides have rows too, and are left out. None
+    where a block is undecided.
+    """
     if not pieces:
         return []
     chosen: list[Remaining] = []

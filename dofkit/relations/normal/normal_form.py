@@ -102,8 +102,10 @@ def _by_velocities(canon: Canon, polynomial: Any) -> dict[Monomial, Any]:
 def _completed(
     canon: Canon, whole: Any, index: int, velocities: Sequence[Expr], positive: frozenset[Expr]
 ) -> _Square | None:
-    """Return 4 a e = L^2 - D less the common factors of L and D, for the velocity of a generator.
+    """Complete the square: ``whole`` = a v^2 + b v + c in the velocity v of number ``index`` is 4 a whole = L^2 - D.
 
+    L = 2 a v + b is ``slope``, 2 a is ``lead``, and D = b^2 - 4 a c (``discriminant``) is root^2 times ``radicand``;
+    factors that L and the root have in common are taken out.
     None where D is no square of an expression linear in the velocities, or what is left of a may vanish.
     """
     place = len(canon.ring.vars) - 1 - index

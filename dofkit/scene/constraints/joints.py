@@ -246,9 +246,10 @@ def together(first: Frame, second: Frame, place: Vec) -> Iterator[Relation]:
 
 
 def aligned(first: Frame, second: Frame, axis: Direction) -> Iterator[Relation]:
-    """Yield 2 relations that keep the direction of the axis in both bodies: (R1 n).(R2 u) = 0 or v.u = 0.
+    """Yield 2 relations that keep the direction n of the axis the same in both bodies, one for each u across n.
 
-    The first keeps them from turning about n x u, the second about u.
+    In general (R1 n).(R2 u) = 0, which keeps them from turning about n x u. Where both rotations are given by Gibbs
+    vectors, v.u = 0 with the vector part v of the quaternion of R1^T R2 keeps them from turning about u.
     """
     turned = relative(first, second)
     carried = first.carry(axis.vector) if turned is None else ()
