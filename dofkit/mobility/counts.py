@@ -265,7 +265,9 @@ def why(system: System, facts: CountedFacts, naive: int) -> str | None:
     if facts.dof > naive:
         independent = facts.written - facts.dof + naive
         reasons.append(
-            f"only {independent} of the {many(facts.written, 'geometric equation')} {verb(independent)} independent: "
+            "the geometric equation removes no degree of freedom"
+            if facts.written == 1
+            else f"only {independent} of the {facts.written} geometric equations {verb(independent)} independent: "
             "a dependent equation removes no degree of freedom"
         )
         complete = complete_sets(system)
