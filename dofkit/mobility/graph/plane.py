@@ -208,7 +208,6 @@ class PebbleGame:
 
     def _move(self, w: int, root: int, via: dict[int, int]) -> None:
         """Move a free pebble of ``w`` to ``root``: every link on the way is paid for from its other end."""
-        # A pebble of a vertex is free (negative), or names the other end of the link that it lies on.
         first, second = self.first, self.second
         in_first = first[w] < 0
         while w != root:
