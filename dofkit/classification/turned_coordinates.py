@@ -15,7 +15,7 @@ from typing import NamedTuple
 from flint import arb, arb_mat
 
 from dofkit.base.libraries import nx
-from dofkit.configuration.generic_points import field_jacobian, on_variety, pose_point
+from dofkit.configuration.variety import field_jacobian, on_variety, pose_point
 from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import without_time

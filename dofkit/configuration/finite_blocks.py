@@ -9,11 +9,10 @@ from math import isfinite
 
 from dofkit.base.wording import gap_in_words
 from dofkit.configuration.at_reference import at_reference, ball_matrix
-from dofkit.configuration.generic_points import field_jacobian
 from dofkit.configuration.measured.dimension import MISSED, MeasuredFreedom, measured_freedom
 from dofkit.configuration.measured.equations import is_measured, is_tree, pose_of_block
 from dofkit.configuration.search import find
-from dofkit.configuration.variety import Variety, of_real_point, of_reference
+from dofkit.configuration.variety import Variety, field_jacobian, of_real_point, of_reference
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse, without_time
 from dofkit.exact.points.balls import rational_values, vanish_exactly

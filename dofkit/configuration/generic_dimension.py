@@ -14,12 +14,11 @@ from dofkit.base.deadline import check
 from dofkit.base.libraries import np
 from dofkit.base.verdicts import ArgumentKey, Verdict, weakest
 from dofkit.base.wording import gap_in_words
-from dofkit.configuration.generic_points import field_jacobian, generators_of, has_same_signs, time_is_free
 from dofkit.configuration.local import criteria
 from dofkit.configuration.local.criteria import numeric_dimension
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
 from dofkit.configuration.rigid_motions import rigid_motions_real
-from dofkit.configuration.variety import Variety
+from dofkit.configuration.variety import Variety, field_jacobian, generators_of, has_same_signs, time_is_free
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.certified import independent_part
 from dofkit.exact.matrices.sparse import rank_of_rows

@@ -18,8 +18,7 @@ from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.configuration.at_reference import CLEAR, ball_matrix, ball_point
 from dofkit.configuration.finite_blocks import dependent_names
-from dofkit.configuration.generic_points import SAMPLES, on_variety, pose_point
-from dofkit.configuration.variety import Variety
+from dofkit.configuration.variety import SAMPLES, Variety, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import rank_of, sparse
 from dofkit.exact.points.balls import precision

@@ -27,7 +27,8 @@ from dofkit.expressions.calculus import accelerations_of, substitute
 from dofkit.expressions.enclosures import has_call
 from dofkit.expressions.terms import linear_terms
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Row, coordinates_of, presolve, with_rows
+from dofkit.relations.blocks import Row, coordinates_of, with_rows
+from dofkit.relations.linear_relations import presolve
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.normal_form import velocities_of

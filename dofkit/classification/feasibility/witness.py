@@ -29,7 +29,7 @@ from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import interval_of
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import linear
+from dofkit.relations.linear_relations import linear
 from dofkit.relations.normal.domain import DomainCondition
 
 #: Searches along slacks, from so many starts each, with so many steps; equations and conditions that one may have.

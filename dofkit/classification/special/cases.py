@@ -27,7 +27,7 @@ from dofkit.classification.special.minors import (
     candidates,
     table_of,
 )
-from dofkit.configuration.generic_points import on_variety
+from dofkit.configuration.variety import on_variety
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import PRECISION, BallPoint

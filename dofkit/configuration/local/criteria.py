@@ -13,10 +13,10 @@ from typing import Literal
 from flint import ctx
 
 from dofkit.base.verdicts import ArgumentKey, Verdict, weakest
-from dofkit.configuration.generic_points import frame_at
 from dofkit.configuration.local import conclusions
 from dofkit.configuration.local.germ import Conclusion, Germ
 from dofkit.configuration.local.manifold import LocalDimension, Manifold
+from dofkit.configuration.variety import frame_at
 from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.points.balls import BallPoint, precision
 from dofkit.exact.points.field import FieldPoint

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flint import arb, arb_mat, nmod, nmod_mat
+from flint import arb, arb_mat, fmpq_mat, nmod, nmod_mat
 
 from dofkit.base.deadline import check
 from dofkit.exact.errors import PoleError, raising_no_value
@@ -62,8 +62,8 @@ def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Pivots:
     return Pivots(kept, dependent, tuple(c for c in range(n) if c not in solved))
 
 
-def pivots(matrix: nmod_mat) -> list[int]:
-    """Return the pivot columns of a matrix over GF(p)."""
+def pivots(matrix: nmod_mat | fmpq_mat) -> list[int]:
+    """Return the pivot columns of a matrix over GF(p) or the rationals."""
     reduced, rank = matrix.rref()
     columns, column = [], 0
     for r in range(rank):
