@@ -15,6 +15,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
+from dofkit.base.errors import NoValueError
 from dofkit.configuration.components import RelationPart, by_cases, explicit_relations, of_largest_part, parts_of
 from dofkit.configuration.generic_dimension import ALLOWING, near_real_point, real_point, variety_at
 from dofkit.configuration.variety import (
@@ -27,7 +28,6 @@ from dofkit.configuration.variety import (
     samples_for,
     time_is_free,
 )
-from dofkit.exact.errors import NoValueError
 from dofkit.exact.matrices.certified import PivotedPart, ball_part
 from dofkit.exact.matrices.sparse import rank_of_rows
 from dofkit.exact.points.real_search import RealPoint
@@ -83,7 +83,7 @@ def _fixes_time(chart: Chart, variety: Variety) -> bool:
         return bool(variety.samples) and not time_is_free(chart, variety.samples[0])
     ranked = [s for s in chart.symbols if chart.ring.var_index(s) is not None]
     rows = [[v for v, s in zip(row, ranked, strict=True) if s != ex.TIME] for row in variety.real.matrix]
-    return ball_part(rows).rank < variety.real.rank
+    return ball_part(rows).rank < variety.real.part.rank
 
 
 def _variety(chart: Chart, pose: Mapping[Expr, Expr], seed: int) -> Variety:

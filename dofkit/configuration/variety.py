@@ -11,12 +11,11 @@ from typing import Any
 from flint import arb, ctx
 
 from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError, PoleError
 from dofkit.base.verdicts import About, ArgumentKey, Verdict
-from dofkit.exact.errors import NoValueError, PoleError
-from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, without_time
+from dofkit.exact.matrices.sparse import Pivots, SparseRow, rank_of_rows, sparse_frame, without_time
 from dofkit.exact.points.balls import BallPoint, precision, random_ball_point
 from dofkit.exact.points.field import FieldPoint, field_point
-from dofkit.exact.points.frames import Pivots, sparse_frame
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.ring.program import VAR, gradient, reachable, value_of, values
 from dofkit.exact.ring.ring import Ring
@@ -64,7 +63,7 @@ Witness = Mapping[Expr, str]
 
 def of_real_point(chart: Chart, real: RealPoint | None) -> Witness | None:
     """Coordinates, time and named parameters at a point whose ball holds a true zero; None without one."""
-    if real is None or not real.certified or not real.consistent or real.solved < real.rank:
+    if real is None or not real.certified or not real.consistent or real.solved < real.part.rank:
         return None
     named = {s: v for s, v in real.point.symbols.items() if not str(s.args[-1]).startswith("_")}
     return {**dict.fromkeys(chart.symbols, "0"), **{s: _text(v) for s, v in named.items()}}

@@ -8,8 +8,8 @@ from typing import Literal
 
 from flint import ctx, fmpq_mat
 
+from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict
-from dofkit.exact.errors import NoValueError
 from dofkit.exact.points.balls import BallPoint, fixed_bits, random_ball_point
 from dofkit.exact.points.field import MOST_REDUCED, field_point
 from dofkit.exact.ring.canonical import Canon, divided

@@ -289,7 +289,7 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
         )
     if "field" not in forms.chart.engines:
         result.matrix = sparse(dependencies(matrix, part))
-        if real.consistent and len(real.rows) == forms.finite and rank == len(matrix):
+        if real.consistent and len(real.part.rows) == forms.finite and rank == len(matrix):
             result.verdict = "proved" if reached or total - rank <= 1 else result.verdict
     for i, row, place in linear_rows(block, forms):
         finite = isinstance(row.piece, Finite)

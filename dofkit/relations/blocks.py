@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from dofkit.base.deadline import check
-from dofkit.base.libraries import components
+from dofkit.exact.matrices.sparse import components
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import BOTH, Engines
 from dofkit.expressions import tree as ex

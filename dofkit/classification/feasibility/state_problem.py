@@ -19,8 +19,8 @@ from typing import Literal, NamedTuple
 
 from flint import fmpq
 
-from dofkit.base.libraries import components
 from dofkit.exact.linear_inequalities import LinearCondition, solution
+from dofkit.exact.matrices.sparse import components
 from dofkit.exact.zero import zero_and_verdict
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import accelerations_of, substitute

@@ -16,8 +16,8 @@ from typing import Any, NamedTuple
 
 from flint import arb, ctx, fmpq, fmpq_mat
 
-from dofkit.exact.errors import NoPointError, NoValueError, OutsideDomainError
-from dofkit.exact.ring.program import Scalar, Var, gradient, values
+from dofkit.base.errors import NoValueError
+from dofkit.exact.ring.program import NoPointError, OutsideDomainError, Scalar, Var, gradient, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import Expr
 

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 from flint import arb, arb_mat, ctx
 
 from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError
 from dofkit.base.libraries import np
-from dofkit.exact.errors import NoValueError, raising_no_value
 from dofkit.exact.matrices.certified import PivotedPart, ball_part, independent_part
 from dofkit.exact.points.balls import BallPoint, FloatPoint, jacobian, precision, random_values
-from dofkit.exact.ring.program import values
+from dofkit.exact.ring.program import raising_no_value, values
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions.tree import TIME, Expr
 
@@ -50,18 +50,6 @@ class RealPoint:
     consistent: bool
     matrix: list[list[arb]]
     solved: int = 0
-
-    @property
-    def rank(self) -> int:
-        return self.part.rank
-
-    @property
-    def rows(self) -> tuple[int, ...]:
-        return tuple(self.part.rows)
-
-    @property
-    def gap(self) -> float:
-        return self.part.gap
 
 
 class RealSearch:

@@ -11,7 +11,7 @@ from fractions import Fraction
 from itertools import product as cartesian
 from typing import Any
 
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import NoValueError
 from dofkit.exact.points.balls import random_ball_point
 from dofkit.exact.ring.canonical import Canon, lowest_terms, square_root
 from dofkit.exact.ring.program import values
