@@ -8,10 +8,10 @@ from __future__ import annotations
 from typing import Any
 
 from dofkit.base.deadline import check
-from dofkit.exact.errors import NoValueError, PoleError, raising_no_value
+from dofkit.base.errors import NoValueError, PoleError
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.residues import Residue, ResiduePolynomial, modulus, residue, residue_polynomial
-from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, reachable
+from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, raising_no_value, reachable
 from dofkit.exact.ring.ring import Ring
 
 #: Denominators past this degree are reduced; quotients past this one are given up.

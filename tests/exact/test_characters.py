@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import random
 
-from dofkit.exact.errors import NoPointError
 from dofkit.exact.points.field import Character
 from dofkit.exact.residues import residue
+from dofkit.exact.ring.program import NoPointError
 
 
 def test_the_same_value_comes_of_arguments_in_either_order() -> None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import dofkit
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import NoValueError
 from dofkit.exact.points.field import field_point
 from dofkit.exact.residues import residue_matrix
 from dofkit.exact.ring.program import values

@@ -9,7 +9,7 @@ from typing import Any
 
 from flint import arb, arb_poly
 
-from dofkit.exact.errors import PoleError
+from dofkit.base.errors import PoleError
 from dofkit.exact.residues import Residue, ResiduePolynomial, modulus, residue_polynomial
 from dofkit.exact.ring.program import Point, Scalar, Var
 
