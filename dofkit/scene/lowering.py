@@ -38,6 +38,7 @@ from dofkit.scene.fields import suggestion
 from dofkit.scene.ledger import MOVING, Texts, symbols_of
 from dofkit.scene.names import Vocabulary, name_faults, names_by_position, owner_kinds, vocabulary_of, within_member
 from dofkit.scene.parts import Body, Force, texts_of
+from dofkit.scene.picture import picture_of
 from dofkit.scene.scene import Scene
 from dofkit.scene.world import World, within
 from dofkit.system import GROUND, Connection, Constraint, ListedForce, Rotation, System
@@ -135,6 +136,7 @@ def survey(scene: Scene, euler: bool = False) -> Survey:
     texts = Texts(vocabulary.texts, (), faults)
     _check_masses(scene, texts)
     _check_energies(scene, texts, [q.name for q in vocabulary.table.coordinates])
+    picture_of(scene, vocabulary, faults)
     faults += _expect_faults(scene)
     size, drawn = size_of(world.points), drawn_bodies(world.drawn, world.welds)
     misfits = (m for m in world.misfits if m.body is None or m.body in drawn)

@@ -252,7 +252,7 @@ def _faults_of_sound_part(value: Mapping[str, Any], faults: Sequence[Fault]) -> 
     Nothing is yielded where the remaining parts would not make sense without the faulty ones.
     """
     sound: Any = copy.deepcopy(dict(value))
-    dropped: dict[str, set[int]] = {"constraints": set(), "forces": set()}
+    dropped: dict[str, set[int]] = {"constraints": set(), "forces": set(), "picture": set()}
     sections: dict[str, str] = {}
     for fault in faults:
         first, second = (*fault.where, None, None)[:2]
@@ -271,9 +271,15 @@ def _faults_of_sound_part(value: Mapping[str, Any], faults: Sequence[Fault]) -> 
         else:
             return
     kept = {key: [i for i in range(len(sound[key])) if i not in gone] for key, gone in dropped.items() if gone}
-    names = {str(entry["name"]) for key in kept for i in dropped[key] if "name" in (entry := _as_entry(sound, key, i))}
+    names = {
+        str(entry["name"])
+        for key in kept
+        if key != "picture"
+        for i in dropped[key]
+        if "name" in (entry := _as_entry(sound, key, i))
+    }
     for key, indices in kept.items():
-        sound[key] = [_as_entry(sound, key, i) for i in indices]
+        sound[key] = [sound[key][i] if key == "picture" else _as_entry(sound, key, i) for i in indices]
     try:
         remaining = check(Scene.model_validate(standard_words(sound).value if sections else sound))
     except ValidationError:
