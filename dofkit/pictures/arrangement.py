@@ -19,7 +19,7 @@ from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import DT, TIME, Expr, coordinate, differential, parameter, velocity
 from dofkit.motion.configurations import configurations
 from dofkit.pictures.evaluation import by_pivots, derivatives, evaluated, kernel, values_at, with_unit_rows
-from dofkit.pictures.placed_shapes import Placement
+from dofkit.pictures.placed_shapes import ShapePlacement
 from dofkit.pictures.shapes import AT_REST, Array, Displacement, Place, about, place
 from dofkit.system import GROUND, PARTICLE_ROLES, Coordinate, System
 
@@ -44,7 +44,7 @@ class Arrangement:
     numbers: Mapping[Expr, float]
     note: str | None
     met: bool
-    placements: Mapping[str, Placement] = field(default_factory=dict)
+    placements: Mapping[str, ShapePlacement] = field(default_factory=dict)
 
     @cached_property
     def poses(self) -> dict[str, Displacement]:

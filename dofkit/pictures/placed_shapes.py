@@ -30,7 +30,7 @@ from dofkit.pictures.shapes import (
     fixed,
     place,
 )
-from dofkit.scene.picture import Picture, PlacedShape
+from dofkit.scene.picture import PlacedPicture, PlacedShape
 from dofkit.system import GROUND
 
 #: Points of a curve, lines of a surface in each direction and their points, corners of a disc, strokes of the ground.
@@ -44,7 +44,7 @@ _LINES: Mapping[str, tuple[Kind, Role, float]] = {
 SIDE, AXIS, BLADE = 4.0, 1.0, 0.8
 
 
-class Placement(NamedTuple):
+class ShapePlacement(NamedTuple):
     """Where a carrier is: a place, and in space its axis or heading, and its turn about that."""
 
     at: Vec
@@ -86,13 +86,13 @@ def _frame(across: Array) -> Array:
     return np.column_stack([np.cross(up, normal), up, normal])
 
 
-def placements_of(picture: Picture) -> Mapping[str, Placement]:
+def placements_of(picture: PlacedPicture) -> Mapping[str, ShapePlacement]:
     """Return the placements of everything in a picture, by the names of their carriers."""
-    placements: dict[str, Placement] = {}
+    placements: dict[str, ShapePlacement] = {}
     for k, shape in enumerate(picture.shapes):
         for j, at in enumerate(_sampled(shape)):
             upright = picture.dimension == 3 and shape.kind in ("disc", "wheel")
-            placements[_carrier(k, j)] = Placement(at, shape.axis, shape.heading, shape.turn, upright)
+            placements[_carrier(k, j)] = ShapePlacement(at, shape.axis, shape.heading, shape.turn, upright)
     return placements
 
 
@@ -125,7 +125,7 @@ def _parts(count: int) -> list[Fraction]:
     return [Fraction(k, count - 1) for k in range(count)]
 
 
-def picture_shapes(picture: Picture, values: Values, unit: float) -> Iterator[Shape]:
+def picture_shapes(picture: PlacedPicture, values: Values, unit: float) -> Iterator[Shape]:
     """Yield the shapes of a picture; ``unit``: the size of symbols."""
     placements = placements_of(picture)
     for k, shape in enumerate(picture.shapes):
@@ -141,7 +141,7 @@ class _Drawing(NamedTuple):
     number: int
     shape: PlacedShape
     dimension: int
-    placements: Mapping[str, Placement]
+    placements: Mapping[str, ShapePlacement]
     values: Values
     unit: float
 

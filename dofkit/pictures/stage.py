@@ -23,7 +23,7 @@ from dofkit.pictures.words import can_hold, meanings, state_of
 from dofkit.report import Report
 from dofkit.scene.lowering import lower
 from dofkit.scene.names import vocabulary_of
-from dofkit.scene.picture import Picture, picture_of
+from dofkit.scene.picture import PlacedPicture, picture_of
 from dofkit.scene.scene import Scene
 from dofkit.scene.symbols import Symbol
 from dofkit.system import GROUND, Connection, System
@@ -61,7 +61,7 @@ class StagedScene:
     schematic: bool
     measurable: bool
     unseen: str | None
-    picture: Picture
+    picture: PlacedPicture
 
     @property
     def system(self) -> System:
@@ -142,9 +142,10 @@ def stage_of(scene: Scene, report: Report) -> StagedScene:
     written = [_written_place(arrangement, c) for c in system.connections]
     points = _points(scene, arrangement, written)
     sizes = [s for s in picture_shapes(picture, arrangement.numbers, 0.0) if s.kind != "words"]
-    points += [arrangement.poses.get(v.carrier, AT_REST).moved(v.at) for s in sizes for v in s.vertices]
-    size, _ = _extent(points)
+    drawn = [arrangement.poses.get(v.carrier, AT_REST).moved(v.at) for s in sizes for v in s.vertices]
+    size, _ = _extent([*points, *drawn])
     unit = _unit(points, size)
+    points += drawn
     places, schematic = _all_places(scene, arrangement, written, unit)
     size, centre = _extent([*points, *(p for p, w in zip(places, written, strict=True) if p and w is None)])
     unseen = None if is_linear(arrangement) else NOT_LINEAR

@@ -171,7 +171,7 @@ class PlacedShape(NamedTuple):
     range: tuple[tuple[Expr, Expr, Expr], ...]
 
 
-class Picture(NamedTuple):
+class PlacedPicture(NamedTuple):
     """The shapes of a scene, the dimension in which they are drawn, and the names for which nothing else is drawn."""
 
     shapes: tuple[PlacedShape, ...]
@@ -179,7 +179,7 @@ class Picture(NamedTuple):
     taken: frozenset[str]
 
 
-def picture_of(scene: Pictured, vocabulary: Vocabulary, faults: list[Fault]) -> Picture:
+def picture_of(scene: Pictured, vocabulary: Vocabulary, faults: list[Fault]) -> PlacedPicture:
     """Return a picture with its texts read; what cannot be read is added to ``faults``."""
     placed: list[PlacedShape] = []
     dimension: int = scene.dimension if scene.dimension > 1 and (scene.bodies or scene.particles) else 0
@@ -189,7 +189,7 @@ def picture_of(scene: Pictured, vocabulary: Vocabulary, faults: list[Fault]) -> 
             placed.append(reader.placed())
         dimension = dimension or reader.dimension
     owners = frozenset(shape.name for shape in scene.picture if shape.name)
-    return Picture(tuple(placed), dimension or 3, owners)
+    return PlacedPicture(tuple(placed), dimension or 3, owners)
 
 
 class _ShapeReader(Texts):

@@ -113,7 +113,7 @@ def _any_shape(schema: Mapping[str, Any]) -> dict[str, Any]:
     properties["axis"] = _with_letters(properties["axis"])
     by_shape: list[dict[str, Any]] = []
     for kind, row in SHAPES.items():
-        properties[kind] = {"type": ["string", "number", "null"], "description": row.meaning}
+        properties[kind] = {"type": [_TEXT["type"], "number", "null"], "description": row.meaning}
         by_shape += [
             {
                 "if": {"required": [kind]},
