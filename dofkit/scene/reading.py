@@ -271,15 +271,9 @@ def _faults_of_sound_part(value: Mapping[str, Any], faults: Sequence[Fault]) -> 
         else:
             return
     kept = {key: [i for i in range(len(sound[key])) if i not in gone] for key, gone in dropped.items() if gone}
-    names = {
-        str(entry["name"])
-        for key in kept
-        if key != "picture"
-        for i in dropped[key]
-        if "name" in (entry := _as_entry(sound, key, i))
-    }
+    names = {str(entry["name"]) for key in kept for i in dropped[key] if "name" in (entry := _as_entry(sound, key, i))}
     for key, indices in kept.items():
-        sound[key] = [sound[key][i] if key == "picture" else _as_entry(sound, key, i) for i in indices]
+        sound[key] = [_as_entry(sound, key, i) for i in indices]
     try:
         remaining = check(Scene.model_validate(standard_words(sound).value if sections else sound))
     except ValidationError:
@@ -311,4 +305,6 @@ def _as_entry(value: Any, key: str, index: int) -> Any:
     """Return an entry of a list; one that is known by its position is named by it."""
     entry = as_equation(value[key][index])
     name = f"{key[0]}{index + 1}"
+    if key == "picture":
+        return dict(entry) if isinstance(entry, dict) else {}
     return {**entry, "name": entry.get("name") or name} if isinstance(entry, dict) else {"name": name}
