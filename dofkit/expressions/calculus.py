@@ -8,6 +8,7 @@ once.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from typing import Literal
@@ -272,6 +273,23 @@ def of_function(name: str, u: Expr, *others: Expr) -> Iterator[Requirement]:
         yield fn("sin", u), "!="
     elif name == "atan2":
         yield u * u + others[0] * others[0], "!="
+
+
+RelationSign = Literal["=", "<=", ">=", "<", ">"]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One relation; ``column`` is where its sign stands (where the text begins, if it has none).
+
+    ``domain``: the conditions under which the text, as it was written, has a value.
+    """
+
+    left: Expr
+    relation: RelationSign
+    right: Expr
+    column: int
+    domain: tuple[Requirement, ...] = ()
 
 
 # Arithmetic of numbers within bounds

@@ -8,9 +8,9 @@ expressions in the grammar, `typesetting` texts of it in LaTeX and MathML.
 
 from __future__ import annotations
 
+from dofkit.expressions.calculus import Comparison
 from dofkit.expressions.text.applications import parse_expression, parse_relations
 from dofkit.expressions.text.characters import spelled
-from dofkit.expressions.text.grammar import Comparison
 from dofkit.expressions.text.names import AmbiguousError, Names, UnknownNameError, valid_name
 from dofkit.expressions.text.printing import to_text
 

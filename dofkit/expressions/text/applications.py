@@ -7,6 +7,7 @@ from itertools import islice
 from typing import NoReturn
 
 from dofkit.expressions.calculus import (
+    Comparison,
     applied,
     by_time,
     diff,
@@ -17,7 +18,7 @@ from dofkit.expressions.calculus import (
     total_differential,
 )
 from dofkit.expressions.text.characters import MAX_DIFFERENTIATED, MAX_ORDER
-from dofkit.expressions.text.grammar import Comparison, Parser
+from dofkit.expressions.text.grammar import Parser
 from dofkit.expressions.text.names import AmbiguousError, Names
 from dofkit.expressions.text.tokens import Token, tokenize
 from dofkit.expressions.tree import DT, FUNCTIONS, MINUS_ONE, TIME, Expr, call, mul, nodes

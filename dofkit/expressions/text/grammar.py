@@ -13,11 +13,13 @@ place asks its own question. So the rules are the methods below, from loosest to
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
-from typing import Any, Literal, NoReturn, cast
+from dataclasses import replace
+from typing import Any, NoReturn, cast
 
 from dofkit.base.errors import TextError
 from dofkit.expressions.calculus import (
+    Comparison,
+    RelationSign,
     Requirement,
     UndefinedError,
     bounded,
@@ -32,42 +34,20 @@ from dofkit.expressions.text.names import AmbiguousError, Names, derivative
 from dofkit.expressions.text.tokens import Token, Tokens
 from dofkit.expressions.tree import DT, MINUS_ONE, PI, TIME, ZERO, E, Expr, add, fn, mul, num
 
-RelationSign = Literal["=", "<=", ">=", "<", ">"]
 #: The kinds of tokens that begin a factor which may stand right after another one.
 STARTS = frozenset({"value", "motion", "function", "call", "operator", "(", "|", "frac", "root"})
 _PAIRS = {"(": ")", "[": "]", "{": "}"}
 
 
-@dataclass(frozen=True)
-class Comparison:
-    """One relation; ``column`` is where its sign stands (where the text begins, if it has none).
-
-    ``domain``: the conditions under which the text, as it was written, has a value.
-    """
-
-    left: Expr
-    relation: RelationSign
-    right: Expr
-    column: int
-    domain: tuple[Requirement, ...] = ()
-
-
 _OPEN = frozenset("(+-*/^,|") | {"relation"}
 
 
-class Parser:
-    """Reads the tokens of one text.
+class TextReader:
+    """Moves through the tokens of one text; ``domain`` collects where the text, as it was written, has a value."""
 
-    ``applications`` has the reader of each kind of token that is applied to something; ``domain`` collects where the
-    text, as it was written, has a value.
-    """
-
-    def __init__(
-        self, tokens: Tokens, names: Names, applications: Mapping[str, Callable[[Parser, Token], Expr]]
-    ) -> None:
+    def __init__(self, tokens: Tokens, names: Names) -> None:
         self.tokens, self.text, self.columns = tokens
         self.names = names
-        self.applications = applications
         self.at = 0
         self.depth = 0
         self.bars = 0
@@ -155,6 +135,16 @@ class Parser:
             self.fail("this comma separates two relations, and a text holds one", token, hint)
         hint = "write decimals with a point; a comma stands between the arguments of a function"
         self.fail("a comma cannot stand here", token, hint)
+
+
+class Parser(TextReader):
+    """Reads a text; ``applications`` has the reader of each kind of token that is applied to something."""
+
+    def __init__(
+        self, tokens: Tokens, names: Names, applications: Mapping[str, Callable[[Parser, Token], Expr]]
+    ) -> None:
+        super().__init__(tokens, names)
+        self.applications = applications
 
     # Relations and sums
 
