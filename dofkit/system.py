@@ -310,6 +310,16 @@ class System:
         longest = longest_number({e if e.shape is None else e.shape.skeleton for e in written})
         return max((longest, *(group.longest for group in groups if isinstance(group, Unwritten))))
 
+    @property
+    def joints(self) -> tuple[Connection, ...]:
+        """The connections that are joints or welds."""
+        return tuple(c for c in self.connections if c.facts.freedoms or c.facts.welded)
+
+    @property
+    def has_geometry(self) -> bool:
+        """Is there a reference configuration, and anything connected in it?"""
+        return self.reference is not None and any(c.members for c in self.connections)
+
     def numbers_of(self, *names: str) -> tuple[int, ...]:
         """The numbers of the constraints of these names, in the order of the names."""
         return tuple(i for name in names for i, c in enumerate(self.constraints) if c.name == name)
