@@ -14,7 +14,7 @@ from dofkit.checker.trees import CheckError
 from dofkit.checker.verification import PARTS, Verifier
 from dofkit.methods.certificates.numerics import Estimates, NoEstimateError, echelon
 from dofkit.methods.certificates.points import FoundPoint, PointSearch
-from dofkit.methods.certificates.scenery import FAR, MOST_ROWS, Scenery
+from dofkit.methods.certificates.scenery import MOST_ROWS, Scenery
 from dofkit.methods.certificates.steps import accounted, rate_of, reduced
 from dofkit.report import Report
 
@@ -138,12 +138,6 @@ class Room:
     @cached_property
     def _reference(self) -> FoundPoint | None:
         return self.search.reference() if self.small and not self.nonlinear else None
-
-    @cached_property
-    def has_stationary_row(self) -> bool:
-        """Whether an equation has the differential 0 at the main point, as far as floats tell."""
-        rows = [] if self.point is None else [self.row(name, self.point) for name in self.equations]
-        return any(all(abs(value) <= FAR for value in row.values()) for row in rows)
 
     @cached_property
     def about(self) -> str:
