@@ -141,7 +141,10 @@ _OTHER_WORDS = {
     "equation": {
         "homework/questions/equations.py", "homework/starting.py",
     },
-    "string": {"homework/schemas.py", "scene/fields.py", "homework/key/facts.py"},
+    "string": {
+        "homework/schemas.py", "scene/fields.py", "homework/key/facts.py", "scene/picture.py",
+        "pictures/placed_shapes.py",
+    },
     "fixed": {"scene/drawing.py"},
     "on": {"scene/world.py"},
 }  # fmt: skip

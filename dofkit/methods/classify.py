@@ -103,12 +103,12 @@ def _all_read(scenes: Scenes) -> list[Scene | System]:
 
 def _certified(loaded: Scene | System, budget: float | None, method: MethodName, certificate: bool) -> Report:
     if not certificate:
-        return _classified(loaded, budget, method).beside(loaded)
+        return _classified(loaded, budget, method).with_scene(loaded)
     if isinstance(loaded, System):
         raise ArgumentError("a certificate needs a Scene: a System has no text that the checker could read")
     from dofkit.methods.certificates.lowering import with_certificate
 
-    return with_certificate(loaded, _classified(loaded, budget, method).beside(loaded))
+    return with_certificate(loaded, _classified(loaded, budget, method).with_scene(loaded))
 
 
 def _classified(loaded: Scene | System, budget: float | None, method: MethodName) -> Report:
