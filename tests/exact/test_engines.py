@@ -15,10 +15,11 @@ from shared.known_scenes import swept
 
 import dofkit
 from dofkit.base.errors import TextError
+from dofkit.exact.matrices.certified import ball_part
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.balls import PRECISION, BallPoint
 from dofkit.exact.points.field import field_point
-from dofkit.exact.points.frames import FormRows, certified_rank, field_frame
+from dofkit.exact.points.frames import FormRows, field_frame
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.points.series import Series, SeriesPoint
 from dofkit.exact.residues import residue
@@ -220,10 +221,10 @@ def test_ranks_agree_with_sympy(matrix: list[list[Fraction]], weights: list[Frac
     rows = [*matrix, last]
     true = sympy.Matrix([[sympy.Rational(v.numerator, v.denominator) for v in row] for row in rows]).rank()
     assert rank_of([[residue(v.numerator, P) / residue(v.denominator, P) for v in row] for row in rows], P) == true
-    assert certified_rank([[arb(v.numerator) / arb(v.denominator) for v in row] for row in rows]) <= true
+    assert ball_part([[arb(v.numerator) / arb(v.denominator) for v in row] for row in rows]).rank <= true
     exact = [[arb(int(v * 1728**2)) for v in row] for row in matrix]
-    assert certified_rank(exact) <= true
-    assert certified_rank(exact[:1]) == any(matrix[0])
+    assert ball_part(exact).rank <= true
+    assert ball_part(exact[:1]).rank == any(matrix[0])
 
 
 # Points on a variety
