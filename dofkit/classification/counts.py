@@ -9,8 +9,8 @@ from typing import TypeVar
 from dofkit.base.deadline import part, unless_late
 from dofkit.base.wording import many, verb
 from dofkit.classification.study import Study
-from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.sparse import echelon
+from dofkit.exact.ring.program import raising_no_value
 from dofkit.mobility import special_position
 from dofkit.mobility.counts import kutzbach_count
 from dofkit.mobility.general_position import General, has_geometry, in_general_position

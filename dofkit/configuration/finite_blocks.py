@@ -9,15 +9,13 @@ from math import isfinite
 
 from dofkit.base.wording import gap_in_words
 from dofkit.configuration.at_reference import at_reference, ball_matrix
-from dofkit.configuration.generic_points import field_jacobian
 from dofkit.configuration.measured.dimension import MISSED, MeasuredFreedom, measured_freedom
 from dofkit.configuration.measured.equations import is_measured, is_tree, pose_of_block
 from dofkit.configuration.search import find
-from dofkit.configuration.variety import Variety, of_real_point, of_reference
+from dofkit.configuration.variety import Variety, field_jacobian, of_real_point, of_reference
 from dofkit.exact.matrices.certified import ball_part, dependencies
-from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse, without_time
+from dofkit.exact.matrices.sparse import SparseRow, rank_of_rows, sparse, sparse_frame, without_time
 from dofkit.exact.points.balls import rational_values, vanish_exactly
-from dofkit.exact.points.frames import sparse_frame
 from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.ring.canonical import error_bits
 from dofkit.exact.zero import doubt
@@ -106,7 +104,7 @@ def _real_rows(chart: Chart, real: RealPoint | None) -> RealRows | None:
 
 def _numeric_matrix(chart: Chart, real: RealPoint, result: Answer) -> None:
     """Which relations depend on which, and which coordinates on which, from a regular real point."""
-    if not real.certified or not real.rows or len(real.matrix) != len(chart.nodes):
+    if not real.certified or not real.part.rows or len(real.matrix) != len(chart.nodes):
         return
     result.matrix = sparse(dependencies(real.matrix, real.part))
     ranked = [s for s in chart.symbols if chart.ring.var_index(s) is not None]

@@ -10,8 +10,7 @@ from flint import fmpq, fmpq_mat, fmpz
 
 from dofkit.base.errors import NoValueError, PoleError
 from dofkit.base.verdicts import Verdict
-from dofkit.exact.errors import raising_no_value
-from dofkit.exact.ring.program import Scalar, Var, value_of
+from dofkit.exact.ring.program import Scalar, Var, raising_no_value, value_of
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff

@@ -14,10 +14,11 @@ from dofkit.base.deadline import limited
 from dofkit.base.errors import DofkitError
 from dofkit.expressions.tree import TIME, coordinate, parameter
 from dofkit.motion.configurations import configurations
-from dofkit.pictures.arrangement import MOVES, Arrangement, FreeMotion, displaced, poses_of
-from dofkit.pictures.coordinates import MOST, gauge_sketch, is_bare
+from dofkit.pictures.arrangement import MOVES, Arrangement, FreeMotion, displaced
+from dofkit.pictures.coordinates import MOST, gauge_sketch
 from dofkit.pictures.files import ExtraMissingError, draw_marks, figure_of, require_matplotlib, saved
 from dofkit.pictures.layout import page_of, standpoint_of
+from dofkit.pictures.mechanism import is_bare
 from dofkit.pictures.paper import Page
 from dofkit.pictures.player import framed, page_height, page_html
 from dofkit.pictures.shapes import Clip, Poses, Sketch
@@ -77,9 +78,13 @@ def _finite(stage: StagedScene, seen: _Seen) -> list[Clip]:
             path = configurations(stage.system, steps=steps, step=STEP, values=_near_values(stage))
     except DofkitError:
         return []
-    numbers = stage.arrangement.numbers
-    symbols = [{**numbers, **{coordinate(n): v for n, v in configuration.items()}} for configuration in path]
-    frames: list[Poses] = [poses_of(stage.system, values, gibbs=False) for values in symbols]
+    numbers = dict(stage.arrangement.numbers)
+    frames: list[Poses] = [
+        stage.arrangement.poses_at(
+            numbers | {TIME if n == TIME.args[1] else coordinate(n): v for n, v in configuration.items()}, gibbs=False
+        )
+        for configuration in path
+    ]
     start = min(range(len(frames)), key=lambda k: seen.far(frames[k], stage.arrangement.poses))
     turn = _turn(seen, frames, start, stage.size)
     frames = turn or _near(seen, frames, start, FAR * stage.size)
@@ -224,7 +229,7 @@ def animate(scene: SceneLike, report: Report | None = None) -> Animation:
     """
     loaded, report = with_report(scene, report)
     stage = staged(loaded, report)
-    many = is_bare(stage.system) and len(stage.system.coordinates) > MOST
+    many = is_bare(stage.system) and not stage.picture.shapes and len(stage.system.coordinates) > MOST
     sketch = gauge_sketch(stage) if many else whole_sketch(stage)[0]
     clips = tuple(clips_of(stage, sketch))
     immobile = (report.velocity_dof == 0 and report.scleronomic) or not can_hold(report)

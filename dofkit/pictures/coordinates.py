@@ -14,17 +14,12 @@ from dofkit.pictures.mechanism import notes_of
 from dofkit.pictures.shapes import Role, Shape, Sketch, State, Vertex, fixed
 from dofkit.pictures.stage import StagedScene
 from dofkit.pictures.words import alternative, answer
-from dofkit.system import GROUND, System
+from dofkit.system import GROUND
 
 #: Up to this many coordinates are axes of a picture; so many lines of single coordinates fit on a sheet.
 MOST, MOST_GAUGES = 3, 24
 AXES = "The axes are the coordinates."
 GAUGES = "Each coordinate is on a line of its own, with marks at -1, 0 and 1."
-
-
-def is_bare(system: System) -> bool:
-    """Return whether a system has coordinates only."""
-    return not system.bodies and not system.particles
 
 
 def coordinate_sketch(stage: StagedScene) -> Sketch:

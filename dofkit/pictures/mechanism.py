@@ -8,14 +8,14 @@ from collections.abc import Iterator
 import numpy as np
 
 from dofkit.expressions.tree import parameter
-from dofkit.pictures.arrangement import about
 from dofkit.pictures.joints import joint_shapes, name_of, run_shapes
 from dofkit.pictures.loci import meeting_shapes
-from dofkit.pictures.shapes import SQUARE, Array, Place, Shape, Sketch, State, Vertex, carried_by, fixed, place
+from dofkit.pictures.placed_shapes import faces, picture_shapes
+from dofkit.pictures.shapes import SQUARE, Place, Shape, Sketch, State, Vertex, about, carried_by, fixed, place
 from dofkit.pictures.stage import StagedScene, axis_of
 from dofkit.pictures.words import alternative, answer
 from dofkit.scene.parts import Force
-from dofkit.system import GROUND
+from dofkit.system import GROUND, System
 
 #: How far a hull reaches beyond its points, how long a stub is and the sides of a free body; in symbols.
 PAD, THIN, STUB, FREE = 0.85, 0.45, 6.0, (3.0, 1.8, 1.2)
@@ -25,6 +25,11 @@ _WEIGHT: tuple[State, ...] = ("plain", "moving", "redundant", "conflicting")
 FREE_PLACES = "Schematic: the scene gives no positions of its joints."
 
 
+def is_bare(system: System) -> bool:
+    """Return whether a system has coordinates only."""
+    return not system.bodies and not system.particles
+
+
 def sketch_of(stage: StagedScene) -> Sketch:
     """Return the sketch of a mechanism."""
     shapes = [*_rail(stage), *_body_shapes(stage), *_force_shapes(stage)]
@@ -32,9 +37,11 @@ def sketch_of(stage: StagedScene) -> Sketch:
         shapes += run_shapes(stage, number)
         shapes += joint_shapes(stage, number)
     shapes += [*meeting_shapes(stage), *_particle_shapes(stage), *_names(stage)]
+    shapes = [shape for shape in shapes if shape.owner not in stage.picture.taken]
+    shapes += picture_shapes(stage.picture, stage.arrangement.numbers, stage.unit)
     return Sketch(
         title=stage.title,
-        dimension=stage.system.dimension,
+        dimension=stage.picture.dimension if is_bare(stage.system) else stage.system.dimension,
         shapes=tuple(shapes),
         poses=stage.arrangement.poses,
         size=stage.size,
@@ -109,21 +116,12 @@ def _free_body(stage: StagedScene, body: str) -> Iterator[Shape]:
     half = np.array(FREE) * u
     if stage.system.dimension == 1:
         half[1] = 1.2 * u
-    faces = [[np.array([x, y, 0.0]) * half for x, y in SQUARE]] if stage.flat else _faces(half)
-    for face in faces:
+    sides = [[np.array([x, y, 0.0]) * half for x, y in SQUARE]] if stage.flat else faces(half)
+    for face in sides:
         yield Shape("area", carried_by(body, (centre + corner for corner in face)), "body", state, body)
     for way in np.eye(3)[: max(1, stage.system.dimension)]:
         yield Shape("line", (origin, *carried_by(body, [centre + way * 2.2 * u])), "axis", owner=body)
     yield name_of(stage, body, carried_by(body, [centre + np.array([0.0, half[1], 0.0])]), state)
-
-
-def _faces(half: Array) -> list[list[Array]]:
-    """Return the faces of a box about the origin."""
-    faces = []
-    for axis in range(3):
-        for side in (-1.0, 1.0):
-            faces.append([np.insert(np.array(corner), axis, side) * half for corner in SQUARE])
-    return faces
 
 
 def _particle_shapes(stage: StagedScene) -> Iterator[Shape]:

@@ -13,11 +13,11 @@ import numpy as np
 from dofkit.base.wording import many
 from dofkit.methods.classify import classify
 from dofkit.pictures.constraint_graph import graph_sketch, hover_script
-from dofkit.pictures.coordinates import MOST, coordinate_sketch, is_bare
+from dofkit.pictures.coordinates import MOST, coordinate_sketch
 from dofkit.pictures.directions import phase_sketch
 from dofkit.pictures.files import has_matplotlib, png_of, saved, svg_of, write_pdf
 from dofkit.pictures.layout import WIDTH, page_of
-from dofkit.pictures.mechanism import FREE_PLACES, sketch_of
+from dofkit.pictures.mechanism import FREE_PLACES, is_bare, sketch_of
 from dofkit.pictures.paper import Page
 from dofkit.pictures.player import framed, page_height, page_html
 from dofkit.pictures.shapes import Sketch
@@ -152,7 +152,7 @@ def staged(scene: Scene, report: Report) -> StagedScene:
 
 def whole_sketch(stage: StagedScene) -> tuple[Sketch, str]:
     """Return the sketch of a scene of any kind, and the script that goes with it."""
-    if not is_bare(stage.system):
+    if not is_bare(stage.system) or stage.picture.shapes:
         return sketch_of(stage), ""
     if 0 < len(stage.system.coordinates) <= MOST:
         return coordinate_sketch(stage), ""

@@ -15,10 +15,10 @@ from dofkit.configuration.linear_blocks import confirmed, eliminated
 from dofkit.configuration.measured.equations import is_measured
 from dofkit.configuration.search import find
 from dofkit.configuration.variety import Variety, of_real_point, of_reference
-from dofkit.exact.errors import NoPointError
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import pairing
+from dofkit.exact.ring.program import NoPointError
 from dofkit.exact.zero import BALLS, BOTH, doubt, independent_generators
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.lie_algebra import SampledSpan, on_the_same_part, span_at

@@ -19,8 +19,7 @@ from typing import Any
 from flint import fmpz, fmpz_mat, nmod, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
-from dofkit.exact.errors import NoPointError
-from dofkit.exact.ring.program import NUM, Scalar, Var
+from dofkit.exact.ring.program import NUM, NoPointError, Scalar, Var
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 

@@ -13,8 +13,8 @@ from typing import Any, TypeVar
 
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, left, thread_time
 from dofkit.base.errors import NoValueError
-from dofkit.exact.errors import TooLargeError, raising_no_value
 from dofkit.exact.ring.canonical import Canon, soon_factored
+from dofkit.exact.ring.program import TooLargeError, raising_no_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff

@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 
 from dofkit.base.deadline import OutOfTimeError, by_processor, check, left
 from dofkit.base.errors import NoValueError
-from dofkit.exact.errors import raising_no_value
 from dofkit.exact.ring.canonical import is_identically_zero
+from dofkit.exact.ring.program import raising_no_value
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff, substitute
 from dofkit.expressions.sympy_bridge import Bridge, UntranslatableError
