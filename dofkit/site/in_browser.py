@@ -103,7 +103,10 @@ def read(declared: str, question: str, text: str, language: Language) -> Json:
     from dofkit.homework.handout.page_sheets import read_answer
 
     reading = read_answer(declared, question, text, language)
-    return {**reading, "shown": _content(Formula(reading["read_as"]))} if "read_as" in reading else reading
+    if "read_as" in reading:
+        text = reading["read_as"]
+        reading["shown"] = _content(Formula(text)) if reading["formula"] else text
+    return reading
 
 
 def judge(assignment: str, answers: Mapping[str, Mapping[str, str]]) -> Json:

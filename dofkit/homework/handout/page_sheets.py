@@ -27,7 +27,7 @@ from dofkit.homework.handout.sheets import written_sheet
 from dofkit.homework.problem import Problem
 from dofkit.homework.questions import KINDS, QuestionBase
 from dofkit.homework.result import Status
-from dofkit.homework.sentences import Language, in_language, stopped
+from dofkit.homework.sentences import Language, in_language, say, stopped
 from dofkit.scene.scene import Scene
 
 #: What of a bench a practice sheet needs, and where `python -m dofkit.site` puts a bench in a clone.
@@ -42,6 +42,8 @@ _TONES: dict[Status, str] = {
     "wrong": "bad",
     "unreadable": "bad",
 }
+#: Questions whose answers are words, names and numbers; others are answered by formulas.
+_IN_WORDS = ("dof", "velocity_dof", "k", "label", "coordinates", "redundant")
 
 Json = dict[str, Any]
 
@@ -85,7 +87,10 @@ def read_answer(declared: str, question: str, text: str, language: Language) -> 
     asked = questions[question]
     try:
         with by_processor(ANSWER_SECONDS):
-            return {"read_as": asked.read(text, names)}
+            read_as = asked.read(text, names)
+            if asked.kind() in _IN_WORDS:
+                return {"read_as": say("{text}", text=read_as).translated(language), "formula": False}
+            return {"read_as": read_as, "formula": True}
     except TextError as error:
         located = in_whole(text, error, lambda part: asked.read(part, names))
         hint = stopped(located.hint, language) if located.hint else ""

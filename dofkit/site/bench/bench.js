@@ -65,7 +65,8 @@ function showFaults(faults) {
   const places = located(view.state.doc, faults);
   underline(view, places);
   at("faults").replaceChildren(...places.map(faultEntry));
-  at("report").classList.toggle("old", faults.length > 0);
+  at("report").classList.toggle("old", faults.length > 0 && state.report);
+  if (faults.length) say(state.report ? "The report is that of the last scene without faults." : "");
 }
 
 function faultEntry({ from, line, column, message, hint, mend }) {
@@ -93,6 +94,7 @@ async function report() {
     showSwitches(answer.constraints);
     at("report").classList.remove("old");
     at("report").replaceChildren(...sheet(answer.sheet));
+    showFaults([]);
     document.title = `${answer.report.scene === "scene" ? "dofkit bench" : answer.report.scene} - dofkit`;
     say("");
     await picture(known, text);
