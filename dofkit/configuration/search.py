@@ -30,7 +30,7 @@ from dofkit.configuration.variety import (
 )
 from dofkit.exact.matrices.certified import PivotedPart, ball_part
 from dofkit.exact.matrices.sparse import rank_of_rows
-from dofkit.exact.points.real_search import RealPoint
+from dofkit.exact.points.real_search import RealPoint, RealSearch
 from dofkit.exact.ring.program import VAR, reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.triangular import TriangularSolver
@@ -40,10 +40,11 @@ from dofkit.expressions.calculus import substitute
 from dofkit.expressions.enclosures import differs_from_zero, interval_of
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr
-from dofkit.relations.blocks import Chart
+from dofkit.relations.blocks import Block, Chart, make_chart
 from dofkit.relations.linear_relations import presolve
 from dofkit.relations.normal.no_solution import no_solution
 from dofkit.relations.normal.zero_set import candidates, is_analytic_in_coordinates
+from dofkit.relations.setting import Setting
 
 #: More relations than this are not searched for a proof that they have no real solution.
 MAX_RELATIONS = 40
@@ -218,3 +219,32 @@ def _witness(symbols: Sequence[Expr], explicit: Sequence[Expr], zeros: dict[Expr
         slope = substitute(g, {**point, s: ex.ONE}) - substitute(g, {**point, s: ex.ZERO})
         point[s] = -substitute(g, {**point, s: ex.ZERO}) / slope
     return {s: to_text(value) for s, value in point.items()}
+
+
+# Level bodies: at theta = 0 the Euler angles phi and psi turn alike, and distinguish no poses
+
+#: So many configurations are looked at, and a sine that is smaller is taken for 0.
+LOOKED, SINGULAR = 6, 1e-6
+LEVEL = (
+    "configurations were found where sin({}) is 0: the other Euler angles turn alike there, so that coordinates are no "
+    "poses; a `coupling` of joints says such an equation"
+)
+
+
+def level_angle(block: Block, setting: Setting) -> str | None:
+    """Return a tilt of the block that is 0 or pi in a configuration that was found by chance; None where there is none.
+
+    There is a part of the set then where the body is level, and what is counted of the set may be counted there.
+    """
+    tilts = setting.tilts.intersection(block.coordinates)
+    if not tilts or not block.finite:
+        return None
+    chart = make_chart(block, setting)
+    search = RealSearch(chart.ring, chart.nodes, chart.unknowns, chart.positive, chart.symbols)
+    for seed in range(LOOKED):
+        symbols = search.start(seed, {})
+        if search.descend(symbols, seed) is not None:
+            level = [name for name in tilts if abs(math.sin(symbols.get(ex.coordinate(name), 1.0))) < SINGULAR]
+            if level:
+                return min(level)
+    return None

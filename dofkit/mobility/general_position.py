@@ -51,11 +51,6 @@ class General:
     why: str = ""
 
 
-def has_geometry(system: System) -> bool:
-    """Return whether there is a drawing, and anything is connected in it."""
-    return system.reference is not None and any(c.members for c in system.connections)
-
-
 def in_general_position(system: System, rows: Sequence[Row], setting: Setting) -> General:
     """Return the rank of the finite relations ``rows`` with all given geometry random."""
     if any(not isinstance(row.piece, Finite) for row in rows):

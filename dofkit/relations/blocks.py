@@ -131,6 +131,21 @@ def uses_time(block: Block) -> bool:
     return dt or any(ex.TIME in e.symbols for e in expressions(Block(block.coordinates, rows)))
 
 
+def is_measured(block: Block, setting: Setting) -> bool:
+    """Return whether measured numbers enter a block: geometry, or positions of particles and bodies.
+
+    Texts on coordinates that belong to no particle and no body, or to one without a position, hold no such numbers.
+    """
+    if setting.tolerance is None:
+        return False
+    if any(row.constraint in setting.geometric for row in block.rows):
+        return True
+    bodies = {c.owner for c in setting.roles if c.role not in ("x", "y", "z")}
+    placed = {c.name for c in setting.roles if c.owner and ex.coordinate(c.name) in setting.pose and
+              (setting.reference is not None or c.owner not in bodies)}  # fmt: skip
+    return not placed.isdisjoint(block.coordinates)
+
+
 def with_rows(rows: Sequence[Row], constants: Mapping[str, Row]) -> list[Row]:
     """The rows and, for every constant of integration C that they mention, dC = 0."""
     mentioned = frozenset().union(*(coordinates_of(r.piece) for r in rows)) if constants else frozenset[str]()

@@ -10,10 +10,9 @@ from dofkit.classification.freedom.bridged_blocks import bridged_answer
 from dofkit.configuration import distance_geometry
 from dofkit.configuration.at_reference import at_reference
 from dofkit.configuration.components import is_graph, is_irreducible
-from dofkit.configuration.finite_blocks import LEVEL, finite_answer, level_angle
+from dofkit.configuration.finite_blocks import finite_answer
 from dofkit.configuration.linear_blocks import confirmed, eliminated
-from dofkit.configuration.measured.equations import is_measured
-from dofkit.configuration.search import find
+from dofkit.configuration.search import LEVEL, find, level_angle
 from dofkit.configuration.variety import Variety, of_real_point, of_reference
 from dofkit.exact.matrices.sparse import echelon
 from dofkit.exact.points.field import FieldPoint
@@ -33,7 +32,7 @@ from dofkit.integrability.pfaffian_system import (
 from dofkit.integrability.row_labels import ball_labels, field_labels, reference_points, regular_reference
 from dofkit.mobility.general_position import framework_answer
 from dofkit.relations.answer import Answer, Size
-from dofkit.relations.blocks import Block, Row, split
+from dofkit.relations.blocks import Block, Row, is_measured, split
 from dofkit.relations.setting import Setting
 
 RELATED = "the functions or numbers that occur may satisfy an identity that arithmetic modulo primes does not detect"

@@ -52,7 +52,8 @@ def prepared(system: System, reductions: Reductions = ALL) -> tuple[list[Reduced
     positive = frozenset(ex.parameter(p) for p, sign in system.parameters.items() if sign == "positive")
     generic = tuple([ex.parameter(p) for p in system.generic])
     positive |= frozenset([p for p in generic if p.args[1].startswith("_L")])
-    apart = bridges(system) if "bridges" in reductions and system.tolerance is None else Bridges()
+    exact = system.joints and system.tolerance is None
+    apart = bridges(system) if "bridges" in reductions and exact else Bridges()
     reduced = reduce_all(system, positive, apart.joints)
     setting = Setting(
         positive,
