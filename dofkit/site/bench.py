@@ -120,8 +120,8 @@ def _stage_packages(names: Iterable[str], target: Path) -> None:
 
 def _stage_dofkit(target: Path) -> None:
     _stage_folder(PACKAGE, target / "dofkit", LEFT_OUT)
-    for name in ("__init__.py", "in_browser.py"):
-        _copy(PACKAGE / "site" / name, target / "dofkit" / "site" / name)
+    _copy(PACKAGE / "site" / "__init__.py", target / "dofkit" / "site" / "__init__.py")
+    _stage_folder(PACKAGE / "site" / "browser", target / "dofkit" / "site" / "browser")
 
 
 def _stage_folder(source: Path, target: Path, left_out: Sequence[str] = ()) -> None:

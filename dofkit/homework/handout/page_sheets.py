@@ -25,7 +25,9 @@ from dofkit.homework.handout.class_sheets import standing_alone
 from dofkit.homework.handout.markup import Draw, page_of
 from dofkit.homework.handout.sheets import written_sheet
 from dofkit.homework.problem import Problem
-from dofkit.homework.questions import KINDS, QuestionBase
+from dofkit.homework.questions import KINDS, NumberQuestion, QuestionBase
+from dofkit.homework.questions.labels import LabelQuestion
+from dofkit.homework.questions.names import Coordinates, Redundant
 from dofkit.homework.result import Status
 from dofkit.homework.sentences import Language, in_language, say, stopped
 from dofkit.scene.scene import Scene
@@ -43,7 +45,7 @@ _TONES: dict[Status, str] = {
     "unreadable": "bad",
 }
 #: Questions whose answers are words, names and numbers; others are answered by formulas.
-_IN_WORDS = ("dof", "velocity_dof", "k", "label", "coordinates", "redundant")
+_IN_WORDS = (NumberQuestion, LabelQuestion, Coordinates, Redundant)
 
 Json = dict[str, Any]
 
@@ -88,7 +90,7 @@ def read_answer(declared: str, question: str, text: str, language: Language) -> 
     try:
         with by_processor(ANSWER_SECONDS):
             read_as = asked.read(text, names)
-            if asked.kind() in _IN_WORDS:
+            if isinstance(asked, _IN_WORDS):
                 return {"read_as": say("{text}", text=read_as).translated(language), "formula": False}
             return {"read_as": read_as, "formula": True}
     except TextError as error:

@@ -3,13 +3,16 @@ import { loadPyodide } from "./pyodide/pyodide.mjs";
 
 /** Where numpy is had from; everything else comes from this folder. */
 const DISTRIBUTION = "https://cdn.jsdelivr.net/pyodide/v314.0.7/full/";
-/** What a call needs beyond the first archive: packages of Pyodide's distribution, and archives of this folder. */
-const NEEDS = {
-  picture: { packages: ["numpy"], archives: [] },
-  motion: { packages: ["numpy"], archives: [] },
-  equations: { packages: [], archives: ["symbols"] },
-  read: { packages: [], archives: ["sheets"] },
-  judge: { packages: [], archives: ["sheets"] },
+/** The module of each call, and what it needs beyond the first archive: of this folder, and of the distribution. */
+const CALLS = {
+  check: { module: "reports" },
+  report: { module: "reports" },
+  as_json: { module: "reports" },
+  picture: { module: "drawings", packages: ["numpy"] },
+  motion: { module: "drawings", packages: ["numpy"] },
+  equations: { module: "equations", archives: ["symbols"] },
+  read: { module: "answers", archives: ["sheets"] },
+  judge: { module: "answers", archives: ["sheets"] },
 };
 const REPAIRS = `
 import sys, types
@@ -54,14 +57,13 @@ async function start() {
   const site = python.runPython("import site; site.getsitepackages()[0]");
   python.unpackArchive(await core, "zip", { extractDir: site });
   python.runPython(REPAIRS);
-  const module = python.pyimport("dofkit.site.in_browser");
+  const module = python.pyimport("dofkit.site.browser");
   postMessage({ ready: true });
   return { python, site, answer: module.answer };
 }
 
-/** @param {string} call @param {Awaited<ReturnType<typeof start>>} runtime */
-async function provide(call, { python, site }) {
-  const { packages, archives } = NEEDS[call] ?? { packages: [], archives: [] };
+/** @param {{packages?: string[], archives?: string[]}} needs @param {Awaited<ReturnType<typeof start>>} runtime */
+async function provide({ packages = [], archives = [] }, { python, site }) {
   for (const name of archives.filter((name) => !loaded.has(name))) {
     python.unpackArchive(await archive(name), "zip", { extractDir: site });
     loaded.add(name);
@@ -82,8 +84,8 @@ function reason(error) {
 addEventListener("message", async ({ data: { id, call, args } }) => {
   try {
     const runtime = await ready;
-    await provide(call, runtime);
-    postMessage({ id, value: JSON.parse(runtime.answer(call, JSON.stringify(args))) });
+    await provide(CALLS[call], runtime);
+    postMessage({ id, value: JSON.parse(runtime.answer(CALLS[call].module, call, JSON.stringify(args))) });
   } catch (error) {
     postMessage({ id, error: reason(error) });
   }
