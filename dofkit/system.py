@@ -305,10 +305,10 @@ class System:
     @property
     def longest(self) -> int:
         """The bits of the longest number in the relations as they are written."""
-        given = [c.relations for c in self.constraints]
-        written = (r.expr for part in given if not isinstance(part, Unwritten) for r in part)
+        relations = [c.relations for c in self.constraints]
+        written = (r.expr for part in relations if not isinstance(part, Unwritten) for r in part)
         longest = longest_number({e if e.shape is None else e.shape.skeleton for e in written})
-        return max((longest, *(part.longest for part in given if isinstance(part, Unwritten))))
+        return max((longest, *(part.longest for part in relations if isinstance(part, Unwritten))))
 
     @property
     def joints(self) -> tuple[Connection, ...]:

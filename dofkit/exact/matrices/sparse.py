@@ -311,13 +311,13 @@ class FactoredMatrix:
 
     def __init__(self, rows: Sequence[Mapping[int, int]], p: int) -> None:
         self.p = p
-        self._found = _Reduction(rows, p)
-        if self._found.dependent:
+        self._reduction = _Reduction(rows, p)
+        if self._reduction.dependent:
             raise PoleError("the matrix is singular")
 
     def solve(self, right: Sequence[int]) -> list[int]:
         """Return the x with A x = ``right``: what was done to the rows is done to it, then the pivots backwards."""
-        return self._found.solved(right)
+        return self._reduction.solved(right)
 
 
 def rank_of(matrix: Sequence[Sequence[Any]], p: int) -> int:

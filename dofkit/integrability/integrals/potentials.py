@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from typing import Any, TypeVar
 
-from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, left
+from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, seconds_left
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, soon_factored
 from dofkit.exact.ring.program import TooLargeError, raising_no_value
@@ -163,7 +163,7 @@ def factored(canon: Canon, poly: Poly) -> Expr:
     if poly == 0 or not bounded(poly):
         return canon.to_expr(poly)
     constant, factors = poly.factor()
-    return ex.mul(canon.to_expr(canon.one * constant), *(canon.to_expr(f) ** int(k) for f, k in factors))
+    return ex.mul(canon.to_expr(canon.unit * constant), *(canon.to_expr(f) ** int(k) for f, k in factors))
 
 
 # -- linear systems over quotients of polynomials --------------------------------------------------
@@ -382,7 +382,7 @@ def _by_sympy(work: Algebra, e: Expr, x: Expr) -> Expr | None:
     work.tick(SYMPY_STEPS)
     start = time.thread_time()
     try:
-        with by_processor(min(work.seconds, left())), checked_calls():
+        with by_processor(min(work.seconds, seconds_left())), checked_calls():
             return antiderivative_by_sympy(e, x, work.positive)
     except OutOfTimeError:
         check()
