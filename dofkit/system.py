@@ -305,10 +305,10 @@ class System:
     @property
     def longest(self) -> int:
         """The bits of the longest number in the relations as they are written."""
-        relations = [c.relations for c in self.constraints]
-        written = (r.expr for part in relations if not isinstance(part, Unwritten) for r in part)
+        groups = [c.relations for c in self.constraints]
+        written = (r.expr for group in groups if not isinstance(group, Unwritten) for r in group)
         longest = longest_number({e if e.shape is None else e.shape.skeleton for e in written})
-        return max((longest, *(part.longest for part in relations if isinstance(part, Unwritten))))
+        return max((longest, *(group.longest for group in groups if isinstance(group, Unwritten))))
 
     @property
     def joints(self) -> tuple[Connection, ...]:

@@ -50,7 +50,7 @@ def test_an_equation_doubled_in_latex(
     assert (report.dof, report.redundant, report.redundant_equations) == (dof, [names[1]], 1)
 
 
-@pytest.mark.parametrize("path", few("user text", CATALOG, 6), ids=stem)
+@pytest.mark.parametrize("path", few("user text", CATALOG, 12), ids=stem)
 def test_a_constraint_doubled_under_odd_names(path: Path) -> None:
     """The copy is redundant, and nothing else changes; every name and the title are shown as they were written."""
     document: dict[str, Any] = scene_of(path).model_dump(mode="json", exclude_unset=True)

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, islice, product
 from typing import Any, NamedTuple
 
-from dofkit.base.deadline import OutOfTimeError, by_processor, check, seconds_left
+from dofkit.base.deadline import OutOfTimeError, by_processor, check, remaining_seconds
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import is_identically_zero
 from dofkit.exact.ring.program import raising_no_value
@@ -145,7 +145,7 @@ class _Equilibria(_Translated):
         forces = [self.bridge.sympy(_at_rest(e, marks)) for e in self.derived.equations.values()]
         unknowns = [self.bridge.sympy(mark) for mark in marks.values()]
         try:
-            with by_processor(min(SOLVING, seconds_left())):
+            with by_processor(min(SOLVING, remaining_seconds())):
                 solutions = sympy.solve(forces, unknowns, dict=True)
         except OutOfTimeError:
             check()
