@@ -223,7 +223,7 @@ def poses_of(system: System, numbers: Mapping[Expr, float], *, gibbs: bool) -> d
         poses[body] = Displacement(turn, np.array(place(at[: system.dimension])) - turn @ start)
     carried: dict[str, Sequence[Coordinate]] = {particle: owned[particle] for particle in system.particles}
     if not system.bodies and not system.particles:
-        carried = {POINT: system.coordinates[:3], **{c.name: (c,) for c in system.coordinates}}
+        carried = {POINT: system.coordinates[:3]}
     return poses | {name: Displacement(np.eye(3), np.array(place(values(cs)))) for name, cs in carried.items()}
 
 

@@ -33,12 +33,13 @@ from dofkit.pictures.shapes import (
 from dofkit.scene.picture import PlacedPicture, PlacedShape
 from dofkit.system import GROUND
 
-#: Points of a curve, lines of a surface in each direction and their points, corners of a disc, strokes of the ground.
-CURVE, MESH, MESH_POINTS, RIM, STROKES = 61, 9, 25, 40, 12
+#: Points of a curve that rests and of one that moves, lines of a surface in each direction and their points, corners
+#: of a disc, strokes of the ground.
+CURVE, MOVING_CURVE, MESH, MESH_POINTS, RIM, STROKES = 61, 15, 9, 25, 40, 12
 #: Shapes that are one line or dot: its kind and role, and its size in symbols where no radius is given.
 _LINES: Mapping[str, tuple[Kind, Role, float]] = {
     "rod": ("line", "bar", 0.0), "string": ("line", "rope", 0.0), "spring": ("coil", "force", 0.8),
-    "arrow": ("arrow", "arrow", 1.0), "point": ("ball", "point", 0.42), "curve": ("line", "guide", 0.0),
+    "arrow": ("arrow", "arrow", 0.8), "point": ("ball", "point", 0.42), "curve": ("line", "guide", 0.0),
 }  # fmt: skip
 #: The sides of the ground, of axes and of a blade whose size is not given.
 SIDE, AXIS, BLADE = 4.0, 1.0, 0.8
@@ -57,8 +58,8 @@ class ShapePlacement(NamedTuple):
     @property
     def moves(self) -> bool:
         """Whether it depends on coordinates or time."""
-        parts = [*self.at, *(self.axis or ()), *(e for e in (self.heading, self.turn) if e is not None)]
-        return any(s.args[0] in ("coordinate", "time") for e in parts for s in e.symbols)
+        exprs = [*self.at, *(self.axis or ()), *(e for e in (self.heading, self.turn) if e is not None)]
+        return any(s.args[0] in ("coordinate", "time") for e in exprs for s in e.symbols)
 
     def pose(self, values: Values) -> Displacement:
         """Return the displacement of the carrier, whose own frame has its axis along z and its mark along y."""
@@ -105,23 +106,27 @@ def _sampled(shape: PlacedShape) -> Iterator[Vec]:
     if not shape.range:
         yield from shape.places
         return
-    for parts in _grid(len(shape.range)):
-        values = {s: low + num(part) * (high - low) for (s, low, high), part in zip(shape.range, parts, strict=True)}
+    ends = [e for _, low, high in shape.range for e in (low, high)]
+    moves = ShapePlacement((*shape.places[0], *ends)).moves
+    for fractions in _grid(len(shape.range), MOVING_CURVE if moves else CURVE):
+        values = {
+            s: low + num(part) * (high - low) for (s, low, high), part in zip(shape.range, fractions, strict=True)
+        }
         yield tuple(substitute(e, values) for e in shape.places[0])
 
 
-def _grid(count: int) -> Iterator[tuple[Fraction, ...]]:
+def _grid(count: int, points: int) -> Iterator[tuple[Fraction, ...]]:
     """Yield where points of a curve are between its ends, or those of the lines of a surface."""
     if count == 1:
-        yield from ((part,) for part in _parts(CURVE))
+        yield from ((part,) for part in _fractions(points))
         return
-    for line, along in product(_parts(MESH), _parts(MESH_POINTS)):
+    for line, along in product(_fractions(MESH), _fractions(MESH_POINTS)):
         yield line, along
-    for line, along in product(_parts(MESH), _parts(MESH_POINTS)):
+    for line, along in product(_fractions(MESH), _fractions(MESH_POINTS)):
         yield along, line
 
 
-def _parts(count: int) -> list[Fraction]:
+def _fractions(count: int) -> list[Fraction]:
     return [Fraction(k, count - 1) for k in range(count)]
 
 

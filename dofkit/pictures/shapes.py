@@ -172,7 +172,7 @@ _PLAIN: Mapping[Role, Ink] = {
     "hatch": Ink(INK, 0.8, layer=2),
     "axis": Ink(GREY, 0.9, layer=2),
     "locus": Ink(GREEN, 1.8, layer=2),
-    "surface": Ink("#8CCDB9", 0.7, layer=2),
+    "surface": Ink("#8CCDB9", 0.7, layer=1),
     "mesh": Ink("#8CCDB9", 0.7, layer=1),
     "arrow": Ink(VERMILLION, 1.6, layer=8),
     "plane": Ink("#8A8A8A", 0.8, fill="#F1F1F1", layer=0),

@@ -23,6 +23,7 @@ from dofkit.pictures.words import can_hold, meanings, state_of
 from dofkit.report import Report
 from dofkit.scene.lowering import lower
 from dofkit.scene.names import vocabulary_of
+from dofkit.scene.parts import BodyPoint, Force
 from dofkit.scene.picture import PlacedPicture, picture_of
 from dofkit.scene.scene import Scene
 from dofkit.scene.symbols import Symbol
@@ -134,6 +135,17 @@ def vertices_of(arrangement: Arrangement, connection: Connection) -> Iterator[Ve
             yield Vertex(point.carrier, arrangement.point(point.at))
 
 
+def force_ends(arrangement: Arrangement, force: Force) -> Iterator[Vertex]:
+    """Yield the ends of a force between points, if they are known."""
+    system = arrangement.system
+    for end in force.between or ():
+        carrier, at = (end.on, end.at) if isinstance(end, BodyPoint) else (GROUND, end)
+        if isinstance(end, str) and (end in system.starts or end in system.particles):
+            yield Vertex(end, arrangement.point(system.starts[end]) if end in system.starts else (0.0, 0.0, 0.0))
+        elif not any(isinstance(number, str) for number in at):
+            yield Vertex(carrier, place(float(number) for number in at))
+
+
 def stage_of(scene: Scene, report: Report) -> StagedScene:
     """Return a scene with its positions. Raises SceneError as `lower` does."""
     system = lower(scene)
@@ -189,6 +201,7 @@ def _points(scene: Scene, arrangement: Arrangement, written: Sequence[Place | No
     """Return the points of the scene where they are now, with the rims of wheels."""
     poses = arrangement.poses
     points = [poses[p].moved((0.0, 0.0, 0.0)) for p in arrangement.system.particles]
+    points += [poses[v.carrier].moved(v.at) for force in scene.forces for v in force_ends(arrangement, force)]
     for number, (connection, at) in enumerate(zip(arrangement.system.connections, written, strict=True)):
         points += [poses[v.carrier].moved(v.at) for v in vertices_of(arrangement, connection)]
         body = next((m for m in connection.members if m in arrangement.system.bodies), None)

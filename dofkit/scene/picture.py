@@ -123,8 +123,8 @@ class PictureShape(WrittenModel):
     @model_serializer
     def _written(self) -> dict[str, Any]:
         pairs = {key: getattr(self, "start" if key == "from" else key) for key in _KEYS}
-        shown = {key: part for key, part in pairs.items() if part is not None and (key != "show" or not part)}
-        return {self.shape: self.name, **{key: _plain(part) for key, part in shown.items()}}
+        written_keys = {key: part for key, part in pairs.items() if part is not None and (key != "show" or not part)}
+        return {self.shape: self.name, **{key: _plain(part) for key, part in written_keys.items()}}
 
 
 def _plain(value: Any) -> Any:
@@ -206,9 +206,11 @@ class _ShapeReader(Texts):
         }
         if self.ends:
             names = vocabulary.names
-            own = {name: parameter(name) for name in self.ends}
+            range_symbols = {name: parameter(name) for name in self.ends}
             extended = replace(
-                names, coordinates=names.coordinates - own.keys(), parameters={**names.parameters, **own}
+                names,
+                coordinates=names.coordinates - range_symbols.keys(),
+                parameters={**names.parameters, **range_symbols},
             )
             self._reader = ParsedTexts(extended)
 

@@ -121,8 +121,8 @@ def _any_shape(schema: Mapping[str, Any]) -> dict[str, Any]:
             },
             {"if": {"required": [kind], "not": {"required": ["show"]}}, "then": {"required": list(row.needs)}},
         ]
-    one = {"if": {"propertyNames": {"not": {"enum": list(SHAPES)}}}, "then": False}
-    return {**schema, "properties": properties, "required": [], "allOf": [one, *by_shape]}
+    no_shape = {"if": {"propertyNames": {"not": {"enum": list(SHAPES)}}}, "then": False}
+    return {**schema, "properties": properties, "required": [], "allOf": [no_shape, *by_shape]}
 
 
 def _with_other_words(schema: dict[str, Any], kind: str) -> dict[str, Any]:
