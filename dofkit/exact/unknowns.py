@@ -170,7 +170,7 @@ def _step(ring: Ring, i: int, values: dict[int, Any], pair: dict[int, Rational],
 def _independent(ring: Ring, index: int, point: FieldPoint) -> Any:
     """Return a generator's value where its argument is not looked at."""
     var = ring.vars[index]
-    value = point.given.get((var.kind, var.key))
+    value = point.values.get((var.kind, var.key))
     if value is not None:
         return value
     if not stands_for_number(ring, index):

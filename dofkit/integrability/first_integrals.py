@@ -296,7 +296,7 @@ class BorderedMinors:
         row = polynomials(canon, slopes, len(symbols))
         for j in self.frame.free:
             terms = (canon.reduce(row[c] * m) for c, m in self._along(canon, j).items() if row[c] != 0)
-            minor = canon.reduce(sum(terms, canon.one * 0))
+            minor = canon.reduce(sum(terms, canon.unit * 0))
             yield minor if relation is None or minor == 0 else remainder(minor, relation)
 
     def _along(self, canon: Canon, j: int) -> dict[int, Poly]:
@@ -307,7 +307,7 @@ class BorderedMinors:
             cofactors = {}
             for k, c in enumerate(columns):
                 others = [d for d in columns if d != c]
-                minor = determinant(canon, [[row[d] for d in others] for row in rows]) if rows else canon.one
+                minor = determinant(canon, [[row[d] for d in others] for row in rows]) if rows else canon.unit
                 cofactors[c] = -minor if k % 2 else minor
             self._cofactors[j] = cofactors
         return self._cofactors[j]

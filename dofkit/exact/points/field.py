@@ -189,7 +189,7 @@ class FieldPoint:
         self.p = p
         self.rng = rng
         self.order = order
-        self.given: dict[tuple[str, object], Scalar] = {}
+        self.values: dict[tuple[str, object], Scalar] = {}
         self._taken: dict[tuple[object, ...], Scalar] = {}
         self._drawn: set[int] = set()
         self._exponentials, self._turns = Character(p, self._drawn), Character(p, self._drawn)
@@ -199,7 +199,7 @@ class FieldPoint:
 
     def set(self, var: Var, value: Scalar) -> None:
         """Give a generator its value."""
-        self.given[var.kind, var.key] = value
+        self.values[var.kind, var.key] = value
         if var.kind == "pi":  # angles that come out as multiples of pi / D have the values of these
             self._setup_unity()
             self._turns.settle(value / self.order, self._zeta, 2 * self.order)
@@ -207,7 +207,7 @@ class FieldPoint:
     def copy(self) -> FieldPoint:
         """Return a point with the same values so far; what is drawn later differs."""
         other = FieldPoint(self.p, self.rng, self.order)
-        other.given = dict(self.given)
+        other.values = dict(self.values)
         other._taken, other._agreed = dict(self._taken), set(self._agreed)
         other._drawn = set(self._drawn)
         other._exponentials, other._turns = self._exponentials.copy(other._drawn), self._turns.copy(other._drawn)
@@ -224,9 +224,9 @@ class FieldPoint:
 
     def generator(self, var: Var, args: Sequence[Scalar]) -> Scalar:
         name = (var.kind, var.key)
-        value = self.given.get(name)
+        value = self.values.get(name)
         if value is None:
-            value = self.given[name] = self._draw(var, args)
+            value = self.values[name] = self._draw(var, args)
         elif args and name not in self._agreed:
             self._agreed.add(name)
             self._agree(var, args, value)
@@ -235,21 +235,21 @@ class FieldPoint:
     def whatever(self, var: Var) -> Scalar:
         """Return a generator's value where its argument is not known yet: that is drawn later, or found to agree."""
         name = (var.kind, var.key)
-        if name not in self.given and var.kind in ("cos", "sin"):
+        if name not in self.values and var.kind in ("cos", "sin"):
             self._setup_unity()
             self._set_angle(var, self._turn())
-        elif name not in self.given:
-            self.given[name] = self._sign() if var.kind == "sign" else self.random()
-        return self.given[name]
+        elif name not in self.values:
+            self.values[name] = self._sign() if var.kind == "sign" else self.random()
+        return self.values[name]
 
     def _agree(self, var: Var, args: Sequence[Scalar], value: Scalar) -> None:
         """Take the value that a generator was given. Raises NoPointError where its function has another one there."""
         if var.kind == "exp":
             self._exponentials.agree(args[0], value)
         elif var.kind in ("cos", "sin"):
-            if var.key[0] != ex.PI and ("sin" if var.kind == "cos" else "cos", var.key) in self.given:
+            if var.key[0] != ex.PI and ("sin" if var.kind == "cos" else "cos", var.key) in self.values:
                 self._setup_unity()
-                cos, sin = self.given["cos", var.key], self.given["sin", var.key]
+                cos, sin = self.values["cos", var.key], self.values["sin", var.key]
                 self._turns.agree(args[0], cos + self._imaginary * sin)
         elif self._of_arguments(var, args, lambda: value) != value:
             raise NoPointError("a function with two values at one place")
@@ -268,7 +268,7 @@ class FieldPoint:
     def _draw(self, var: Var, args: Sequence[Scalar]) -> Scalar:
         if var.kind in ("cos", "sin"):
             self._draw_angle(var, args)
-            return self.given[var.kind, var.key]
+            return self.values[var.kind, var.key]
         if var.kind == "exp" and args:
             return self._exponentials.at(args[0], self.random)
         if args:
@@ -299,13 +299,13 @@ class FieldPoint:
             self._setup_unity()
             self._set_angle(var, self._turns.at(args[0], self._turn))
             return
-        self.given["cos", var.key] = cos
-        self.given["sin", var.key] = sin
+        self.values["cos", var.key] = cos
+        self.values["sin", var.key] = sin
 
     def _set_angle(self, var: Var, z: Scalar) -> None:
         """Cosine and sine from z = cos + i sin."""
-        self.given["cos", var.key] = (z + 1 / z) / 2
-        self.given["sin", var.key] = (z - 1 / z) / (2 * self._imaginary)
+        self.values["cos", var.key] = (z + 1 / z) / 2
+        self.values["sin", var.key] = (z - 1 / z) / (2 * self._imaginary)
 
     def _sign(self) -> Scalar:
         return residue(self.rng.choice((1, self.p - 1)), self.p)
