@@ -264,7 +264,7 @@ def test_a_real_point_is_certified() -> None:
     nodes = [ring.node(g) for g in relations]
     found = RealSearch(ring, nodes, [X, Y, Z], frozenset()).search(1)
     assert found is not None
-    assert (found.rank, found.rows, found.certified, found.consistent) == (2, (0, 1), True, True)
+    assert (found.part.rank, [*found.part.rows], found.certified, found.consistent) == (2, [0, 1], True, True)
     with ctx.workprec(PRECISION):
         at = values(ring, found.point)
     assert all(at[n].contains(0) for n in nodes)
