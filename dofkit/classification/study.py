@@ -21,7 +21,7 @@ from dofkit.expressions.text import to_text
 from dofkit.mobility.counts import CountedFacts, count
 from dofkit.mobility.joint_tree import tree_coordinates
 from dofkit.relations.answer import Redundancies, undecided_dependence
-from dofkit.relations.blocks import about_constants, uses_time
+from dofkit.relations.blocks import uses_time
 from dofkit.relations.normal.pieces import Finite, Reduced
 from dofkit.relations.setting import ALL, Reductions, Setting
 from dofkit.report import BRANCH_WARNING, ConstraintEntry, Count, ForceEntry, IntegrablePart, Redundancy
@@ -145,8 +145,7 @@ def lecture_count(study: Study) -> Count:
     """f = N d - k beside the truth."""
     reduced, outcome = study.reduced, study.outcome
     written = sum(all(isinstance(p, Finite) for p in normal.pieces) for r in reduced for normal in r.normals)
-    constants = [c for r in reduced for c in r.constants]
-    hidden = sum(not about_constants(g, constants) for a in outcome.answers for g in a.hidden)
+    hidden = sum(len(a.hidden) for a in outcome.answers)
     return count(study.system, CountedFacts(written, outcome.dof, outcome.consistent, hidden, 0, study.entries))
 
 

@@ -22,10 +22,10 @@ from dofkit.configuration.linear_blocks import confirmed
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.nonlinear_velocities import NOT_EQUIVALENT, with_reductions_checked
 from dofkit.relations.answer import Answer, AnsweredPart
-from dofkit.relations.blocks import Block, Row, blocks_of, names_in, with_rows
+from dofkit.relations.blocks import Block, Row, blocks_of
 from dofkit.relations.normal.domain import DomainCondition
 from dofkit.relations.normal.no_solution import holds_somewhere
-from dofkit.relations.normal.pieces import JointEquation, Reduced, Still
+from dofkit.relations.normal.pieces import JointEquation, Reduced
 from dofkit.relations.setting import Setting
 from dofkit.relations.velocity_reductions import MAX_WAYS, RewrittenRow, ways_of, with_boundaries
 from dofkit.system import System
@@ -142,7 +142,7 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
     outcomes, why = list[Outcome](), None
     answered = AnsweredBlocks(system)
     domain = [(i, c) for i, r in enumerate(reduced) for c in r.domain if c.expr.op != "num"]
-    constants = {c: Row(i, Still(c)) for i, r in enumerate(reduced) for c in r.constants}
+    names = [c.name for c in system.coordinates]
     for number, choice in enumerate(cartesian(*options)):
         if number == MAX_CHOICES:
             why = _LEFT_OUT
@@ -153,14 +153,13 @@ def solve(system: System, reduced: Sequence[Reduced], setting: Setting) -> Outco
                 impossible.append(i)
             elif i not in copied:
                 rows += [Row(i, p) for p in normal.branches[branch]]
-        ways = ways_of(with_boundaries(with_rows(rows, constants)), positive)
+        ways = ways_of(with_boundaries(rows), positive)
         why = _LEFT_OUT if len(ways) >= MAX_WAYS else why
         for way in reductions_at_reference(ways, setting):
-            names = [*(c.name for c in system.coordinates), *names_in(way.rows, constants)]
             outcome = _answered(names, way.rows, impossible, domain, setting, answered)
             outcome.reduced, outcome.divided = way.reduced, way.divided
             outcomes.append(outcome)
-    best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], [c.name for c in system.coordinates])
+    best = _largest(outcomes, why, setting) if outcomes else Outcome([], [], [], names)
     if len(outcomes) == 1:
         best.answers = _confirmed(best, setting)
     best.copies = copied if outcomes else {}

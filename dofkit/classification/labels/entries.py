@@ -15,13 +15,11 @@ from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.labels.companions import Companionship, by_itself
 from dofkit.classification.labels.entry import Evidence, LabelledRow, entry, label_in_system, unfinished
 from dofkit.classification.labels.reasons import Others, in_words
-from dofkit.expressions import tree as ex
-from dofkit.expressions.calculus import substitute
-from dofkit.expressions.tree import TIME, Expr
+from dofkit.expressions.tree import TIME
 from dofkit.integrability.nonlinear_velocities import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import GAP, Redundancies
-from dofkit.relations.blocks import Row, about_constants, coordinates_of, given_by
+from dofkit.relations.blocks import Row, coordinates_of
 from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Pfaffian, Reduced, piece_shape
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict
@@ -44,9 +42,6 @@ def entries_of(
     """An entry for every constraint, in order; one that there is no time for says so."""
     dependence = _dependence(dependent, outcome)
     answer = _labelled_rows(len(reduced), outcome, setting)
-    constants = _fixed_constants(
-        [g for a in outcome.answers for g in a.hidden], [c for r in reduced for c in r.constants]
-    )
     entries, by_kind = list[ConstraintEntry](), dict[Hashable, ConstraintEntry]()
     traits_of, consistent = partial(_traits_of, setting), outcome.consistent
     for i, r in enumerate(reduced):
@@ -63,7 +58,7 @@ def entries_of(
                 continue
             companions_of = partial(_with_others, i, answer[i], company)
             alone = by_itself(i, r, answer[i], company.answered)
-            evidence = Evidence(answer[i], alone, number, circuit, constants, traits_of, companions_of, copied)
+            evidence = Evidence(answer[i], alone, number, circuit, traits_of, companions_of, copied)
             entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, dependence))
             if kind is not None and _is_nameless(entries[-1]):
                 by_kind[kind] = entries[-1]
@@ -72,21 +67,13 @@ def entries_of(
     return entries
 
 
-def _fixed_constants(hidden: Sequence[Expr], constants: Sequence[str]) -> dict[str, Expr]:
-    """Return the constants that linear relations among them give in terms of parameters and the other constants."""
-    among = [g for g in hidden if about_constants(g, constants)] if constants else []
-    values = given_by(among, [ex.coordinate(c) for c in reversed(constants)])
-    named = {ex.coordinate(c): ex.parameter(c) for c in constants}
-    return {str(s.args[1]): substitute(value, named) for s, value in values.items()}
-
-
 def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hashable:
     """Return what is equal for constraints whose entries differ in name and text only; None where that is not clear.
 
     Of finite relations without time their number alone matters, of others also what they say, names apart.
     """
     pieces = [*(p for n in r.normals for p in n.pieces), *(t.row.piece for t in rows)]
-    branched = r.constants or any(len(n.branches) > 1 for n in r.normals)
+    branched = any(len(n.branches) > 1 for n in r.normals)
     modulo_others = any(t.reduced or (t.label is not None and t.label.modulo) for t in rows)
     if branched or modulo_others or not all(map(_is_plain, (*pieces, *r.inequalities))):
         return None
@@ -100,7 +87,7 @@ def _likeness(r: Reduced, rows: Sequence[LabelledRow], setting: Setting) -> Hash
     answers = [t.answer for t in rows]
     return (
         r.constraint.type,
-        tuple([(n.notes, n.once) for n in r.normals]),
+        tuple([n.notes for n in r.normals]),
         r.equations,
         tuple(shapes),
         tuple([t.label for t in rows]),
