@@ -101,7 +101,7 @@ class Study:
 
     def entries_beside(self, dependent: Sequence[Redundancies]) -> list[ConstraintEntry]:
         """The constraints' entries, where this is known of what depends on what."""
-        return entries_of(self.reduced, self.setting, self.outcome, dependent, self.company)
+        return entries_of(self.reduced, self.setting, self.outcome, dependent, lambda: self.company)
 
     def by_name(self, labels: Sequence[bool | None]) -> Mapping[str, bool | None]:
         """A label for each constraint, by its name."""
@@ -180,6 +180,8 @@ def joint_coordinates(study: Study) -> list[str] | None:
 
 def largest_integrable_part(study: Study) -> IntegrablePart | None:
     """What the forms say in finite relations; None where that is not known."""
+    if not any(block.forms for block in study.outcome.blocks):
+        return None
     return unless_late(partial(integrable_part, study.outcome, study.entries, study.company), None)
 
 

@@ -10,7 +10,7 @@ from itertools import product as cartesian
 
 from dofkit.base.deadline import OUT_OF_TIME, OutOfTimeError, check, unless_late
 from dofkit.classification.freedom.block import answer
-from dofkit.classification.freedom.common_point import at_one_point, restricted_to_domain
+from dofkit.classification.freedom.common_point import CommonPoint, at_one_point, restricted_to_domain
 from dofkit.classification.freedom.isomorphic_blocks import AnsweredBlock, Likenesses
 from dofkit.classification.freedom.preparation import (
     branches_at_reference,
@@ -226,7 +226,9 @@ def _answered(
     answered: AnsweredBlocks,
 ) -> Outcome:
     blocks, untouched = blocks_of(names, rows, setting.reductions)
-    result = at_one_point(blocks, answered.answers(blocks, setting), domain, setting, partial(in_time, setting=setting))
+    result = CommonPoint(list(blocks), answered.answers(blocks, setting))
+    if domain or len(blocks) > 1:
+        result = at_one_point(*result[:2], domain, setting, partial(in_time, setting=setting))
     never = [*impossible, *result.nowhere]
     return Outcome(
         rows, result.blocks, result.answers, untouched, never, unsettled=[*result.unsettled], witness=result.witness
@@ -280,7 +282,8 @@ def in_time(block: Block, setting: Setting) -> Answer:
     """The block's answer; undecided where the time is used up."""
     try:
         check()
-        return restricted_to_domain(block, answer(block, setting), setting)
+        result = answer(block, setting)
+        return restricted_to_domain(block, result, setting) if block.conditions else result
     except OutOfTimeError as error:
         return Answer(None, verdict="undecided", reasons=[str(error)], late=True)
     except ArithmeticError:

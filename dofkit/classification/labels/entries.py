@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -20,7 +20,7 @@ from dofkit.integrability.nonlinear_velocities import label_modulo_others
 from dofkit.integrability.traits import Traits, traits
 from dofkit.relations.answer import GAP, Redundancies
 from dofkit.relations.blocks import Row, coordinates_of
-from dofkit.relations.normal.pieces import Clause, JointEquation, Nonlinear, Pfaffian, Reduced, piece_shape
+from dofkit.relations.normal.pieces import Clause, Finite, JointEquation, Nonlinear, Pfaffian, Reduced, piece_shape
 from dofkit.relations.setting import Setting
 from dofkit.report import ConstraintEntry, FieldVerdict
 
@@ -37,16 +37,20 @@ def entries_of(
     setting: Setting,
     outcome: Outcome,
     dependent: Sequence[Redundancies],
-    company: Companionship,
+    companionship: Callable[[], Companionship],
 ) -> list[ConstraintEntry]:
-    """An entry for every constraint, in order; one that there is no time for says so."""
+    """An entry for every constraint, in order; one that there is no time for says so.
+
+    ``companionship``: what a differential constraint is together with others, where there is one.
+    """
+    names = [r.constraint.name for r in reduced]
     dependence = _dependence(dependent, outcome)
     answer = _labelled_rows(len(reduced), outcome, setting)
     entries, by_kind = list[ConstraintEntry](), dict[Hashable, ConstraintEntry]()
     traits_of, consistent = partial(_traits_of, setting), outcome.consistent
     for i, r in enumerate(reduced):
         number = dependence.independent.get(i, None if answer[i] else 0)
-        circuit = None if i not in dependence.circuits else [company.names[j] for j in dependence.circuits[i]]
+        circuit = None if i not in dependence.circuits else [names[j] for j in dependence.circuits[i]]
         try:
             check()
             copied = i in outcome.copies
@@ -56,8 +60,9 @@ def entries_of(
                 named = {"name": r.constraint.name, "text": r.constraint.text}
                 entries.append(by_kind[kind].model_copy(update=named))
                 continue
-            companions_of = partial(_with_others, i, answer[i], company)
-            alone = by_itself(i, r, answer[i], company.answered)
+            companions_of = partial(_with_others, i, answer[i], companionship)
+            finite = all(isinstance(p, Finite) for n in r.normals for p in n.pieces)
+            alone = None if finite else by_itself(i, r, answer[i], companionship().answered)
             evidence = Evidence(answer[i], alone, number, circuit, traits_of, companions_of, copied)
             entries.append(_with_dependence(entry(r, evidence, setting, consistent), i, r, dependence))
             if kind is not None and _is_nameless(entries[-1]):
@@ -209,12 +214,15 @@ def _unmeasured(outcome: Outcome) -> set[int]:
     return {r.constraint for block, a in outcome.answered_parts if a.velocity_dof is None for r in block.rows}
 
 
-def _with_others(i: int, rows: Sequence[LabelledRow], company: Companionship, in_system: bool) -> Others:
+def _with_others(
+    i: int, rows: Sequence[LabelledRow], companionship: Callable[[], Companionship], in_system: bool
+) -> Others:
     """What the constraints of its block do for a form; nothing where it stands alone there or in several blocks."""
     blocks = {id(t.block): t for t in rows if t.block is not None}
     only = next(iter(blocks.values())) if len(blocks) == 1 else None
     if only is None or only.block is None or not (in_system or any(t.label and t.label.modulo for t in rows)):
         return Others()
+    company = companionship()
     return (company.of if in_system else company.modulo)(i, only.block, only.answer)
 
 
