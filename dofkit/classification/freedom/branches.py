@@ -268,8 +268,9 @@ class AnsweredBlocks:
         if twin is not None:
             return twin.answer_of_twin(block, names)
         result = in_time(block, setting)
-        result.kind = len(self._alike)
-        self._alike[key] = AnsweredBlock(block, names, result)
+        if result.answered_parts is None:
+            result.kind = len(self._alike)
+            self._alike[key] = AnsweredBlock(block, names, result)
         return result
 
 
