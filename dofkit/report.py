@@ -337,7 +337,7 @@ class Report(Displayed, ReportModel):
         rows = [entry.model_dump(mode="json", exclude={"verdicts"}) for entry in self.constraints]
         return [{"scene": self.scene, **{key: _cell(value) for key, value in row.items()}} for row in rows]
 
-    def beside(self, scene: object) -> Self:
+    def with_scene(self, scene: object) -> Self:
         """Return this report, and remember the scene that it is about, whose title and picture are then shown."""
         self._companion.about = scene
         return self

@@ -79,7 +79,7 @@ def limited(seconds: float) -> Iterator[None]:
         _until.reset(token)
 
 
-def left() -> float:
+def remaining_seconds() -> float:
     """Return the seconds that are left."""
     return max(0.0, _until.get() - _now())
 
@@ -87,7 +87,7 @@ def left() -> float:
 @contextmanager
 def part(share: float) -> Iterator[None]:
     """Let `check` raise after this share of the time that is left, so that the remainder serves what comes after."""
-    with limited(share * left()):
+    with limited(share * remaining_seconds()):
         yield
 
 
@@ -118,7 +118,7 @@ def checked_calls() -> Iterator[None]:
 
 def affordable(rows: int, columns: int) -> None:
     """Raise OutOfTimeError for a matrix too large for elimination in the time of a scene, or in what is left of it."""
-    if rows * columns * min(rows, columns) > min(MAX_WORK, WORK_A_SECOND * left()):
+    if rows * columns * min(rows, columns) > min(MAX_WORK, WORK_A_SECOND * remaining_seconds()):
         raise OutOfTimeError(f"a matrix of {rows} rows and {columns} columns is too large here")
 
 

@@ -28,7 +28,10 @@ MOST_CHARACTERS, LONGEST_VALUE, DEEPEST, MOST_RELATIONS = 2_000_000, 400, 40, 8_
 _NULLS = (None, "", "~", "null", "Null", "NULL")
 _VALUE = re.compile(rf"\s*([-+]?{DECIMAL})(?:\s*/\s*(\d*[1-9]\d*))?\s*", re.ASCII)
 #: Keys that say nothing of the mathematics, and values that are as good as left out.
-_SILENT, _DEFAULTS = ("name", "title", "source", "notes", "left_out", "expect"), {"dimension": 3, "tolerance": 0}
+_SILENT, _DEFAULTS = (
+    ("name", "title", "source", "notes", "left_out", "expect", "picture"),
+    {"dimension": 3, "tolerance": 0},
+)
 #: What a text alone stands for in these lists.
 _SHORT = {"particles": ("name", {}), "bodies": ("name", {}), "constraints": ("text", {"type": "equation"})}
 SIGNS = ("real", "positive", "nonzero")

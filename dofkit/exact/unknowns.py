@@ -10,9 +10,9 @@ from typing import Any
 from flint import nmod, nmod_poly
 
 from dofkit.base.deadline import check
-from dofkit.exact.errors import NoValueError, PoleError, raising_no_value
+from dofkit.base.errors import NoValueError, PoleError
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, reachable
+from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, raising_no_value, reachable
 from dofkit.exact.ring.ring import Ring
 
 #: Denominators past this degree are reduced; quotients past this one are given up.

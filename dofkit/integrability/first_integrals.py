@@ -19,6 +19,7 @@ from flint import nmod, nmod_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.errors import NoValueError
+from dofkit.configuration.variety import free_point
 from dofkit.exact.matrices.sparse import rank_of
 from dofkit.exact.points.field import FieldPoint
 from dofkit.exact.points.frames import field_frame, kernel, pairing
@@ -30,7 +31,6 @@ from dofkit.expressions.calculus import diff
 from dofkit.expressions.tree import Expr
 from dofkit.integrability.integrals.search import arranged, upright
 from dofkit.integrability.pfaffian_system import Codistribution
-from dofkit.relations.blocks import free_point
 
 #: Products of up to so many functions, so many products, and so many functions in them at most.
 MAX_DEGREE, MAX_PRODUCTS, MAX_FUNCTIONS = 3, 170, 12

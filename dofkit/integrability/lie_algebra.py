@@ -23,14 +23,14 @@ from dofkit.base.deadline import affordable, check
 from dofkit.base.errors import NoValueError
 from dofkit.configuration.generic_dimension import real_point
 from dofkit.configuration.variety import Variety
-from dofkit.exact.errors import raising_no_value
 from dofkit.exact.matrices.certified import ball_part
+from dofkit.exact.matrices.sparse import Pivots
 from dofkit.exact.points.balls import BallPoint
 from dofkit.exact.points.field import FieldPoint
-from dofkit.exact.points.frames import FormRows, Pivots, field_frame, kernel, rank_over
+from dofkit.exact.points.frames import FormRows, field_frame, kernel, rank_over
 from dofkit.exact.points.real_search import RealPoint
 from dofkit.exact.points.series import Series, SeriesPoint, zero_poly
-from dofkit.exact.ring.program import Scalar, gradient, values
+from dofkit.exact.ring.program import Scalar, gradient, raising_no_value, values
 from dofkit.expressions import tree as ex
 from dofkit.integrability.pfaffian_system import Codistribution
 

@@ -18,8 +18,7 @@ from dofkit.base.errors import NoValueError
 from dofkit.base.verdicts import Verdict, weakest
 from dofkit.configuration.at_reference import CLEAR, ball_matrix, ball_point
 from dofkit.configuration.finite_blocks import dependent_names
-from dofkit.configuration.generic_points import SAMPLES, on_variety, pose_point
-from dofkit.configuration.variety import Variety
+from dofkit.configuration.variety import SAMPLES, Variety, on_variety, pose_point
 from dofkit.exact.matrices.certified import ball_part, dependencies
 from dofkit.exact.matrices.sparse import rank_of, sparse
 from dofkit.exact.points.balls import precision
@@ -284,7 +283,7 @@ def ball_labels(block: Block, forms: Codistribution, real: RealPoint, result: An
         )
     if "field" not in forms.chart.engines:
         result.matrix = sparse(dependencies(matrix, part))
-        if real.consistent and len(real.rows) == forms.finite and rank == len(matrix):
+        if real.consistent and len(real.part.rows) == forms.finite and rank == len(matrix):
             result.verdict = "proved" if reached or total - rank <= 1 else result.verdict
     for i, row, place in linear_rows(block, forms):
         finite = isinstance(row.piece, Finite)

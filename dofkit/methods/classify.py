@@ -104,7 +104,7 @@ def _all_read(scenes: Scenes) -> list[Scene | System]:
 def _certified(loaded: Scene | System, budget: float | None, method: MethodName, certificate: bool) -> Report:
     if certificate and isinstance(loaded, System):
         raise ArgumentError("a certificate needs a Scene: a System has no text that the checker could read")
-    report = _classified(loaded, budget, method).beside(loaded)
+    report = _classified(loaded, budget, method).with_scene(loaded)
     return with_certificate(loaded, report) if certificate and isinstance(loaded, Scene) else report
 
 

@@ -9,7 +9,7 @@ from itertools import islice
 from itertools import product as cartesian
 from typing import NamedTuple
 
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_zero

@@ -6,8 +6,8 @@ import random
 
 from flint import nmod
 
-from dofkit.exact.errors import NoPointError
 from dofkit.exact.points.field import Character
+from dofkit.exact.ring.program import NoPointError
 
 
 def test_the_same_value_comes_of_arguments_in_either_order() -> None:

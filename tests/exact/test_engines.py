@@ -11,6 +11,7 @@ import sympy
 from flint import arb, arb_poly, ctx, nmod
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shared.known_scenes import swept
 
 import dofkit
 from dofkit.base.errors import TextError
@@ -103,6 +104,8 @@ HARD_ZERO = [
     "sqrt(x^2 + 2 x + 1) - abs(x + 1)",
     "sqrt(x^4 + 2 x^2 y^2 + y^4) - x^2 - y^2",
 ]
+#: Of these, whether an equation follows takes seconds, and is undecided.
+SLOW = ("sqrt(x^2 + 2 x + 1) - abs(x + 1)",)
 NOT_ZERO = [
     "1e-12 x",
     "x/1e9",
@@ -167,7 +170,7 @@ def test_what_integrates_on_one_side_only_is_not_holonomic(text: str) -> None:
     assert report.dof in (3, None)
 
 
-@pytest.mark.parametrize("text", [*ZERO, *HARD_ZERO])
+@pytest.mark.parametrize("text", [*ZERO, *(swept(text) if text in SLOW else text for text in HARD_ZERO)])
 def test_an_equation_that_says_the_same_takes_nothing_away(text: str) -> None:
     report = classified("x y z", "z = 0", f"z + ({text}) = 0")
     assert report.consistent is not False

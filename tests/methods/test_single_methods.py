@@ -146,13 +146,6 @@ def test_a_method_answers_what_its_row_says(method: MethodName) -> None:
     assert METHODS[method].engines or all(callable(function_of(method, question)) for question in METHODS[method].uses)
 
 
-def test_a_prime_of_few_bits_divides_what_is_not_zero() -> None:
-    """x + y = 0 and x + 18 y = 0 are dependent modulo 17, the one prime of 5 bits that is 1 modulo 8."""
-    given = scene("x + y = 0", "x + 18 y = 0", coordinates=("x", "y"))
-    assert [answered(given, "dof", "field", Knobs(prime_bits=b)).value for b in (5, 61)] == [1, 0]
-    assert answered(given, "dof", "field", Knobs(prime_bits=4)).value is None
-
-
 def test_balls_of_few_bits_do_not_tell_a_small_number_from_zero() -> None:
     """e^(pi sqrt 163) is 262537412640768744 but for 7.5e-13, which 100 bits do not show beside it and 128 do."""
     given = scene("dz + (exp(pi*sqrt(163)) - 262537412640768744) y dx = 0")

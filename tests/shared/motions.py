@@ -8,7 +8,7 @@ from typing import Any
 from flint import nmod_mat
 
 import dofkit
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import NoValueError
 from dofkit.exact.points.field import field_point
 from dofkit.exact.ring.program import values
 from dofkit.exact.ring.ring import Ring

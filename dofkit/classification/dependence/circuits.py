@@ -11,10 +11,9 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from dofkit.base.deadline import check
-from dofkit.base.libraries import components
 from dofkit.classification.dependence.implication import Everywhere, NearDrawing, SufficientSets
 from dofkit.classification.dependence.minimal_sets import largest_redundant_set, minimal_set
-from dofkit.exact.matrices.sparse import SparseRow, Supports, echelon, rank_of_rows, transposed, vanishing
+from dofkit.exact.matrices.sparse import SparseRow, Supports, components, echelon, rank_of_rows, transposed, vanishing
 from dofkit.relations.answer import Redundancies
 
 #: Sets of constraints are searched exhaustively up to this many members of a group.

@@ -9,7 +9,6 @@ from functools import partial
 from typing import Literal
 
 from dofkit.base.deadline import unless_late
-from dofkit.base.libraries import components
 from dofkit.base.verdicts import About
 from dofkit.classification.dependence import removal
 from dofkit.classification.dependence.circuits import OwnedRows, analyse
@@ -17,7 +16,7 @@ from dofkit.classification.dependence.implication import implication_of
 from dofkit.classification.dependence.implied_constraints import MAX_CHOICES, constraint_follows, implied
 from dofkit.classification.freedom.branches import Outcome
 from dofkit.classification.freedom.preparation import algebraic, all_of, branches_at_reference
-from dofkit.exact.matrices.sparse import SparseRow
+from dofkit.exact.matrices.sparse import SparseRow, components
 from dofkit.relations.answer import Answer, Redundancies, undecided_dependence
 from dofkit.relations.blocks import Block, coordinates_of
 from dofkit.relations.normal.domain import DomainCondition

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from itertools import product as cartesian
 
 from dofkit.base.deadline import check
-from dofkit.exact.errors import TooLargeError
 from dofkit.exact.ring.canonical import Canon, Poly
+from dofkit.exact.ring.program import TooLargeError
 from dofkit.expressions import tree as ex
 from dofkit.expressions.text import to_text
 from dofkit.expressions.tree import Expr

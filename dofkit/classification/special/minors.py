@@ -15,9 +15,10 @@ from math import comb
 from typing import NamedTuple
 
 from dofkit.base.deadline import check
+from dofkit.base.errors import NoValueError
 from dofkit.classification.special.common_zeros import MAX_READ, Leaf, Reals, common_zeros
-from dofkit.exact.errors import NoValueError, TooLargeError, raising_no_value
 from dofkit.exact.ring.canonical import Canon, Poly, Quotient, cleared, determinant, lowest_terms
+from dofkit.exact.ring.program import TooLargeError, raising_no_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff

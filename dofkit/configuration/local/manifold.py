@@ -11,11 +11,10 @@ from flint import arb, arb_mat, nmod, nmod_mat
 
 from dofkit.base.deadline import check
 from dofkit.base.verdicts import ArgumentKey, Verdict
-from dofkit.exact.errors import raising_no_value
-from dofkit.exact.matrices.sparse import FactoredMatrix
-from dofkit.exact.points.frames import Pivots, pivots, solve
+from dofkit.exact.matrices.sparse import FactoredMatrix, Pivots
+from dofkit.exact.points.frames import pivots, solve
 from dofkit.exact.points.series import Series, SeriesPoint, monomial, zero_poly
-from dofkit.exact.ring.program import Scalar, gradient, values
+from dofkit.exact.ring.program import Scalar, gradient, raising_no_value, values
 from dofkit.exact.ring.ring import Ring
 
 Form = list[list[Scalar]]

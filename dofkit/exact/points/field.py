@@ -8,9 +8,7 @@ the unit circle; exp, log, inverse and unknown functions are independent; roots 
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from functools import lru_cache, partial
 from math import gcd, lcm, prod
@@ -19,8 +17,7 @@ from typing import Any
 from flint import fmpz, fmpz_mat, nmod, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
-from dofkit.exact.errors import NoPointError
-from dofkit.exact.ring.program import NUM, Scalar, Var
+from dofkit.exact.ring.program import NUM, NoPointError, Scalar, Var
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 
@@ -141,18 +138,6 @@ PRIME_TRIES = 4000
 #: Parts of a turn that are exact wherever pi is written, the largest number of parts that a number makes, and of all.
 WHOLE_TURNS, MOST_PARTS, MOST_ORDER = 12, 360, 10**5
 
-_bits: ContextVar[int] = ContextVar("prime_bits", default=PRIME_BITS)
-
-
-@contextmanager
-def primes_of(bits: int) -> Iterator[None]:
-    """Draw primes of so many bits within: how often small ones err can be measured so. Below 5 there is none."""
-    token = _bits.set(bits)
-    try:
-        yield
-    finally:
-        _bits.reset(token)
-
 
 def circle_order(rings: Iterable[Ring]) -> int:
     """The common denominator D of all angles pi/D; where pi itself is written, also of what x = pi/9 leads to."""
@@ -178,18 +163,14 @@ def number_roots(rings: Iterable[Ring]) -> tuple[tuple[int, int], ...]:
     return tuple(sorted(roots))
 
 
+@lru_cache(maxsize=4096)
 def prime_for(order: int, roots: tuple[tuple[int, int], ...], seed: int | str) -> int:
     """Return a random prime p = 1 modulo 8 and the order, modulo which the given roots of numbers exist."""
-    return _prime(order, roots, seed, _bits.get())
-
-
-@lru_cache(maxsize=4096)
-def _prime(order: int, roots: tuple[tuple[int, int], ...], seed: int | str, bits: int) -> int:
     rng = random.Random(f"dofkit prime {order} {roots} {seed}")
     step = lcm(8, 2 * order)
     for _ in range(PRIME_TRIES):
-        p = step * (rng.getrandbits(bits) // step) + 1
-        if p.bit_length() < bits - 1 or not fmpz(p).is_probable_prime():
+        p = step * (rng.getrandbits(PRIME_BITS) // step) + 1
+        if p.bit_length() < PRIME_BITS - 1 or not fmpz(p).is_probable_prime():
             continue
         if all(_has_root(value, degree, p) for value, degree in roots):
             return p

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flint import arb, arb_mat, nmod, nmod_mat
+from flint import arb, arb_mat, fmpq_mat, nmod, nmod_mat
 
 from dofkit.base.deadline import check
-from dofkit.exact.errors import PoleError, raising_no_value
+from dofkit.base.errors import PoleError
 from dofkit.exact.matrices.certified import ball_part
-from dofkit.exact.matrices.sparse import SparseRow, echelon, last_columns, rank_of
+from dofkit.exact.matrices.sparse import Pivots, rank_of
 from dofkit.exact.points.series import Series
-from dofkit.exact.ring.program import Scalar
+from dofkit.exact.ring.program import Scalar, raising_no_value
 from dofkit.exact.ring.ring import Ring
 
 
@@ -35,15 +35,6 @@ class FormRows:
         return [[at[row[c]] if c in row else zero for c in range(n)] for row in self.entries]
 
 
-@dataclass(frozen=True)
-class Pivots:
-    """A choice of independent rows and of dependent columns, regular at a point."""
-
-    rows: tuple[int, ...]
-    dependent: tuple[int, ...]
-    free: tuple[int, ...]
-
-
 def field_frame(matrix: list[list[nmod]], n: int, p: int) -> Pivots:
     """Return the first independent rows in order, and columns solved for (the last ones where there is a choice)."""
     if not matrix or not n:
@@ -54,16 +45,8 @@ def field_frame(matrix: list[list[nmod]], n: int, p: int) -> Pivots:
     return Pivots(tuple(rows), tuple(dependent), tuple(c for c in range(n) if c not in set(dependent)))
 
 
-def sparse_frame(rows: Sequence[SparseRow], n: int, p: int) -> Pivots:
-    """Return the same for rows without their zeros."""
-    kept = echelon(rows, p).independent
-    dependent = last_columns([rows[i] for i in kept], n, p)
-    solved = set(dependent)
-    return Pivots(kept, dependent, tuple(c for c in range(n) if c not in solved))
-
-
-def pivots(matrix: nmod_mat) -> list[int]:
-    """Return the pivot columns of a matrix over GF(p)."""
+def pivots(matrix: nmod_mat | fmpq_mat) -> list[int]:
+    """Return the pivot columns of a matrix over GF(p) or the rationals."""
     reduced, rank = matrix.rref()
     columns, column = [], 0
     for r in range(rank):
@@ -72,11 +55,6 @@ def pivots(matrix: nmod_mat) -> list[int]:
         columns.append(column)
         column += 1
     return columns
-
-
-def certified_rank(rows: Sequence[Sequence[arb]]) -> int:
-    """Return a lower bound of a ball matrix's rank that is proved: elimination with pivots whose balls exclude 0."""
-    return ball_part(rows).rank
 
 
 def kernel(matrix: list[list[Scalar]], frame: Pivots, zero: Scalar) -> list[list[Scalar]]:
@@ -136,7 +114,7 @@ def rank_over(vectors: Sequence[Sequence[Scalar]], sample: Scalar) -> int:
         return 0
     if isinstance(sample, nmod):
         return rank_of(vectors, sample.modulus())
-    return certified_rank(vectors)
+    return ball_part(vectors).rank
 
 
 def pairing(row: Sequence[Scalar], vectors: Sequence[Sequence[Scalar]]) -> list[Scalar]:

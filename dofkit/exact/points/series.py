@@ -9,7 +9,7 @@ from typing import Any
 
 from flint import arb, arb_poly, nmod, nmod_poly
 
-from dofkit.exact.errors import PoleError
+from dofkit.base.errors import PoleError
 from dofkit.exact.ring.program import Point, Scalar, Var
 
 #: An unknown function's composition uses this many of its derivatives by several arguments at most.

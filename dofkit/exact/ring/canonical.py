@@ -15,8 +15,8 @@ from flint import Ordering, fmpq, fmpq_mpoly_ctx
 from flint.utils.flint_exceptions import DomainError
 
 from dofkit.base.deadline import check
-from dofkit.exact.errors import NoValueError, PoleError, TooLargeError, raising_no_value
-from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, reachable
+from dofkit.base.errors import NoValueError, PoleError
+from dofkit.exact.ring.program import ADD, MUL, NUM, POW, VAR, TooLargeError, raising_no_value, reachable
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.tree import Expr

@@ -52,20 +52,20 @@ def _judgement(way: AnswerReading, key: Key, name: str) -> Judgement:
     read = _with_constants(way, key)
     if read.moving:
         hint = "This still contains velocities; the integral, a relation between the coordinates, is asked for."
-        return wrong(read.shown, hint, "NOT_INTEGRATED")
+        return wrong(read.text, hint, "NOT_INTEGRATED")
     remark = "" if read.constants else _LEFT_OUT
     integral = with_answer(
         key, read, lambda posed: is_integral(posed.system, posed.system.numbers_of(name), posed.numbers)
     )
     if integral:
-        return right(read.shown, remark)
+        return right(read.text, remark)
     family = _leaves(key, read, name)
     if family is Leaves.ALL or (family is Leaves.ONE and not read.constants):
-        return right(read.shown, remark)
+        return right(read.text, remark)
     if family is Leaves.OPEN:
-        return needs_review(read.shown, "it could not be decided in the time available whether this is an integral.")
+        return needs_review(read.text, "it could not be decided in the time available whether this is an integral.")
     return wrong(
-        read.shown,
+        read.text,
         ("This is not an integral of the constraint: its differential is a different condition."),
         "WRONG_INTEGRAL",
     )
@@ -94,7 +94,7 @@ def _leaves(key: Key, read: Read, name: str) -> Leaves:
 
 def _with_still(scene: Scene, read: Read) -> Scene:
     """The scene with the answer, its constants as coordinates that do not change."""
-    plain = Read(read.texts, frozenset(), read.shown, read.moving)
+    plain = Read(read.texts, frozenset(), read.text, read.moving)
     posed = with_equations(scene, plain, ANSWER)
     still = tuple(Equation(name=f"{ANSWER} keeps {c}", text=f"d{c} = 0") for c in sorted(read.constants))
     more = {"coordinates": (*posed.coordinates, *sorted(read.constants))}

@@ -15,8 +15,9 @@ from typing import NamedTuple
 
 from flint import nmod_mat
 
-from dofkit.exact.errors import NoValueError, raising_no_value
+from dofkit.base.errors import NoValueError
 from dofkit.exact.matrices.sparse import rank_of
+from dofkit.exact.ring.program import raising_no_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import independent_generators
 from dofkit.expressions import tree as ex

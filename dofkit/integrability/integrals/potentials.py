@@ -12,10 +12,10 @@ from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from typing import Any, TypeVar
 
-from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, left
+from dofkit.base.deadline import OutOfTimeError, by_processor, check, checked_calls, remaining_seconds
 from dofkit.base.errors import NoValueError
-from dofkit.exact.errors import TooLargeError, raising_no_value
 from dofkit.exact.ring.canonical import Canon, soon_factored
+from dofkit.exact.ring.program import TooLargeError, raising_no_value
 from dofkit.exact.ring.ring import Ring
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff
@@ -382,7 +382,7 @@ def _by_sympy(work: Algebra, e: Expr, x: Expr) -> Expr | None:
     work.tick(SYMPY_STEPS)
     start = time.thread_time()
     try:
-        with by_processor(min(work.seconds, left())), checked_calls():
+        with by_processor(min(work.seconds, remaining_seconds())), checked_calls():
             return antiderivative_by_sympy(e, x, work.positive)
     except OutOfTimeError:
         check()

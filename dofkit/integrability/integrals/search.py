@@ -14,8 +14,8 @@ from itertools import chain, combinations, count
 from math import gcd, lcm
 from typing import Any
 
-from dofkit.exact.errors import raising_no_value
 from dofkit.exact.ring.canonical import Canon
+from dofkit.exact.ring.program import raising_no_value
 from dofkit.exact.zero import certainly_nonzero
 from dofkit.expressions import tree as ex
 from dofkit.expressions.calculus import diff

@@ -13,7 +13,7 @@ from fractions import Fraction
 from math import comb, gcd, lcm, prod
 from typing import Any
 
-from dofkit.base.deadline import OutOfTimeError, by_processor, check, left
+from dofkit.base.deadline import OutOfTimeError, by_processor, check, remaining_seconds
 from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, Poly, is_identically_zero, lowest_terms
 from dofkit.exact.ring.ring import Ring
@@ -50,7 +50,7 @@ class Tidier:
         best, size = e, length(e)
         start = time.thread_time()
         try:
-            with by_processor(min(self.seconds, left())):
+            with by_processor(min(self.seconds, remaining_seconds())):
                 for form in self._forms(e):
                     check()
                     if length(form) < size and is_identically_zero(form - e, self.positive) is True:

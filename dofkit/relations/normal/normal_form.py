@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from flint import fmpq
 
-from dofkit.exact.errors import NoValueError
+from dofkit.base.errors import NoValueError
 from dofkit.exact.ring.canonical import Canon, divided, lowest_terms
 from dofkit.exact.ring.ring import Ring
 from dofkit.exact.zero import is_proved_zero
