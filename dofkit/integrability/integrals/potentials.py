@@ -163,7 +163,7 @@ def factored(canon: Canon, poly: Poly) -> Expr:
     if poly == 0 or not bounded(poly):
         return canon.to_expr(poly)
     constant, factors = poly.factor()
-    return ex.mul(canon.to_expr(canon.one * constant), *(canon.to_expr(f) ** int(k) for f, k in factors))
+    return ex.mul(canon.to_expr(canon.unit * constant), *(canon.to_expr(f) ** int(k) for f, k in factors))
 
 
 # -- linear systems over quotients of polynomials --------------------------------------------------

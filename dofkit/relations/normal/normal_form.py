@@ -111,7 +111,7 @@ def _completed(
     slope = whole.derivative(place)
     lead = slope.derivative(place)
     discriminant = canon.reduce(slope * slope - 2 * lead * whole)
-    content = canon.one * _square_content(discriminant)
+    content = canon.unit * _square_content(discriminant)
     root = prod((f ** (k // 2) for f, k in canon.factors(discriminant)), start=content)
     radicand = divided(discriminant, root * root)
     common = slope.gcd(root)
