@@ -28,7 +28,7 @@ def minimal_set(members: Sequence[T], suffices: Callable[[list[T]], object], chu
     return kept
 
 
-class Redundant(NamedTuple):
+class RedundantSet(NamedTuple):
     """The largest set that can be left out, and the members of which it is undecided whether they can be."""
 
     members: list[int]
@@ -37,7 +37,7 @@ class Redundant(NamedTuple):
 
 def largest_redundant_set(
     members: Iterable[int], is_redundant: Callable[[Sequence[int]], bool | None], exchange: bool = False
-) -> Redundant:
+) -> RedundantSet:
     """Return as many members as can be left out together, of several choices the last ones.
 
     ``exchange``: no set that cannot be enlarged is smaller than another (a matroid), so none larger is searched.
@@ -57,4 +57,4 @@ def largest_redundant_set(
             undecided += larger
             break
         gone = list(larger)
-    return Redundant(sorted(gone), sorted(set(undecided) - set(gone)))
+    return RedundantSet(sorted(gone), sorted(set(undecided) - set(gone)))
