@@ -9,9 +9,8 @@ from typing import Any
 
 from dofkit.classification.turned_coordinates import ANYWHERE
 from dofkit.configuration.at_reference import ball_point
-from dofkit.configuration.local import neighbourhood
 from dofkit.configuration.variety import pose_point
-from dofkit.exact.matrices.dense import complement, cross, dot, largest, pivoted, plus, rank, unit_rows
+from dofkit.exact.matrices.dense import complement, cross, damped, dot, largest, pivoted, plus, rank, unit_rows
 from dofkit.exact.points.balls import FloatPoint, jacobian
 from dofkit.exact.points.real_search import RealSearch
 from dofkit.exact.ring.program import values
@@ -127,7 +126,7 @@ def _settles(search: RealSearch, symbols: dict[Expr, float], seed: int, power: i
             return True
         if len(errors) > STALLED and min(errors[-STALLED:]) > min(errors[:-STALLED]) / 2:
             break
-        for u, s in zip(search.unknowns, neighbourhood.damped(j, f, power), strict=True):
+        for u, s in zip(search.unknowns, damped(j, f, power), strict=True):
             symbols[u] += s
     return errors[-1] < 1e-13
 

@@ -63,7 +63,7 @@ class Follower:
                     break
                 if self.clock is not None and not any_time:
                     j[:, self.clock] = 0.0
-                pose = self.relations.moved(pose, array_step(j, f, float(np.linalg.norm(f)) ** (1 + (k > EASY))))
+                pose = self.relations.moved(pose, array_step(j, f, 1, float(np.linalg.norm(f)) ** (1 + (k > EASY))))
         except FAULTS:
             return None
         return pose if np.all(np.isfinite(self.relations.between(start, pose))) and self.holds(pose) else None
@@ -143,7 +143,7 @@ class Follower:
             if float(np.max(np.abs(wrong))) < HELD / 100:
                 break
             shift = float(np.linalg.norm(wrong)) ** (1 + (k > EASY))
-            step = array_step(np.vstack([j, forms, along]), wrong, shift)
+            step = array_step(np.vstack([j, forms, along]), wrong, 1, shift)
             pose = relations.moved(pose, step)
             if float(np.linalg.norm(step)) < 1e-16:
                 break

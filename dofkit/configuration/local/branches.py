@@ -10,11 +10,12 @@ from flint import arb
 
 from dofkit.base.deadline import check
 from dofkit.configuration.local.manifold import Form, Manifold
-from dofkit.configuration.local.neighbourhood import FAULTS, SURE, Neighbourhood, damped, independent
+from dofkit.configuration.local.neighbourhood import FAULTS, SURE, Neighbourhood, independent
 from dofkit.configuration.local.quadratic_cone import floats_of, scaled
 from dofkit.exact.matrices.dense import (
     Matrix,
     Vector,
+    damped,
     dot,
     largest,
     length,

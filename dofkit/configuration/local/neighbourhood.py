@@ -268,11 +268,6 @@ def _back(here: Neighbourhood, u: Vector) -> list[float] | None:
     return None
 
 
-def damped(j: Sequence[Vector], f: Vector, power: int = 1) -> list[float]:
-    """The step -J^T (J J^T + |f|^power I)^-1 f: it leaves the directions alone in which J is smaller than the error."""
-    return step(j, f, length(f) ** power)
-
-
 def independent(j: Sequence[Vector], least: float) -> tuple[list[int], list[int]]:
     """Return well conditioned rows and columns, by complete pivoting with pivots above ``least``."""
     work, rows, columns = {r: list(row) for r, row in enumerate(j)}, list[int](), list[int]()

@@ -21,8 +21,8 @@ Matrix = Sequence[Vector]
 
 #: Bits of the numbers in which small matrices are multiplied and solved, and entries of what is small.
 BITS, SMALL = 256, 400
-#: The square of a singular value that counts as 0 in a step, and what is always added to squares.
-RIDGE, LEAST = 1e-30, 1e-60
+#: A singular value that counts as 0 in a step, and what is always added to squares.
+FLAT, LEAST = 1e-10, 1e-60
 
 
 def dot(a: Vector, b: Vector) -> float:
@@ -64,30 +64,41 @@ def unit_rows(matrix: Matrix, least: float = 0.0) -> list[list[float]]:
     return [[v / size for v in row] if size > least else list(row) for row, size in zip(matrix, lengths, strict=True)]
 
 
-def step(j: Matrix, f: Vector, shift: float = RIDGE) -> list[float]:
-    """Return -J^T (J J^T + shift)^-1 f: the least step to J u = -f, damped where singular values are below its root.
+def step(j: Matrix, f: Vector) -> list[float]:
+    """Return the least step u for which J u + f is least; singular values below `FLAT` count as 0.
 
     >>> step([[1.0, 1.0], [1.0, 1.0]], [2.0, 2.0])
     [-1.0, -1.0]
     """
+    return _step(j, f, 2, FLAT**4)
+
+
+def damped(j: Matrix, f: Vector, power: int = 1) -> list[float]:
+    """The step -J^T (J J^T + |f|^power I)^-1 f: it leaves the directions alone in which J is smaller than the error."""
+    return _step(j, f, 1, length(f) ** power)
+
+
+def _step(j: Matrix, f: Vector, order: int, shift: float) -> list[float]:
+    """Return the f whose part in the direction of a singular value s is divided by -(s + shift / s^(2 order - 1))."""
     if not j or not j[0]:
         return [0.0] * len(j[0] if j else ())
     if len(j) * len(j[0]) > SMALL:
-        return [float(v) for v in array_step(np.array(j), np.array(f), shift)]
+        return [float(v) for v in array_step(np.array(j), np.array(f), order, shift)]
     with ctx.workprec(BITS):
-        matrix = arb_mat([list(map(float, row)) for row in j])
+        matrix, right = arb_mat([list(map(float, row)) for row in j]), arb_mat([[float(v)] for v in f])
         transposed = matrix.transpose()
         gram = matrix * transposed
+        square, right = (gram * gram, gram * right) if order == 2 else (gram, right)
         for i in range(len(j)):
-            gram[i, i] = gram[i, i] + max(shift, LEAST)
-        change = transposed * gram.solve(arb_mat([[float(v)] for v in f]), algorithm="approx")
+            square[i, i] = square[i, i] + max(shift, LEAST)
+        change = transposed * square.solve(right, algorithm="approx")
         return [-float(change[i, 0].mid()) for i in range(len(j[0]))]
 
 
-def array_step(j: np.ndarray, f: np.ndarray, shift: float) -> np.ndarray:
-    """Return the same for arrays of numpy, by singular values."""
+def array_step(j: np.ndarray, f: np.ndarray, order: int, shift: float) -> np.ndarray:
+    """Return the same for arrays of numpy."""
     left, singular, right = np.linalg.svd(j, full_matrices=False)
-    factors = singular / (singular * singular + shift + 1e-300)
+    factors = singular ** (2 * order - 1) / (singular ** (2 * order) + shift + 1e-300)
     return np.asarray(-(right.T @ (factors * (left.T @ f))))
 
 

@@ -26,8 +26,6 @@ STARTS, ITERATIONS, NEWTON_STEPS = 12, 80, 24
 MOMENTS, LATER, TICKS = 8, 4.0, 512
 #: So often a step that leaves the domain of the functions is halved.
 HALVINGS = 8
-#: The square of a singular value, of rows whose largest entry is 1, that rounding may have made of 0.
-FLAT = 1e-16
 #: After this many singular points no regular one is looked for.
 SINGULAR_TRIES = 4
 #: Multiplications by which the Jacobian is eliminated exactly at a point near the zero set.
@@ -131,7 +129,7 @@ class RealSearch:
             if residual == 0 or (residual < 1e-13 and (fast or stands)) or (residual < 1e-11 and stands):
                 return j
             previous = residual
-            change = step(j, f, FLAT)
+            change = step(j, f)
             far = length(change)
             if not math.isfinite(far):
                 return None
