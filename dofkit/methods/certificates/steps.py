@@ -227,7 +227,7 @@ def _pair_steps(scenery: Scenery, pair: tuple[str, str], point: FoundPoint) -> I
 
 # Rows that follow from others: cofactors by linear algebra over the rationals.
 
-#: The most terms of all relations that are combined.
+#: The most terms of all relations that are combined, as they are written and multiplied out.
 MOST_TERMS = 4_000
 
 
@@ -268,6 +268,8 @@ def constant_cofactors(
     ring, put = scenery.evidence.ring, order or []
     used = [name for name in names if all(name != row for row, _ in put)]
     trees = [*(scenery.evidence.relation(name).tree for name in used), target]
+    if sum(tree.size for tree in trees) > MOST_TERMS:
+        return None
     quotients = [ring.read(with_puts(scenery, substituted(tree, {"tdot": ONE}), put)) for tree in trees]
     if any(len(below) > 1 for _, below in quotients) or sum(len(above) for above, _ in quotients) > MOST_TERMS:
         return None
