@@ -116,12 +116,12 @@ def lists_only(part: str, names: Sequence[str]) -> bool:
     return len(others) < min(len(listed), _FEW_WORDS) and all(plain(w) in FILLING for w in others)
 
 
-def alternatives(answer: Given, names: Sequence[str] = ()) -> list[Given]:
+def alternatives(answer: Given, names: Sequence[str], what: str) -> list[Given]:
     """Return the answers of `x or y`, `one of x and y`, or `any one` of the known names; else the answer itself."""
     if not isinstance(answer, str):
         return [answer]
-    if names and (some := _ANY.match(plain(answer))) is not None:
-        return list(names_of(some["which"], names, "constraint")) if some["which"] else list(names)
+    if (some := _ANY.match(plain(answer))) is not None:
+        return list(names_of(some["which"], names, what)) if some["which"] else list(names)
     choices = _OR.split(_EITHER.sub("", answer))
     return [*choices] if all(part.strip() for part in choices) else [answer]
 

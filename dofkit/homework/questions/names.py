@@ -25,7 +25,8 @@ class Coordinates(QuestionBase):
     ask: Literal["coordinates"] = Field(description="an independent and complete set of generalized coordinates")
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
-        chosen = [chosen_coordinates(part, names) for part in alternatives(answer)]
+        offered = [*names.coordinates, *names.also]
+        chosen = [chosen_coordinates(part, names) for part in alternatives(answer, offered, "coordinate")]
         return [Reading(choice, ", ".join(choice.names) or "none", certain=not choice.undeclared) for choice in chosen]
 
     def solution(self, key: Key) -> Sentence:
@@ -62,7 +63,10 @@ class Redundant(QuestionBase):
 
     def readings(self, answer: Given, names: DeclaredNames) -> list[Reading]:
         constraint_names = list(names.constraints)
-        return [self._reading(part, constraint_names, names) for part in alternatives(answer, constraint_names)]
+        return [
+            self._reading(part, constraint_names, names)
+            for part in alternatives(answer, constraint_names, "constraint")
+        ]
 
     def _reading(self, answer: Given, constraint_names: list[str], names: DeclaredNames) -> Reading:
         none = is_none(answer, lambda part: lists_only(part, constraint_names), constraint_names, every=True)
