@@ -131,7 +131,6 @@ def test_what_cannot_be_read_is_open_unless_the_assignment_says_otherwise() -> N
     [
         ("rod", UNREAD, [UNREAD, "^"]),
         ("rod", "x_A = 1\nzzz_A = 2", ["zzz_A = 2", "^"]),
-        ("q", ["x_A", "zz"], ["x_A; zz", "     ^"]),
         ("q", "x_A, zz", ["x_A, zz", "     ^"]),
     ],
 )
